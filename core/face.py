@@ -25,7 +25,7 @@ from typing import Any, Final, TypeAlias
 
 from gradhesion.core.compiler.dispatch import face
 from gradhesion.core.curve.branches import Trace
-from gradhesion.core.types import Floats, Slopes, Table, Work
+from gradhesion.core.types import Floats, Harmonics, Slopes, Table, Work
 
 AnyTable: TypeAlias = Any
 """The tables and series of a curve, by its kind (above)."""
@@ -101,6 +101,11 @@ def shortest_wave(table: Any, curve: Any) -> float:
 
 
 # where any profile folds: all of them that are exact
+
+
+@face(*_OF_FOLDS)
+def punch_of(table: Any, curve: Any) -> tuple[Any, Harmonics, float]:
+    """Return what the waves of the punch are computed from: the bins of its cosines, its harmonics, and g."""
 
 
 @face(*_OF_FOLDS)

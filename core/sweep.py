@@ -118,7 +118,7 @@ def up_to_rims(
 
     `slopes` and `turned` are as those of `solve_general` (arrays/general.py).
     """
-    solver, check_contact, threads, profile, loading, is_one_wave, _ = how
+    solver, check_contact, threads, profile, loading, is_one_wave, toughness = how
     wanted = [name for name in wanted if name != "turning_radius"]
     if solver == "asymptotic":
         from gradhesion.core.arrays.short_wave import solve_short_waves  # noqa: PLC0415 (kernels of their own)
@@ -129,10 +129,6 @@ def up_to_rims(
 
         return solve_envelope(scenes, PARAMETERS, wanted, profile)
     checks: Any = {"check_contact": check_contact, "turned": turned, "slopes": slopes}
-    if how.toughness is not None:
-        from gradhesion.core.arrays.patterned import solve_patterned  # noqa: PLC0415 (kernels of their own)
-
-        return solve_patterned(scenes, wanted, how, slopes, turned=turned)
     if is_one_wave:
         return solve_cosine(scenes, wanted, solver, threads, **checks)
     from gradhesion.core.arrays.general import solve_general  # noqa: PLC0415 (kernels of their own)
@@ -140,12 +136,13 @@ def up_to_rims(
     results = [name for name in wanted if name in (*RESULTS, REACH)]
     reports = [name for name in wanted if name in REPORTS]
     results += [NEEDED[name] for name in reports if name in NEEDED]
-    found = solve_general(scenes, results, profile, loading, threads, **checks)
+    found = solve_general(scenes, results, profile, loading, threads, toughness=toughness, **checks)
     if not reports:
         return found
     from gradhesion.core.arrays.general_report import report_general  # noqa: PLC0415 (kernels of their own)
 
-    return found | report_general(scenes, reports, found, profile, loading, threads, turned=turned)
+    known: Any = {"turned": turned, "toughness": toughness}
+    return found | report_general(scenes, reports, found, profile, loading, threads, **known)
 
 
 def solve(
@@ -281,14 +278,10 @@ def solve(
         if alike is not None:
             radii, flags = turning_cosine(parameters, turn, threads, **arguments)
             passed = np.full(radii.shape, False)  # displacement is prescribed: jumps leave it as it is
-        elif toughness is not None:
-            from gradhesion.core.arrays.patterned import turning_patterned  # noqa: PLC0415 (kernels of their own)
-
-            radii, flags, passed = turning_patterned(parameters, turn, how, **arguments)
-            passed &= loading != Loading()
         else:
             from gradhesion.core.arrays.general_turning import turning_general  # noqa: PLC0415 (kernels of their own)
 
+            arguments["toughness"] = toughness
             radii, flags, passed = turning_general(parameters, turn, profile, loading, threads, **arguments)
             passed &= loading != Loading()  # under displacement control it lands at the same depth, but for roundings
         found = turned_results(parameters, turn, outputs, radii, flags, passed, solved, again)

@@ -1,9 +1,9 @@
-"""Arrays of general scenes, in tasks of one gradient exponent."""
+"""Arrays of general scenes, plain or on a pattern of toughness, in tasks of one gradient exponent."""
 
 from __future__ import annotations  # those of inner functions would be made anew in every call: 15 us each
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,6 +22,18 @@ from gradhesion.core.sensitivities.general_slopes import Sense
 from gradhesion.core.sensitivities.neighbours import depth_factor_by_k
 from gradhesion.core.sensitivities.wanted import NoSense
 
+if TYPE_CHECKING:
+    from gradhesion.core.problem.toughness import Toughness
+
+
+def _sense_of(toughness: Toughness | None) -> tuple[type, int]:
+    """Return the record that sensitivities need, and how many slopes they find."""
+    if toughness is None:
+        return Sense, COUNT
+    from gradhesion.core.sensitivities import patterned_slopes  # noqa: PLC0415 (seldom wanted)
+
+    return patterned_slopes.PatternedSense, patterned_slopes.COUNT
+
 
 def solve_general(
     parameters: Mapping[str, ArrayLike],
@@ -33,6 +45,7 @@ def solve_general(
     check_contact: bool = True,
     turned: bool = False,
     slopes: tuple[bool, int] | None = None,
+    toughness: Toughness | None = None,
 ) -> dict[str, NDArray[Any]]:
     """Solve all scenes of broadcast parameters for one profile and control, as `solve` of core/sweep.py.
 
@@ -43,22 +56,23 @@ def solve_general(
     energy, and of the depth where a cycle turns to what sensitivities/cosine_slopes.py names (NaN where there is no
     positive value).
     """
-    scenes = prepared(parameters, loading)
+    scenes = prepared(parameters, loading, toughness=toughness)
     rows = list(dict.fromkeys(outputs))
     slots = slots_of(rows, check_contact=check_contact, turned=turned)
     out = np.full((len(rows), scenes.k.size, scenes.rim.shape[1]), np.nan)
-    status = np.zeros(out.shape[1:], dtype=np.int8)
-    series, curves_at = curves_of(scenes, profile)
-
-    solve = solve_pull_offs if set(rows) <= set(PULL_OFF) and slopes is None else solve_scenes
-    sensed = np.full((3, COUNT, *status.shape), np.nan) if slopes else None
+    status = np.zeros(out.shape[1:], dtype=np.int8 if toughness is None else np.int16)
+    series, curves_at = curves_of(scenes, profile, toughness)
+    force_alone = set(rows) <= set(PULL_OFF) and slopes is None and toughness is None
+    solve = solve_pull_offs if force_alone else solve_scenes
+    kind, count = _sense_of(toughness) if slopes else (NoSense, 0)
+    sensed = np.full((3, count, *status.shape), np.nan)
 
     def sense_at(exponent: float) -> Any:
         """Return the inputs for the sensitivities of the curves of one exponent."""
-        if sensed is None or slopes is None:
+        if slopes is None:
             return NoSense()
         change, m = changes_of(exponent, series), profile.exponent
-        return Sense(change, depth_factor_by_k(exponent, m), exponent, m, sensed, *slopes, turned)
+        return kind(change, depth_factor_by_k(exponent, m), exponent, m, sensed, *slopes, turned)
 
     def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
         basis = Basis(*tables_of(exponent, series, interpolated=interpolated and slopes is None), series)
@@ -69,6 +83,6 @@ def solve_general(
     for name in outputs:
         result[name] = typed(name, out[rows.index(name)]).reshape(scenes.shape)
     result["status"] = status.reshape(scenes.shape)
-    if sensed is not None:
-        result[SLOPES] = sensed.reshape((3, COUNT, *scenes.shape))
+    if slopes is not None:
+        result[SLOPES] = sensed.reshape((3, count, *scenes.shape))
     return result

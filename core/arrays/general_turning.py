@@ -3,6 +3,7 @@
 from __future__ import annotations  # those of inner functions would be made anew in every call: 15 us each
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,6 +17,9 @@ from gradhesion.core.problem.profile import Profile
 from gradhesion.core.turning.general import turn_scenes
 from gradhesion.core.turning.turns import Turns
 
+if TYPE_CHECKING:
+    from gradhesion.core.problem.toughness import Toughness
+
 
 def turning_general(
     parameters: Mapping[str, ArrayLike],
@@ -25,12 +29,13 @@ def turning_general(
     threads: int | None,
     *,
     check_contact: bool = True,
-) -> tuple[NDArray[np.float64], NDArray[np.int8], NDArray[np.bool_]]:
+    toughness: Toughness | None = None,
+) -> tuple[NDArray[np.float64], NDArray[Any], NDArray[np.bool_]]:
     """Return where the cycles turn, the bits of `status` for the turn, and whether a jump has passed the target.
 
     Parameters
     ----------
-    parameters, turn, profile, loading, threads, check_contact
+    parameters, turn, profile, loading, threads, check_contact, toughness
         As those of `solve` of core/sweep.py; `turn` is the one of `TURNS` that `parameters` has. Scenes that differ
         along the last axes in it and in a_max alone are followed on one trace.
 
@@ -41,12 +46,15 @@ def turning_general(
     turns) and no_value. Where a jump has passed the depth or load, the cycle turns beyond it, where the jump ends. All
     have the broadcast shape.
     """
-    scenes = prepared(parameters, loading, (*PARAMETERS[-1:], turn))
+    scenes = prepared(parameters, loading, (*PARAMETERS[-1:], turn), toughness)
     assert scenes.target is not None  # noqa: S101 -- it was requested
     rims = scenes.rim
-    series, curves_at = curves_of(scenes, profile)
+    series, curves_at = curves_of(scenes, profile, toughness)
     radii = np.empty((scenes.k.size, rims.shape[1]))
-    flags, passed = np.zeros(radii.shape, dtype=np.int8), np.zeros(radii.shape, dtype=np.bool_)
+    flags, passed = (
+        np.zeros(radii.shape, dtype=np.int8 if toughness is None else np.int16),
+        np.zeros(radii.shape, dtype=np.bool_),
+    )
     turns = Turns(rims, scenes.target, turn == "load_max", check_contact, radii, flags)
 
     def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:

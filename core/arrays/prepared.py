@@ -5,7 +5,7 @@ from __future__ import annotations  # those of inner functions would be made ane
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,11 +13,14 @@ from numpy.typing import ArrayLike, NDArray
 from gradhesion.core.arrays.grouping import are_few, grouped
 from gradhesion.core.arrays.tasks import Task, run_one_by_one, tasks_of
 from gradhesion.core.problem.control import Loading
-from gradhesion.core.problem.curves import GeneralCurves
+from gradhesion.core.problem.curves import GeneralCurves, PatternedCurves
 from gradhesion.core.problem.material import stiffness
-from gradhesion.core.problem.names import PARAMETERS
+from gradhesion.core.problem.names import PARAMETERS, PATTERN
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
+
+if TYPE_CHECKING:
+    from gradhesion.core.problem.toughness import Toughness
 
 _TASK: Final = 16
 """Scenes a task: each takes longer than one of one cosine."""
@@ -74,13 +77,15 @@ def prepared(
     parameters: Mapping[str, ArrayLike],
     loading: Loading,
     along: Sequence[str] = PARAMETERS[-1:],
-    more: tuple[str, ...] = (),
+    toughness: Toughness | None = None,
 ) -> Scenes:
-    """Return the scenes of broadcast parameters.
+    """Return the scenes of broadcast parameters, those of `PATTERN` among them if the toughness has a pattern.
 
     Those that differ along the last axes only in what is named by `along` (a_max, and where the cycle turns) are one
-    curve. `more` names further parameters of the curves.
+    curve.
     """
+    more = PATTERN if toughness is not None else ()
+    parameters = {**dict.fromkeys(more[1:], 1.0), **parameters}
     machine = ("machine_stiffness",) if loading.control == "machine" else ()
     curves = grouped(parameters, along, (*machine, *more))
     spring, others = curves.others[: len(machine)], curves.others[len(machine) :]
@@ -93,15 +98,21 @@ def prepared(
 
 
 def curves_of(
-    scenes: Scenes, profile: Profile
+    scenes: Scenes, profile: Profile, toughness: Toughness | None = None
 ) -> tuple[NDArray[np.float64], Callable[[float, NDArray[np.int64]], GeneralCurves]]:
     """Return the series of a profile, and what makes the curves of one exponent k from that and their numbers."""
     n, series = in_own_wavelength(profile)
+    kind: type[GeneralCurves] = GeneralCurves
+    patterns: Any = ()
+    if toughness is not None:
+        from gradhesion.core.arrays.patterns import patterns_of  # noqa: PLC0415 (seldom wanted)
+
+        kind, patterns = PatternedCurves, patterns_of(toughness, scenes)
     own = scenes.stretch, scenes.wavelength / n, n * scenes.amplitude if series.size else 0.0 * scenes.amplitude
 
     def curves_at(exponent: float, index: NDArray[np.int64]) -> GeneralCurves:
         shape = profile.exponent, depth_factor_of(exponent, profile.exponent)
-        return GeneralCurves(index, *shape, *own, scenes.compliance, scenes.rim)
+        return kind(index, *shape, *own, scenes.compliance, scenes.rim, patterns)
 
     return series, curves_at
 

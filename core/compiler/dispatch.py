@@ -8,7 +8,7 @@ import inspect
 from collections.abc import Callable
 from functools import update_wrapper
 from importlib import import_module
-from typing import Any, Generic, ParamSpec, TypeVar, cast
+from typing import Any, Generic, ParamSpec, Self, TypeVar, cast
 
 from numba.core import types
 from numba.core.datamodel import register_default
@@ -47,6 +47,11 @@ class Face(Generic[Given, Result]):
     def __call__(self, *arguments: Given.args, **_: Given.kwargs) -> Result:
         """Call the answer of the kind of curve from Python."""
         return cast("Result", self.answer_of(type(arguments[self._at]))(*arguments))
+
+    def with_answer(self, kind: type, answer: Any) -> Self:
+        """Return itself, with a kernel that answers for a kind of curve."""
+        self._answers[kind] = answer
+        return self
 
     def answers(self, *kinds: type) -> Callable[[Answer], Answer]:
         """Have a kernel answer for some kinds of curve."""
@@ -106,6 +111,17 @@ class _Chosen(types.Callable, types.Dummy):
 
 
 register_default(_Chosen)(OpaqueModel)
+
+
+def face_of(
+    kind: type, *answered_in: str, by: str = "curve"
+) -> Callable[[Callable[Given, Result]], Face[Given, Result]]:
+    """Make a face of the kernel that answers for one kind; others answer in the modules of these names."""
+
+    def declare(answer: Callable[Given, Result]) -> Face[Given, Result]:
+        return Face(answer, answered_in, by).with_answer(kind, answer)
+
+    return declare
 
 
 def face(*answered_in: str, by: str = "curve") -> Callable[[Callable[Given, Result]], Face[Given, Result]]:

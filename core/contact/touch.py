@@ -12,6 +12,7 @@ from typing import Final
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Series
+from gradhesion.core.face import punch_of
 from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.types import Harmonics
 
@@ -45,9 +46,9 @@ def _waves(series: Harmonics, x: float) -> float:
 @kernel()
 def profile_at(basis: Basis, curve: Series, x: float) -> float:
     """Return f at x."""
-    table, _, series = basis
-    B, m, g, _, _ = curve
-    return B / (m * front_at(table.k, m)) * (TWO_PI * x) ** m + g * _waves(series, x)
+    _, series, g = punch_of(basis, curve)
+    B, m, _, _, _ = curve
+    return B / (m * front_at(basis.table.k, m)) * (TWO_PI * x) ** m + g * _waves(series, x)
 
 
 @kernel()
@@ -58,8 +59,8 @@ def touches_at_centre(basis: Basis, curve: Series, end: float) -> bool:
     waves can sag below their chord, h^2/8 of the bound of their curvature. Else it is halved; the last digits of the
     waves are left open.
     """
-    table, _, series = basis
-    B, m, g, _, _ = curve
+    _, series, g = punch_of(basis, curve)
+    B, m, _, _, _ = curve
     slope, curvature, negative = 0.0, 0.0, False
     for i in range(series.shape[0]):
         n = TWO_PI * series[i, 0]
@@ -68,7 +69,7 @@ def touches_at_centre(basis: Basis, curve: Series, end: float) -> bool:
         negative = negative or series[i, 1] < 0.0 or series[i, 2] != 0.0
     if not negative or g == 0.0:
         return True
-    bend = B / (m * front_at(table.k, m))
+    bend = B / (m * front_at(basis.table.k, m))
     if g * slope + (TWO_PI * bend if m == 1.0 else 0.0) < 0.0:  # it falls from the centre on
         return False
     end = min(end, 1.0)

@@ -15,12 +15,13 @@ so that every control has the folds D = 0 of its own level q (docs/theory.md, se
 import math
 from typing import Any, NamedTuple
 
+from gradhesion.core.compiler.dispatch import face_of
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.face import waves_at
 from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.problem.curves import GeneralCurves, is_in_range
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.types import Harmonics, Table
+from gradhesion.core.types import Floats, Harmonics, Table
 
 
 class Series(NamedTuple):
@@ -45,6 +46,25 @@ class Basis(NamedTuple):
     table: Table  # the table of the exponent
     cosine_bins: Any  # the flat array of harmonics/series_table.py; of a short wave its mean height over g
     series: Harmonics  # the harmonics
+
+
+class Made(NamedTuple):
+    """A curve made from the numbers of a scene, all of its `Basis` but the table, and its units in R."""
+
+    valid: bool  # whether the numbers are in range
+    cosine_bins: Any
+    series: Harmonics
+    curve: Any  # a `Series`, or `Patterned`
+    wavelength: float  # the unit of x
+    length: float  # l, that of z
+    depth: float  # the unit of depth
+
+
+@face_of(GeneralCurves, "gradhesion.core.curve.patterned", by="curves")
+@kernel()
+def rims_of(curves: GeneralCurves, i: int) -> Floats:
+    """Return the rims a_max/R of curve number i, of shape (rims,)."""
+    return curves.rims[i if curves.rims.shape[0] > 1 else 0]
 
 
 @kernel(contract=True)
@@ -166,16 +186,15 @@ def curve_of(
     )
 
 
+@face_of(GeneralCurves, "gradhesion.core.curve.patterned", by="curves")
 @kernel()
-def curve_at(basis: Basis, curves: GeneralCurves, i: int) -> tuple[bool, Harmonics, Series, float, float]:
-    """Return whether curve number i is in range, its harmonics, the curve, l, and the unit of depth in R.
-
-    The harmonics take the place of those of the basis: there are none where the amplitude is 0.
-    """
-    _, exponent, depth_factor, stretch, wavelength, amplitude, compliance, _ = curves
+def curve_at(basis: Basis, curves: GeneralCurves, i: int) -> Made:
+    """Return curve number i of some, from the basis of their profile; without harmonics where the amplitude is 0."""
+    _, exponent, depth_factor, stretch, wavelength, amplitude, compliance, _, _ = curves
     rows = basis.series[: basis.series.shape[0] if amplitude[i] > 0.0 else 0]
     curve, length, unit = curve_of(
         basis.table.k, exponent, depth_factor, stretch[i], wavelength[i], amplitude[i], compliance[i]
     )
     valid = is_in_range(stretch[i], wavelength[i], amplitude[i]) and compliance[i] >= 0.0
-    return valid and 0.0 < curve.bend < math.inf and 0.0 <= curve.gain < math.inf, rows, curve, length, unit
+    valid = valid and 0.0 < curve.bend < math.inf and 0.0 <= curve.gain < math.inf
+    return Made(valid, basis.cosine_bins, rows, curve, wavelength[i], length, unit)

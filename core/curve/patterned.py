@@ -15,14 +15,15 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.general import Basis, Patterned, curve_of
+from gradhesion.core.curve import general
+from gradhesion.core.curve.general import Basis, Made, Patterned, curve_of
 from gradhesion.core.curve.general_folds import WAVES, Zeros, cell_width, find_folds, room
 from gradhesion.core.curve.window import wave_bounds
 from gradhesion.core.harmonics.series import highest_harmonic
 from gradhesion.core.numbers.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.numbers.intrinsics import fma
-from gradhesion.core.problem.curves import GeneralCurves, Patterns, is_in_range
-from gradhesion.core.types import Harmonics, Table
+from gradhesion.core.problem.curves import PatternedCurves, is_in_range
+from gradhesion.core.types import Floats, Harmonics
 
 MOST_CELLS: Final = 4_000_000
 """Cells of a search for folds: some seconds."""
@@ -123,15 +124,12 @@ def pattern_of(
     return Pattern(cosine_bins, waves, gain, pattern, of_work, least, most, steepest), rows
 
 
+@general.curve_at.answers(PatternedCurves)
 @kernel()
-def patterned_curve(
-    table: Table, cosine_bins: Any, series: Harmonics, curves: GeneralCurves, patterns: Patterns, i: int
-) -> tuple[bool, Pattern, Harmonics, Patterned, tuple[float, float, float]]:
-    """Return whether curve number i is in range, its basis but the table, the curve, and the units in R.
-
-    They are those of x, of z, and of depth.
-    """
-    _, exponent, depth_factor, stretch, wavelength, amplitude, compliance, _ = curves
+def curve_at(basis: Basis, curves: PatternedCurves, i: int) -> Made:
+    """Return it with its pattern."""
+    table, cosine_bins, series = basis
+    _, exponent, depth_factor, stretch, wavelength, amplitude, compliance, _, patterns = curves
     wavy = amplitude[i] > 0.0 and series.shape[0] > 0
     unit = wavelength[i] if wavy else patterns.wavelength[i]
     rows = patterns.rows.copy()
@@ -149,7 +147,18 @@ def patterned_curve(
     waves = series[: series.shape[0] if wavy else 0]
     pattern, finest = pattern_of(cosine_bins, waves, one.gain, rows, patterns.of_work, least)
     curve = Patterned(one.bend, exponent, 1.0, one.alpha, one.beta)
-    return valid, pattern, finest, curve, (unit, length, depth)
+    return Made(valid, pattern, finest, curve, unit, length, depth)
+
+
+@general.rims_of.answers(PatternedCurves)
+@kernel()
+def rims_of(curves: PatternedCurves, i: int) -> Floats:
+    """Return them with NaN beyond where the pattern has a wrong sign."""
+    rims = curves.rims[i if curves.rims.shape[0] > 1 else 0].copy()
+    for rim in range(rims.size):
+        if rims[rim] > curves.patterns.limit[i]:
+            rims[rim] = math.nan
+    return rims
 
 
 @kernel()

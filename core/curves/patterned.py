@@ -5,33 +5,32 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from gradhesion.core.arrays.patterned import curves_of_scenes
-from gradhesion.core.arrays.prepared import prepared
+from gradhesion.core.arrays.prepared import curves_of, prepared
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve.cosine import force_unit
-from gradhesion.core.curve.general import Basis
-from gradhesion.core.curve.patterned import patterned_curve
+from gradhesion.core.curve.general import Basis, curve_at
 from gradhesion.core.curves.forms import General, general_numbers
 from gradhesion.core.curves.general import end_of, trace_of
 from gradhesion.core.curves.subject import Form, Subject
 from gradhesion.core.problem.control import Loading
-from gradhesion.core.problem.names import PATTERN
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.toughness import Toughness
 
 
 def subject_of(scene: Mapping[str, float], profile: Profile, loading: Loading, toughness: Toughness) -> Subject | None:
     """Return a scene (the parameters of `solve`) ready for drawing, None where one is outside its range."""
-    scenes = prepared({PATTERN[1]: 1.0, **scene}, loading, more=PATTERN)
+    scenes = prepared(scene, loading, toughness=toughness)
     k, rim = float(scenes.k[0]), float(scenes.rim[0, 0])
-    series, curves_at, patterns = curves_of_scenes(scenes, profile, toughness)
-    if not (0.0 <= k <= 1.0 and 0.0 < rim <= patterns.limit[0]):
+    if not 0.0 <= k <= 1.0:
         return None
+    series, curves_at = curves_of(scenes, profile, toughness)
     table, cosine_bins = tables_of(k, series)
-    made = patterned_curve(table, cosine_bins, series, curves_at(k, np.zeros(1, dtype=np.int64)), patterns, 0)
-    valid, pattern, finest, curve, (wavelength, length, unit) = made
-    if not valid:
+    curves = curves_at(k, np.zeros(1, dtype=np.int64))
+    made = curve_at(Basis(table, cosine_bins, series), curves, 0)
+    if not (made.valid and 0.0 < rim <= curves.patterns.limit[0]):
         return None
+    curve, wavelength, length, unit = made.curve, made.wavelength, made.length, made.depth
+    pattern, finest = made.cosine_bins, made.series
     basis = Basis(table, pattern, finest)
     _, half, ripple = general_numbers(k, curve._replace(gain=pattern.gain), float(table["amplitude"]), pattern.waves)
     numbers = General(curve, min(half, 0.5 / finest[0, 0]), ripple + max(pattern.most - 1.0, 1.0 - pattern.least))

@@ -1,13 +1,11 @@
 """The answers of a patterned interface (core/face.py): the path as any profile, the gap by the profile alone."""
 
 import math
-from typing import Final
+from typing import Any, Final
 
 from gradhesion.core import face
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.contact import touch
-from gradhesion.core.contact.gap import GROWTH, Edge
-from gradhesion.core.curve.general import Basis, Patterned, Series, coordinate, level_with_rate
+from gradhesion.core.curve.general import Basis, Patterned, coordinate, level_with_rate
 from gradhesion.core.curve.general_energy import energy_from_zero, jump_energy
 from gradhesion.core.curve.general_folds import Zeros
 from gradhesion.core.curve.patterned import are_too_many, folds_up_to, toughness_at, window
@@ -16,7 +14,7 @@ from gradhesion.core.harmonics.series import highest_harmonic, sums
 from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.turning.general_reach import WAVES, envelope_at
-from gradhesion.core.types import Work
+from gradhesion.core.types import Harmonics, Work
 
 _OUTERMOST: Final = 1e100
 
@@ -65,6 +63,13 @@ def relative_toughness(basis: Basis, _curve: Patterned, x: float) -> float:
 @kernel()
 def shortest_wave(basis: Basis, _curve: Patterned) -> float:
     return max(highest_harmonic(basis.cosine_bins.waves), highest_harmonic(basis.cosine_bins.rows))
+
+
+@face.punch_of.answers(Patterned)
+@kernel()
+def punch_of(basis: Basis, _curve: Patterned) -> tuple[Any, Harmonics, float]:
+    pattern = basis.cosine_bins
+    return pattern.cosine_bins, pattern.waves, pattern.gain
 
 
 @face.find_all_folds.answers(Patterned)
@@ -141,26 +146,6 @@ def size_at(basis: Basis, curve: Patterned, x: float) -> float:
     return share * (curve.bend * z**curve.exponent + pattern.gain * height + z * power * pattern.most)
 
 
-@kernel()
-def _bare(basis: Basis, curve: Patterned) -> Series:
-    """Return the curve of the same profile on a plain interface."""
-    return Series(curve.bend, curve.exponent, basis.cosine_bins.gain, curve.alpha, curve.beta)
-
-
-@face.profile_at.answers(Patterned)
-@kernel()
-def profile_at(basis: Basis, curve: Patterned, x: float) -> float:
-    table, pattern, _ = basis
-    return touch.profile_at(Basis(table, pattern.cosine_bins, pattern.waves), _bare(basis, curve), x)
-
-
-@face.touches_at_centre.answers(Patterned)
-@kernel()
-def touches_at_centre(basis: Basis, curve: Patterned, end: float) -> bool:
-    table, pattern, _ = basis
-    return touch.touches_at_centre(Basis(table, pattern.cosine_bins, pattern.waves), _bare(basis, curve), end)
-
-
 @face.surely_open.answers(Patterned)
 @kernel()
 def surely_open(basis: Basis, curve: Patterned, x: float) -> float:
@@ -175,21 +160,3 @@ def surely_open(basis: Basis, curve: Patterned, x: float) -> float:
 def is_always_one_disc(basis: Basis, _curve: Patterned) -> bool:
     """Return True where the punch is smooth: depth_H rises with the radius, whatever the toughness of the edge."""
     return basis.cosine_bins.waves.shape[0] == 0
-
-
-@face.panels_of.answers(Patterned)
-@kernel()
-def panels_of(basis: Basis, curve: Patterned) -> tuple[float, float]:
-    highest = highest_harmonic(basis.cosine_bins.waves)
-    return 1.0 / highest if highest > 0.0 else math.inf, math.exp(GROWTH / curve.exponent)
-
-
-@face.excess_at.answers(Patterned)
-@kernel(contract=True)
-def excess_at(basis: Basis, curve: Patterned, edge: Edge, x: float) -> tuple[float, float]:
-    """Return it as for any profile: 1 - kappa at the edge is part of its wave."""
-    table, pattern, _ = basis
-    z = TWO_PI * x
-    w0, _, _, _ = sums(table, pattern.cosine_bins, pattern.waves, x, 0.0)
-    bend = edge.bend * math.expm1(curve.exponent * math.log1p((x - edge.x) / edge.x))
-    return bend + (pattern.gain * z * w0 - edge.wave) + edge.stretch, z * amplitude_power(table, z)

@@ -1,6 +1,7 @@
 """The answers of any profile under any control (core/face.py), and of the leading form of its short waves."""
 
 import math
+from typing import Any
 
 from gradhesion.core import face
 from gradhesion.core.compiler.jit import kernel
@@ -15,7 +16,7 @@ from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.harmonics.series import highest_harmonic, sums
 from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.turning.general_reach import reach
-from gradhesion.core.types import Work
+from gradhesion.core.types import Harmonics, Work
 from gradhesion.core.waves.general_jump import jump_between, jump_from_zero
 
 
@@ -98,6 +99,12 @@ def shortest_wave(basis: Basis, _curve: Series) -> float:
 @kernel()
 def window(basis: Basis, curve: Series) -> tuple[float, float]:
     return first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
+
+
+@face.punch_of.answers(Series)
+@kernel()
+def punch_of(basis: Basis, curve: Series) -> tuple[Any, Harmonics, float]:
+    return basis.cosine_bins, basis.series, curve.gain
 
 
 @face.find_all_folds.answers(Series)

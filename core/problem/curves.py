@@ -1,11 +1,12 @@
 """Curves of one call as kernels read them: the numbers of each, and its rims.
 
 A curve is one punch, surface and wave; its rims, or other values that vary along it, are solved together. The first
-record is that of one cosine under displacement control, the second that of any profile under any control.
+record is that of one cosine under displacement control, the second that of any profile under any control, and the last
+that of the same on interfaces whose toughness varies with the radius.
 """
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.types import Floats, Harmonics, Integers, Tables
@@ -34,6 +35,13 @@ class GeneralCurves(NamedTuple):
     amplitude: Floats  # A, of shape (curves,); 0 for a smooth punch
     compliance: Floats  # K/S in 1/R^(1+k), of shape (curves,): 0 under displacement control, inf under load control
     rims: Floats  # a_max/R, of shape (curves, rims), or (1, rims) where all curves have the same
+    patterns: Any = ()  # of toughness, a record `Patterns` of `PatternedCurves`
+
+
+class PatternedCurves(GeneralCurves):
+    """The same on interfaces with a pattern of toughness each."""
+
+    __slots__ = ()
 
 
 class Patterns(NamedTuple):

@@ -11,6 +11,7 @@ from gradhesion.core.curve.general import Basis, Patterned
 from gradhesion.core.curve.general_folds import Search
 from gradhesion.core.curve.patterned import MOST_CELLS
 from gradhesion.core.numbers.circle import TWO_PI
+from gradhesion.core.pull_off import rims
 from gradhesion.core.pull_off.general import chi_terms, load_at_rim, lowest_of_cells
 from gradhesion.core.pull_off.lowest_two import Lowest
 from gradhesion.core.types import Floats
@@ -44,15 +45,12 @@ def lowest_load(
     return best if found > 0 else (0.0 if found == 0 else math.nan, math.nan, 0.0)
 
 
+@rims.lowest_loads.answers(Patterned)
 @kernel()
 def lowest_loads(
     basis: Basis, curve: Patterned, rims: Floats, rims_low: Floats, work: Search, deepest: float, found: Floats
 ) -> None:
-    """Put what `lowest_load` returns for each rim x + its rounding error into a row of `found`, of shape (rims, 3).
-
-    Rims and rounding errors are of shape (rims,); those that are not above 0 are left out. That of the largest one
-    is valid for all beyond its place.
-    """
+    """Keep no cells: only the trough of the largest rim is that of others as well."""
     furthest = 0
     for i in range(rims.size):
         if rims[i] > rims[furthest] or not rims[furthest] > 0.0:

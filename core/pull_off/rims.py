@@ -9,6 +9,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from gradhesion.core.compiler.dispatch import face_of
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.arches import is_one_cosine
 from gradhesion.core.curve.cells import MOST
@@ -96,13 +97,15 @@ def _cells_from(basis: Basis, high: float) -> Floats:
     return ends
 
 
+@face_of(Series, "gradhesion.core.pull_off.patterned")
 @kernel()
 def lowest_loads(
     basis: Basis, curve: Series, rims: Floats, rims_low: Floats, work: Search, deepest: float, found: Floats
 ) -> None:
     """Put what `lowest_load` (pull_off/general.py) returns for each rim x + its rounding error into a row of `found`.
 
-    Rims and rounding errors are of shape (rims,), `found` of shape (rims, 3). Rims that are not above 0 are left out.
+    Rims and rounding errors are of shape (rims,), `found` of shape (rims, 3). Rims that are not above 0 are left out;
+    NaN where no load below 0 is found.
     """
     table, _, series = basis
     B, m, g, _, _ = curve
@@ -144,3 +147,6 @@ def lowest_loads(
         if not done:
             best = lowest_load(basis, curve, rims[i], rims_low[i], work, deepest)
         found[i, 0], found[i, 1], found[i, 2] = best
+    for i in range(rims.size):
+        if not found[i, 0] < 0.0:
+            found[i, 0] = found[i, 1] = math.nan

@@ -8,7 +8,7 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import force_unit
-from gradhesion.core.curve.general import Basis, Series, curve_at
+from gradhesion.core.curve.general import Basis, Made, curve_at
 from gradhesion.core.harmonics.series import highest_harmonic
 from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.problem.curves import GeneralCurves
@@ -20,7 +20,7 @@ from gradhesion.core.rate.opening import open_edge
 from gradhesion.core.rate.place import coordinate_of, load_of, place_at
 from gradhesion.core.rate.step import Room, room_for_steps
 from gradhesion.core.rate.stopping import stop_edge
-from gradhesion.core.types import Floats, Harmonics, Integers
+from gradhesion.core.types import Floats, Integers
 
 PROMISED: Final = 1e-9
 """Estimated error of force and energy above which a scene is reported."""
@@ -64,39 +64,32 @@ class Edges(NamedTuple):
     turns: Floats  # Y/R at which the machine turns, inf where it does at the rim; opening does not read it
 
 
-class Scene(NamedTuple):
-    """The curve of a scene, and its units."""
-
-    valid: bool
-    rows: Harmonics  # of the curve
-    curve: Series
-    length: float  # l/R
-    unit: float  # of depth, in R
-    shortest: float  # wave, in wavelengths; inf of a smooth punch
+@kernel()
+def _is_in_range(made: Made, edges: Edges, i: int) -> bool:
+    """Return whether scene number i, the curve of which is given, can be solved."""
+    valid = made.valid and edges.curves.compliance[i] < math.inf
+    return valid and edges.curves.rims[i, 0] > 0.0 and 0.0 < edges.speeds[i] < math.inf
 
 
 @kernel()
-def _scene_of(basis: Basis, edges: Edges, i: int) -> Scene:
-    """Return the curve of scene number i."""
-    valid, rows, curve, length, unit = curve_at(basis, edges.curves, i)
-    valid = valid and edges.curves.compliance[i] < math.inf
-    valid = valid and edges.curves.rims[i, 0] > 0.0 and 0.0 < edges.speeds[i] < math.inf
-    highest = highest_harmonic(rows)
-    return Scene(valid, rows, curve, length, unit, 1.0 / highest if highest > 0.0 else math.inf)
+def _shortest_wave(made: Made) -> float:
+    """Return the shortest wave in wavelengths, inf of a smooth punch."""
+    highest = highest_harmonic(made.series)
+    return 1.0 / highest if highest > 0.0 else math.inf
 
 
 @kernel()
-def _open(waves: Basis, scene: Scene, edges: Edges, i: int, room: Room, out: Floats) -> int:
-    """Solve scene number i; return its status."""
-    curve, length, unit = scene.curve, scene.length, scene.unit
-    x = edges.curves.rims[i, 0] / edges.curves.wavelength[i]
-    if not scene.valid or not x < math.inf:
+def _open(waves: Basis, made: Made, edges: Edges, i: int, room: Room, out: Floats) -> int:
+    """Solve scene number i, the curve of which is given; return its status."""
+    curve, wavelength, length, unit = made.curve, made.wavelength, made.length, made.depth
+    x, shortest = edges.curves.rims[i, 0] / wavelength, _shortest_wave(made)
+    if not _is_in_range(made, edges, i) or not x < math.inf:
         return NO_VALUE
-    if x > MOST_WAVES * scene.shortest:
+    if x > MOST_WAVES * shortest:
         return NO_VALUE | TOO_MANY_WAVES
     law = Law(edges.power, 1.0, 1.0, edges.speeds[i] * length * curve.alpha / unit)
-    opened = open_edge(waves, curve, law, x, scene.shortest, room)
-    force, area = force_unit(waves[0].k, length, unit), TWO_PI * length * length
+    opened = open_edge(waves, curve, law, x, shortest, room)
+    force, area = force_unit(waves.table.k, length, unit), TWO_PI * length * length
     if not abs(area * opened.energy) < math.inf or not abs(force * opened.load) < math.inf:
         return NO_VALUE
     out[0, i], out[1, i] = -force * opened.load, length * opened.z
@@ -110,22 +103,22 @@ def _open(waves: Basis, scene: Scene, edges: Edges, i: int, room: Room, out: Flo
 
 
 @kernel()
-def _put_state(waves: Basis, scene: Scene, x: float, rho: float, out: Floats, row: int, i: int) -> None:
+def _put_state(waves: Basis, made: Made, x: float, rho: float, out: Floats, row: int, i: int) -> None:
     """Store depth and coordinate in R, and the load in 1.5 pi R dgamma, of a state."""
-    curve, unit = scene.curve, scene.unit
+    curve, unit = made.curve, made.depth
     place = place_at(waves, curve, x)
     out[row, i] = unit * (place.depth - place.adhesion * rho)
     out[row + 1, i] = unit / curve.alpha * coordinate_of(curve, place, rho)
-    out[row + 2, i] = force_unit(waves[0].k, scene.length, unit) * load_of(place, rho)
+    out[row + 2, i] = force_unit(waves.table.k, made.length, unit) * load_of(place, rho)
 
 
 @kernel()
-def _close(waves: Basis, scene: Scene, edges: Edges, i: int, room: Room, out: Floats) -> int:
-    """Solve scene number i; return its status."""
-    curve, length, unit, shortest = scene.curve, scene.length, scene.unit, scene.shortest
-    wavelength, a_max, ratio = edges.curves.wavelength[i], edges.curves.rims[i, 0], edges.ratios[i]
+def _close(waves: Basis, made: Made, edges: Edges, i: int, room: Room, out: Floats) -> int:
+    """Solve scene number i, the curve of which is given; return its status."""
+    curve, wavelength, length, unit = made.curve, made.wavelength, made.length, made.depth
+    shortest, a_max, ratio = _shortest_wave(made), edges.curves.rims[i, 0], edges.ratios[i]
     rim, target = a_max / wavelength, edges.turns[i] * curve.alpha / unit
-    if not scene.valid or not 0.0 < ratio <= 1.0 or not (rim < math.inf or target < math.inf):
+    if not _is_in_range(made, edges, i) or not 0.0 < ratio <= 1.0 or not (rim < math.inf or target < math.inf):
         return NO_VALUE
     if target < 0.0:
         out[1, i], out[10, i] = 0.0, 0.0
@@ -143,8 +136,8 @@ def _close(waves: Basis, scene: Scene, edges: Edges, i: int, room: Room, out: Fl
     out[0, i] = a_max if end.x == rim else wavelength * end.x
     out[1, i] = area * end.energy
     out[2, i] = a_max if turn.x == rim else wavelength * turn.x
-    _put_state(waves, scene, turn.x, law.root - turn.lag, out, 3, i)
-    _put_state(waves, scene, end.x, law.root - end.lag, out, 6, i)
+    _put_state(waves, made, turn.x, law.root - turn.lag, out, 3, i)
+    _put_state(waves, made, end.x, law.root - end.lag, out, 6, i)
     out[9, i], out[10, i] = law.root - end.lag, area * end.of_energy
     too_slow = edges.speeds[i] ** edges.power < _SLOWEST
     return TOLERANCE_NOT_MET if too_slow or end.of_energy > PROMISED * (TWO_PI * end.x) ** 2 else 0
@@ -158,12 +151,12 @@ def loop_of(*, opens: bool) -> Callable[..., None]:
         """Solve scenes; `out` has the rows of `OPENED` or `CLOSED`, (rows, scenes), NaN where nothing is stored."""
         room = room_for_steps()
         for i in edges.curves.numbers:
-            scene = _scene_of(basis, edges, i)
-            waves = Basis(basis.table, basis.cosine_bins, scene.rows)
+            made = curve_at(basis, edges.curves, i)
+            waves = Basis(basis.table, made.cosine_bins, made.series)
             if opens:
-                status[i] = _open(waves, scene, edges, i, room, out)
+                status[i] = _open(waves, made, edges, i, room, out)
             else:
-                status[i] = _close(waves, scene, edges, i, room, out)
+                status[i] = _close(waves, made, edges, i, room, out)
 
     return move_edges
 
@@ -179,15 +172,15 @@ def track_edge(basis: Basis, edges: Edges, inwards: bool, points: int) -> tuple[
     That is an array of shape (3, points): radii and depths in R, loads in 1.5 pi R dgamma.
     """
     room, out, i = room_for_steps(points), np.empty((len(CLOSED), 1)), 0
-    scene = _scene_of(basis, edges, i)
-    waves = Basis(basis.table, basis.cosine_bins, scene.rows)
-    status = _open(waves, scene, edges, i, room, out) if inwards else _close(waves, scene, edges, i, room, out)
+    made = curve_at(basis, edges.curves, i)
+    waves = Basis(basis.table, made.cosine_bins, made.series)
+    status = _open(waves, made, edges, i, room, out) if inwards else _close(waves, made, edges, i, room, out)
     number = int(room.track[0, 0])
-    found, force = np.empty((3, number)), force_unit(basis.table.k, scene.length, scene.unit)
+    found, force = np.empty((3, number)), force_unit(basis.table.k, made.length, made.depth)
     for j in range(number):
         x, rho = room.track[0, j + 1], room.track[1, j + 1]
-        place = place_at(waves, scene.curve, x)
-        found[0, j] = x * edges.curves.wavelength[i]
-        found[1, j] = scene.unit * (place.depth - place.adhesion * rho)
+        place = place_at(waves, made.curve, x)
+        found[0, j] = x * made.wavelength
+        found[1, j] = made.depth * (place.depth - place.adhesion * rho)
         found[2, j] = force * load_of(place, rho)
     return status, found

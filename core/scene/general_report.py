@@ -18,7 +18,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from gradhesion.core.compiler.dispatch import face
+from gradhesion.core.compiler.dispatch import face_of
 from gradhesion.core.compiler.jit import NO, NONE, YES, kernel
 from gradhesion.core.curve.branches import ARRIVAL, END, LANDING, NEXT, START, Trace
 from gradhesion.core.curve.cells import MOST
@@ -53,7 +53,8 @@ from gradhesion.core.waves.general import cut_of
 
 ROWS: Final = ("pull_off_force_error", "dissipated_energy_error", "energy_residual", "saturation_radius")
 """What the kernel finds; the others are ratios of what is known."""
-FORCE_ROUNDING: Final = 6.0 * 2.0**-52
+_OF_PATTERNS: Final = "gradhesion.core.scene.patterned_report"
+_FORCE_ROUNDING: Final = 6.0 * 2.0**-52
 ENERGY_ROUNDING: Final = 20.0 * 2.0**-52
 """The true errors on scenes of the twin are at most 4.2 and 15 eps (docs/accuracy.md)."""
 _OF_LOAD: Final = 0.2
@@ -79,15 +80,10 @@ def crests(table: Table, series: Harmonics, gain: float) -> float:
     return gain * table.amplitude * total
 
 
-@face()
-def load_terms(basis: Basis, curve: Series, x: float) -> float:
-    """Return the size of the terms of the load at x."""
-
-
-@load_terms.answers(Series)
+@face_of(Series, _OF_PATTERNS)
 @kernel()
-def load_terms_of_profile(basis: Basis, curve: Series, x: float) -> float:
-    """Answer with every wave for itself."""
+def load_terms(basis: Basis, curve: Series, x: float) -> float:
+    """Return the size of the terms of the load at x, every wave for itself."""
     table, cosine_bins, series = basis
     B, m, g, _, _ = curve
     z = TWO_PI * x
@@ -103,7 +99,7 @@ def load_terms_of_profile(basis: Basis, curve: Series, x: float) -> float:
 
 
 @kernel()
-def force_terms(basis: Basis, curve: Series, x: float, turns: bool) -> float:
+def _force_terms(basis: Basis, curve: Series, x: float, turns: bool) -> float:
     """Return the size of the terms of a pull-off at x, its change with ln x among them where a cycle `turns` there.
 
     Then x is no number given.
@@ -189,6 +185,7 @@ def last_fold_between(basis: Basis, curve: Series, first: float, high: float, ce
     return math.nan
 
 
+@face_of(Series, _OF_PATTERNS)
 @kernel()
 def outermost_fold(basis: Basis, curve: Series) -> float:
     """Return x of the last fold of a curve, 0 if it has none, inf if folds need not end; NaN if it is not found."""
@@ -253,13 +250,14 @@ def _other_sum(basis: Basis, curve: Series, first: float, last: float, rim: tupl
     return math.nan, math.nan
 
 
+@face_of(Series, _OF_PATTERNS)
 @kernel()
-def _energy_reports(
-    basis: Basis, curve: Series, rim: float, rim_low: float, energy: float
+def energy_reports(
+    basis: Basis, curve: Series, rim: float, rim_low: float, energy: float, scale: float
 ) -> tuple[float, float, float]:
-    """Return the size of the terms of the energy, its error but rounding, and its loop integral, over 2 pi l^2 dgamma.
+    """Return the error of the energy, and over the scale 2 pi l^2 dgamma the size of its terms and its loop integral.
 
-    NaN if not known.
+    The rim is x and its rounding error, the energy over the scale. NaN if not known.
     """
     table, _, series = basis
     _, _, g, alpha, _ = curve
@@ -280,7 +278,7 @@ def _energy_reports(
     residual = 2.0 / (1.0 + table.k) * total / alpha if alpha > 0.0 else math.nan
     chi = crests(table, series, g)
     terms = (TWO_PI * outermost) ** 2 * chi * (1.0 + chi) + spring_factor(basis, curve, left) * abs(energy)
-    return terms, apart, residual
+    return scale * (ENERGY_ROUNDING * table.rounding * terms + apart), terms, residual
 
 
 class Solved(NamedTuple):
@@ -300,24 +298,23 @@ def report_scenes(basis: Basis, curves: GeneralCurves, solved: Solved, wanted: T
     of the force in 1.5 pi R dgamma, error and residual of the energy in R^2 dgamma, the radius of saturation in R. The
     status also has a flag where an energy is not as accurate as promised.
     """
-    table, wavelength = basis.table, curves.wavelength
+    table = basis.table
     radius, energy, turned, status = solved
     for i in curves.numbers:
         if status[i] & NO_VALUE:
             continue
-        _, rows, curve, length, unit = curve_at(basis, curves, i)
-        waves = Basis(basis.table, basis.cosine_bins, rows)
+        _, cosine_bins, series, curve, wavelength, length, unit = curve_at(basis, curves, i)
+        waves = Basis(table, cosine_bins, series)
         if wanted[0]:
-            terms = force_terms(waves, curve, radius[i] / wavelength[i], turned and status[i] & PULL_OFF_AT_RIM != 0)
-            out[0, i] = FORCE_ROUNDING * table.rounding * force_unit(table.k, length, unit) * terms
+            terms = _force_terms(waves, curve, radius[i] / wavelength, turned and status[i] & PULL_OFF_AT_RIM != 0)
+            out[0, i] = _FORCE_ROUNDING * table.rounding * force_unit(table.k, length, unit) * terms
         if wanted[1] or wanted[2]:
             rim, scale = curves.rims[i, 0], TWO_PI * length * length
-            x = rim / wavelength[i]
-            x_low = fma(-x, wavelength[i], rim) / wavelength[i] if x < math.inf else 0.0
-            terms, apart, total = _energy_reports(waves, curve, x, x_low, energy[i] / scale)
-            out[1, i] = scale * (ENERGY_ROUNDING * table.rounding * terms + apart)
+            x = rim / wavelength
+            x_low = fma(-x, wavelength, rim) / wavelength if x < math.inf else 0.0
+            out[1, i], terms, total = energy_reports(waves, curve, x, x_low, energy[i] / scale, scale)
             out[2, i] = energy[i] - scale * total
             if out[1, i] > PROMISED * scale * terms:
                 status[i] |= TOLERANCE_NOT_MET
         if wanted[3]:
-            out[3, i] = outermost_fold(waves, curve) * wavelength[i]
+            out[3, i] = outermost_fold(waves, curve) * wavelength

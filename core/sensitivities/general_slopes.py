@@ -18,9 +18,10 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.general import Basis, Series, coordinate, slope, state
+from gradhesion.core.curve.general import Basis, Made, Series, coordinate, slope, state
 from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.pieces import NOTED_DOWN, NOTED_IN, NOTED_JUMP, NOTED_OUT, NOTED_UP, Notes
+from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.results import LOADING_PART, RADIUS, UNLOADING_PART, Results
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.sensitivities.cosine_slopes import (
@@ -46,6 +47,7 @@ from gradhesion.core.waves.general import DOWN, NOWHERE, UP, Waves, room_for_wav
 from gradhesion.core.waves.general_sum import add_waves
 
 LN2: Final = math.log(2.0)
+_OF_PATTERNS: Final = "gradhesion.core.sensitivities.patterned_slopes"
 NOTES: Final = 4096
 """Notes of a cycle that there is room for."""
 
@@ -92,21 +94,19 @@ class Sensed(NamedTuple):
     wavy: bool  # whether the amplitude is positive
 
 
-@if_wanted("sense")
+@if_wanted("sense", Sense, _OF_PATTERNS)
 @kernel()
-def sensed_by(sense: Sense, i: int, stretch: float, wavelength: float, amplitude: float, compliance: float) -> Sensed:
-    """Return the record of curve i from that of all.
-
-    s, lambda/R, A and the compliance of the curve are those of `curve_of` (curve/general.py).
-    """
+def sensed_by(sense: Sense, curves: GeneralCurves, made: Made, i: int) -> Sensed:
+    """Return the record of curve number i from that of all."""
     change, front_by_k, k, m, found, force, energy, turned = sense
+    stretch, compliance = curves.stretch[i], curves.compliance[i]
     stiffness = 2.0 ** (1.0 + k) * math.pi / (stretch * stretch)
     size = -math.log(stiffness) / (2.0 * m - 1.0 + k)
-    length = math.log(wavelength / TWO_PI)
+    length = math.log(made.length)
     unit = 0.5 * (LN2 + size - length)  # of s l^c
     share = length - size - LN2 - 1.0 / (1.0 + k) if 0.0 < compliance < math.inf else 0.0
     by_k = ByExponent(front_by_k - unit, -unit, share, -1.0 / (1.0 + k) - unit, unit)
-    return Sensed(change, k, m, by_k, size, found[:, :, i], force, energy, turned, amplitude > 0.0)
+    return Sensed(change, k, m, by_k, size, found[:, :, i], force, energy, turned, curves.amplitude[i] > 0.0)
 
 
 @kernel()
@@ -148,17 +148,15 @@ def _put_depth(basis: Basis, curve: Series, own: Sensed, unit: float, x: float, 
     found[DEPTH, BY_EXPONENT, i] = unit * (by_k + own.by_k.bend * bend + own.by_k.gain * gain + own.by_k.depth * depth)
 
 
-@if_wanted("own")
+@if_wanted("own", Sensed, _OF_PATTERNS)
 @kernel()
-def put_rest(
-    basis: Basis, curve: Series, own: Sensed, unit: float, wavelength: float, rims: Floats, results: Results
-) -> None:
+def put_rest(basis: Basis, made: Made, own: Sensed, rims: Floats, results: Results) -> None:
     """Store the sensitivities of the pull-off forces of a curve, whose places and flags are there, for all rims.
 
-    Where cycles turn at a depth, those of the depth at the rim as well; `unit` is that of depth in R, `rims` are
-    a_max/R, of shape (rims,). Last, all sensitivities to k are turned into those at fixed M.
+    Where cycles turn at a depth, those of the depth at the rim as well; `rims` are a_max/R, of shape (rims,). Last, all
+    sensitivities to k are turned into those at fixed M.
     """
-    B, m, g, _, _ = curve
+    curve, (B, m, g, _, _) = made.curve, made.curve
     found = own.found
     pulled = Series(B, m, g, 0.0, 1.0)
     powers = (2.0 - 0.5 * (1.0 - own.k), 0.5, own.by_k.force)
@@ -166,7 +164,7 @@ def put_rest(
         if results.status[i] & NO_VALUE or not own.force:
             continue
         at_rim = results.status[i] & PULL_OFF_AT_RIM != 0
-        x = (rims[i] if at_rim else results.out[results.slots[RADIUS], i]) / wavelength
+        x = (rims[i] if at_rim else results.out[results.slots[RADIUS], i]) / made.wavelength
         force = -coordinate(basis, pulled, x)
         bend, gain, _, by_k = parts_of(basis, pulled, own.change, x, 0.0)
         by_rim = 0.0
@@ -175,7 +173,7 @@ def put_rest(
             by_rim = -TWO_PI * x * rate
         _put(own, FORCE, powers, By(-bend, -gain, by_rim, -by_k, 0.0), force, i)
         if own.turned and at_rim:
-            _put_depth(basis, curve, own, unit, x, i)
+            _put_depth(basis, curve, own, made.depth, x, i)
     found[:, BY_EXPONENT, :] += own.size * found[:, BY_STIFFNESS, :]
     if not own.wavy or basis.series.shape[0] == 0:
         found[:, BY_WAVELENGTH, :] = 0.0 * found[:, BY_WAVELENGTH, :]
@@ -189,7 +187,7 @@ def _put_total(own: Sensed, total: Slopes, by_rim: float, energy: float, i: int)
     _put(own, ENERGY, (2.0, 0.0, 0.0), by, energy, i)
 
 
-@if_wanted("own")
+@if_wanted("own", Sensed, _OF_PATTERNS)
 @kernel()
 def slopes_of(basis: Basis, curve: Series, own: Sensed, count: int, trace: Floats) -> Traced:
     """Return the slopes that go with a trace of `count` branches; those of loading filled in, if they are wanted."""
@@ -199,7 +197,7 @@ def slopes_of(basis: Basis, curve: Series, own: Sensed, count: int, trace: Float
     return slopes
 
 
-@if_wanted("own")
+@if_wanted("own", Sensed, _OF_PATTERNS)
 @kernel()
 def put_energy(basis: Basis, curve: Series, own: Sensed, slopes: Traced, x: float, energy: float, i: int) -> None:
     """Store the sensitivities of the energy of rim number i, at x, read off the trace that the energy was read off.

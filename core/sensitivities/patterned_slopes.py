@@ -15,9 +15,9 @@ from typing import Any, Final, NamedTuple, TypeAlias
 
 import numpy as np
 
-from gradhesion.core.compiler.jit import NO, constant, kernel
+from gradhesion.core.compiler.jit import NO, YES, constant, kernel
 from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, LANDING, NEXT, START, Trace
-from gradhesion.core.curve.general import Basis, Patterned, coordinate, slope
+from gradhesion.core.curve.general import Basis, Made, Patterned, coordinate, slope
 from gradhesion.core.curve.general_energy import balance, place_left, rise_from
 from gradhesion.core.curve.panels import (
     INNER_PLACES,
@@ -29,13 +29,15 @@ from gradhesion.core.curve.panels import (
     panels_to_zero,
 )
 from gradhesion.core.curve.patterned import toughness_at
-from gradhesion.core.face import shortest_wave
+from gradhesion.core.face import measured_by, shortest_wave
 from gradhesion.core.harmonics.series import sums
 from gradhesion.core.harmonics.series_by_k import sums_by_k
 from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.unloading import descend, leave_rim
+from gradhesion.core.problem.curves import PatternedCurves
 from gradhesion.core.problem.results import LOADING_PART, RADIUS, UNLOADING_PART, Results
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
+from gradhesion.core.sensitivities import general_slopes
 from gradhesion.core.sensitivities.cosine_slopes import (
     BY_AMPLITUDE,
     BY_EXPONENT,
@@ -48,7 +50,7 @@ from gradhesion.core.sensitivities.cosine_slopes import (
     FORCE,
 )
 from gradhesion.core.sensitivities.cosine_slopes import COUNT as OF_PROFILES
-from gradhesion.core.sensitivities.wanted import if_wanted
+from gradhesion.core.sensitivities.general_slopes import Sense
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Floats
 
@@ -65,15 +67,21 @@ Walked: TypeAlias = tuple[int, Trace]
 """The number of branches, and the trace (path/general.py)."""
 
 
-class Sense(NamedTuple):
-    """What the sensitivities of all curves of one exponent need."""
+class PatternedSense(Sense):
+    """What the sensitivities of all curves of one exponent need; `COUNT` is that of this module."""
 
-    change: Any  # the change of the tables by k (harmonics/series_by_k.py)
-    front_by_k: float  # the slope by k of ln of the factor of the punch
-    found: Floats  # where the sensitivities go, of shape (3, COUNT, curves, rims)
-    force: bool  # whether those of the pull-off force are wanted
-    energy: int  # the parts of the cycle of whose energy they are wanted (`part_of` of problem/results.py), 0 for none
-    turned: bool  # whether the rims are places where cycles turn
+    __slots__ = ()
+
+
+class Sensed(NamedTuple):
+    """What the sensitivities of one curve need, and where they go."""
+
+    change: Any  # as of `Sense`
+    front_by_k: float
+    log_length: float  # ln of the unit of z, in R
+    found: Floats  # where the sensitivities go, of shape (3, COUNT, rims)
+    force: bool  # as of `Sense`
+    energy: int
 
 
 class At(NamedTuple):
@@ -86,16 +94,31 @@ class At(NamedTuple):
     load: float
 
 
+@general_slopes.sensed_by.answers(PatternedSense)
 @kernel()
-def fill_parts(basis: Basis, curve: Patterned, sense: Sense, log_length: float, x: float, parts: Floats) -> At:
-    """Fill `parts`, of shape (5, COUNT), at x > 0; `log_length` is ln of the unit of z, in R."""
+def sensed_by(sense: Sense, _curves: PatternedCurves, made: Made, i: int) -> Sensed:
+    """Return the record of curve number i from that of all."""
+    found = sense.found[:, :, i]
+    return Sensed(sense.change, sense.front_by_k, math.log(made.length), found, sense.force, sense.energy)
+
+
+@general_slopes.slopes_of.answers(Sensed)
+@kernel()
+def slopes_of(_basis: Basis, _curve: Patterned, _own: Sensed, count: int, trace: Trace) -> Walked:
+    """Return the trace as it is."""
+    return count, trace
+
+
+@kernel()
+def fill_parts(basis: Basis, curve: Patterned, own: Sensed, x: float, parts: Floats) -> At:
+    """Fill `parts`, of shape (5, COUNT), at x > 0."""
     table, pattern, _ = basis
     B, m, _, alpha, beta = curve
-    k, g, change = table.k, pattern.gain, sense.change
+    k, g, change = table.k, pattern.gain, own.change
     z = TWO_PI * x
     power = amplitude_power(table, z)
-    bend, share, log_radius = B * z**m, m / (1.0 + k + m), math.log(z) + log_length
-    own, rate, _ = toughness_at(basis, x)
+    bend, share, log_radius = B * z**m, m / (1.0 + k + m), math.log(z) + own.log_length
+    kappa, rate, _ = toughness_at(basis, x)
     parts[:] = 0.0
     w0, w1, v, w0_k, w1_k = 0.0, 0.0, 0.0, 0.0, 0.0
     if g > 0.0:
@@ -104,16 +127,16 @@ def fill_parts(basis: Basis, curve: Patterned, sense: Sense, log_length: float, 
     wave = g * z
     parts[BY_DEPTH, BY_WAVELENGTH], parts[BY_LOAD, BY_WAVELENGTH] = wave * (w0 - v), wave * ((2.0 + k) * w1 - v)
     parts[BY_DEPTH, BY_AMPLITUDE], parts[BY_LOAD, BY_AMPLITUDE] = wave * w0, wave * w1
-    parts[BY_DEPTH, BY_EXPONENT] = bend * sense.front_by_k + wave * w0_k
-    parts[BY_LOAD, BY_EXPONENT] = bend * share * (sense.front_by_k - 1.0 / (1.0 + k + m)) + wave * w1_k
+    parts[BY_DEPTH, BY_EXPONENT] = bend * own.front_by_k + wave * w0_k
+    parts[BY_LOAD, BY_EXPONENT] = bend * share * (own.front_by_k - 1.0 / (1.0 + k + m)) + wave * w1_k
     parts[BY_STRETCH, BY_STIFFNESS], parts[BY_STRETCH, BY_EXPONENT] = -0.5, 0.5 * (LN2 - log_radius)
     parts[BY_SHARE, BY_EXPONENT] = log_radius
     if alpha > 0.0:
         parts[BY_SHARE, BY_STIFFNESS], parts[BY_SHARE, BY_MACHINE] = 1.0, -1.0
         parts[BY_SHARE, BY_EXPONENT] -= LN2 + 1.0 / (1.0 + k)
     parts[BY_TOUGHNESS, BY_PATTERN_LENGTH] = -z * rate
-    parts[BY_TOUGHNESS, BY_PATTERN] = 0.5 * (own * own - 1.0) / own if pattern.of_work else own - 1.0
-    return At(z, z * power, beta / (power * power), own, bend * share + wave * w1)
+    parts[BY_TOUGHNESS, BY_PATTERN] = 0.5 * (kappa * kappa - 1.0) / kappa if pattern.of_work else kappa - 1.0
+    return At(z, z * power, beta / (power * power), kappa, bend * share + wave * w1)
 
 
 @kernel()
@@ -148,9 +171,7 @@ class Room(NamedTuple):
 
 
 @kernel()
-def add_jump(
-    basis: Basis, curve: Patterned, sense: Sense, log_length: float, start: float, end: float, room: Room, total: Floats
-) -> None:
+def add_jump(basis: Basis, curve: Patterned, own: Sensed, start: float, end: float, room: Room, total: Floats) -> None:
     """Add the slopes of a jump from the curve at x = start > 0, or from zero contact at Y = 0, to x = end >= 0.
 
     `total` is of shape (COUNT + 1,), in 2 pi l^2 dgamma.
@@ -158,7 +179,7 @@ def add_jump(
     parts, level, shortest = room.parts, room.level, shortest_wave(basis, curve)
     level[:] = 0.0
     if start > 0.0:
-        at = fill_parts(basis, curve, sense, log_length, start, parts)
+        at = fill_parts(basis, curve, own, start, parts)
         _slopes_of_level(curve, at, parts, level)
     scale = TWO_PI * (1.0 if end > start else -1.0)
     if start > 0.0 and end > 0.0:
@@ -167,13 +188,13 @@ def add_jump(
             width, beyond, first, last = panel_outwards(low, high, 0.0, shortest)
             for i in range(first, last):
                 x = low + width * PLACES[i]
-                at = fill_parts(basis, curve, sense, log_length, x, parts)
+                at = fill_parts(basis, curve, own, x, parts)
                 u = rise_from(basis, curve, left, x, 0.0)
                 _add_density(curve, at, parts, level, u, scale * width * SHARES[i], total)
             low = beyond
         return
     high = max(start, end)
-    own = coordinate(basis, curve, start) if start > 0.0 else 0.0
+    of_start = coordinate(basis, curve, start) if start > 0.0 else 0.0
     inner, growth = panels_to_zero(basis.table.k, curve.alpha, curve.beta, high, shortest)
     while high > 0.0:
         low, first, last = panel_inwards(high, growth, shortest)
@@ -181,22 +202,15 @@ def add_jump(
         for i in range(0 if innermost else first, INNER_PLACES.size if innermost else last):
             x = high * INNER_PLACES[i] if innermost else low + (high - low) * PLACES[i]
             weight = high * INNER_SHARES[i] if innermost else (high - low) * SHARES[i]
-            at = fill_parts(basis, curve, sense, log_length, x, parts)
+            at = fill_parts(basis, curve, own, x, parts)
             value, over = balance(basis, curve, x)
-            _add_density(curve, at, parts, level, (value - own) / over, scale * weight, total)
+            _add_density(curve, at, parts, level, (value - of_start) / over, scale * weight, total)
         high = 0.0 if innermost else low
 
 
 @kernel()
 def _add_loading(
-    basis: Basis,
-    curve: Patterned,
-    sense: Sense,
-    log_length: float,
-    walked: Walked,
-    rim: float,
-    room: Room,
-    total: Floats,
+    basis: Basis, curve: Patterned, own: Sensed, walked: Walked, rim: float, room: Room, total: Floats
 ) -> None:
     """Add the slopes of loading up to a rim."""
     count, trace = walked
@@ -204,26 +218,19 @@ def _add_loading(
     for branch in range(count):
         if trace[ARRIVAL, branch] <= rim and trace[ARRIVAL, branch] < math.inf:
             if trace[ARRIVAL, branch] > 0.0:
-                add_jump(basis, curve, sense, log_length, left, trace[ARRIVAL, branch], room, total)
+                add_jump(basis, curve, own, left, trace[ARRIVAL, branch], room, total)
             left, level = trace[END, branch], trace[END_DEPTH, branch]
     if left < rim:
-        add_jump(basis, curve, sense, log_length, left, rim, room, total)
+        add_jump(basis, curve, own, left, rim, room, total)
         value, over = balance(basis, curve, rim)
-        own, _, _ = toughness_at(basis, rim)
+        kappa, _, _ = toughness_at(basis, rim)
         u = (value - level) / over
-        total[BY_RIM] -= (TWO_PI * rim) ** 2 * u * (2.0 * own + u)
+        total[BY_RIM] -= (TWO_PI * rim) ** 2 * u * (2.0 * kappa + u)
 
 
 @kernel()
 def _add_unloading(
-    basis: Basis,
-    curve: Patterned,
-    sense: Sense,
-    log_length: float,
-    walked: Walked,
-    rim: float,
-    room: Room,
-    total: Floats,
+    basis: Basis, curve: Patterned, own: Sensed, walked: Walked, rim: float, room: Room, total: Floats
 ) -> None:
     """Add the slopes of unloading from a rim; under a dead load the jump-out has no energy."""
     count, trace = walked
@@ -232,7 +239,7 @@ def _add_unloading(
     if now < 0 or landing != rim:
         before = total[LEVEL]
         if now >= 0 or curve.alpha > 0.0:
-            add_jump(basis, curve, sense, log_length, rim, landing if now >= 0 else 0.0, room, total)
+            add_jump(basis, curve, own, rim, landing if now >= 0 else 0.0, room, total)
         _, _, rate = slope(basis, curve, rim)
         total[BY_RIM] += (total[LEVEL] - before) * rate * TWO_PI * rim
     if now >= 0:
@@ -241,60 +248,48 @@ def _add_unloading(
         lower = int(trace[NEXT, now])
         if lower >= 0 or curve.alpha > 0.0:
             end = trace[LANDING, now] if lower >= 0 else 0.0
-            add_jump(basis, curve, sense, log_length, trace[START, now], end, room, total)
+            add_jump(basis, curve, own, trace[START, now], end, room, total)
         now = lower
 
 
-@if_wanted("sense")
+@general_slopes.put_energy.answers(Sensed)
 @kernel()
-def put_energy(
-    basis: Basis,
-    curve: Patterned,
-    sense: Sense,
-    of_curve: tuple[float, int],
-    walked: Walked,
-    x: float,
-    energy: float,
-    rim: int,
-) -> None:
-    """Store the sensitivities of the energy, in 2 pi l^2 dgamma, of a rim at x: ln l and number of the curve first."""
-    log_length, i = of_curve
+def put_energy(basis: Basis, curve: Patterned, own: Sensed, walked: Walked, x: float, energy: float, i: int) -> None:
+    """Store the sensitivities of the energy from all jumps of the trace, each by quadrature."""
+    if own.energy == 0:
+        return
     total, room = np.zeros(COUNT + 1), Room(np.empty((5, COUNT)), np.empty(COUNT))
-    if sense.energy & LOADING_PART:
-        _add_loading(basis, curve, sense, log_length, walked, x, room, total)
-    if sense.energy & UNLOADING_PART:
-        _add_unloading(basis, curve, sense, log_length, walked, x, room, total)
+    if own.energy & LOADING_PART:
+        _add_loading(basis, curve, own, walked, x, room, total)
+    if own.energy & UNLOADING_PART:
+        _add_unloading(basis, curve, own, walked, x, room, total)
     for p in range(COUNT):
-        sense.found[ENERGY, p, i, rim] = total[p] / energy if energy > 0.0 else math.nan
+        own.found[ENERGY, p, i] = total[p] / energy if energy > 0.0 else math.nan
 
 
-@if_wanted("sense")
+@general_slopes.put_rest.answers(Sensed)
 @kernel()
-def put_forces(
-    basis: Basis, curve: Patterned, sense: Sense, i: int, units: tuple[float, float, float], rims: Floats, own: Results
-) -> None:
-    """Store the sensitivities of the pull-off forces of a curve for all rims a_max/R, and those of the depth there."""
-    unit, length, depth = units
-    parts, log_length, k = np.empty((5, COUNT)), math.log(length), basis.table.k
-    for rim in range(rims.size):
-        if own.status[rim] & NO_VALUE or not sense.force:
+def put_rest(basis: Basis, made: Made, own: Sensed, rims: Floats, results: Results) -> None:
+    """Store those of the depth for all rims as well."""
+    curve, k, parts, found = made.curve, basis.table.k, np.empty((5, COUNT)), own.found
+    for i in range(rims.size):
+        if results.status[i] & NO_VALUE or not own.force:
             continue
-        at_rim = own.status[rim] & PULL_OFF_AT_RIM != 0
-        x = (rims[rim] if at_rim else own.out[own.slots[RADIUS], rim]) / unit
+        at_rim = results.status[i] & PULL_OFF_AT_RIM != 0
+        x = (rims[i] if at_rim else results.out[results.slots[RADIUS], i]) / made.wavelength
         if not x > 0.0:
             continue
-        at = fill_parts(basis, curve, sense, log_length, x, parts)
+        at = fill_parts(basis, curve, own, x, parts)
         load = at.load - at.toughness * at.stretch
         for p in range(COUNT):
             fall = at.stretch * (parts[BY_TOUGHNESS, p] + at.toughness * parts[BY_STRETCH, p])
-            sense.found[FORCE, p, i, rim] = (parts[BY_LOAD, p] - fall) / load
-            sense.found[DEPTH, p, i, rim] = depth * (parts[BY_DEPTH, p] - fall)
-        sense.found[FORCE, BY_STIFFNESS, i, rim] += 1.0
-        sense.found[FORCE, BY_EXPONENT, i, rim] += math.log(at.z) + log_length - LN2 - 1.0 / (1.0 + k)
+            found[FORCE, p, i] = (parts[BY_LOAD, p] - fall) / load
+            found[DEPTH, p, i] = made.depth * (parts[BY_DEPTH, p] - fall)
+        found[FORCE, BY_STIFFNESS, i] += 1.0
+        found[FORCE, BY_EXPONENT, i] += math.log(at.z) + own.log_length - LN2 - 1.0 / (1.0 + k)
         if at_rim:
-            B, m, g, _, _ = curve
             front = (at.z / at.stretch) ** 2
-            _, _, rate = slope(basis, Patterned(B, m, g, 0.0, 1.0), x)
-            sense.found[FORCE, BY_RIM, i, rim] = at.z * rate / (front * load)
-            _, _, rate = slope(basis, Patterned(B, m, g, 1.0, 0.0), x)
-            sense.found[DEPTH, BY_RIM, i, rim] = depth * at.z * rate
+            _, _, rate = slope(basis, measured_by(curve, YES), x)
+            found[FORCE, BY_RIM, i] = at.z * rate / (front * load)
+            _, _, rate = slope(basis, measured_by(curve, NO), x)
+            found[DEPTH, BY_RIM, i] = made.depth * at.z * rate

@@ -5,12 +5,13 @@ and for a trace. Kernels of `if_wanted` may be called with either.
 """
 
 from collections.abc import Callable
-from typing import Any, NamedTuple, TypeAlias, TypeVar, cast
+from typing import Any, NamedTuple, ParamSpec, TypeAlias, TypeVar
 
 from gradhesion.core.compiler.dispatch import Face
 from gradhesion.core.compiler.jit import kernel
 
-Kernel = TypeVar("Kernel", bound=Callable[..., Any])
+Given = ParamSpec("Given")
+Result = TypeVar("Result")
 
 
 class NoSense(NamedTuple):
@@ -29,22 +30,29 @@ def nothing(*_: Any) -> NoSense:
     return NoSense(0)
 
 
-class _IfWanted(Face[..., Any]):
-    """A kernel, and `nothing` in its place for the type `NoSense` of an argument."""
+class _IfWanted(Face[Given, Result]):
+    """A kernel, and `nothing` in its place for the type `NoSense` of an argument; other types may have their own."""
 
-    def __init__(self, wanted: Callable[..., Any], by: str) -> None:
-        super().__init__(wanted, (), by)
+    def __init__(self, wanted: Callable[Given, Result], answered_in: tuple[str, ...], by: str) -> None:
+        super().__init__(wanted, answered_in, by)
         self._wanted = wanted
 
     def answer_of(self, kind: type) -> Any:
         """Return the kernel that is called for a type of the argument."""
-        return nothing if kind is NoSense else self._wanted
+        if kind is NoSense:
+            return nothing
+        return super().answer_of(kind) if self._answered_in else self._wanted
 
 
-def if_wanted(by: str) -> Callable[[Kernel], Kernel]:
-    """Have a kernel do nothing where the argument of this name is `NoSense`, and return that."""
+def if_wanted(
+    by: str, kind: type = object, *answered_in: str
+) -> Callable[[Callable[Given, Result]], Face[Given, Result]]:
+    """Have a kernel do nothing where the argument of this name is `NoSense`, and return that.
 
-    def choose(kernel: Kernel) -> Kernel:
-        return cast("Kernel", _IfWanted(kernel, by))
+    It is called for all others, or for one kind of them if some are answered in other modules.
+    """
+
+    def choose(kernel: Callable[Given, Result]) -> Face[Given, Result]:
+        return _IfWanted(kernel, answered_in, by).with_answer(kind, kernel)
 
     return choose

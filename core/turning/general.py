@@ -1,17 +1,18 @@
-"""Where cycles of one general curve turn: where loading first reaches a depth, or a load."""
+"""Where cycles of curves of any profile turn: where loading first reaches a depth, or a load."""
 
 import math
 from typing import Final
 
 import numpy as np
 
+from gradhesion.core.compiler.dispatch import face_of
 from gradhesion.core.compiler.jit import NO, NONE, kernel
 from gradhesion.core.contact.disc import is_surely_open
 from gradhesion.core.contact.least import least_opening
 from gradhesion.core.curve.branches import END_DEPTH, START, START_DEPTH, Trace, ends
 from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
-from gradhesion.core.curve.general import Basis, Series, coordinate, curve_at
+from gradhesion.core.curve.general import Basis, Made, Series, coordinate, curve_at, rims_of
 from gradhesion.core.curve.general_branches import find_level
 from gradhesion.core.curve.general_folds import MOST_CELLS, MOST_FOLDS, room
 from gradhesion.core.face import is_always_one_disc, measured_by, reach, window
@@ -20,7 +21,7 @@ from gradhesion.core.path.general import is_at_a_fold, walk
 from gradhesion.core.path.general_long import FEW, LONGEST_WALK, REGULAR, middle_of
 from gradhesion.core.path.ties import rim_is_close
 from gradhesion.core.problem.curves import GeneralCurves
-from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
+from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.turning.corners import Place, corners_of, first_reached, last_corner
 from gradhesion.core.turning.general_far import turn_far
 from gradhesion.core.turning.turns import Turns
@@ -147,68 +148,86 @@ def _turn_one_far(
     return False, rim, 0, False
 
 
+@face_of(Series, "gradhesion.core.turning.patterned")
 @kernel()
-def _turn_curve(basis: Basis, curve: Series, unit: float, wavelength: float, turns: Turns, passed: Truths) -> None:
-    """Find where the cycles of a curve turn, and whether a jump has passed the target, of shape (rims,).
+def turn_chosen(basis: Basis, curve: Series, turns: Turns, chosen: Truths, passed: Truths) -> None:
+    """Find the places where the chosen rims of a curve turn, and whether a jump has passed the target.
 
-    Lengths of `turns` are in R; `unit` is that of its targets.
+    As of `turn_walked`; places that are not found are left as they are.
     """
-    table, _, series = basis
-    rims, targets, by_load, check, radii, flags = turns
-    count = rims.size
+    _, _, series = basis
+    edges, targets, by_load, _, places, flags = turns
+    count = edges.size
     highest = highest_harmonic(series)
     first, last = window(basis, curve)
     measured = measured_by(curve, by_load)
-    edges, reduced, reaches, places = np.empty(count), np.empty(count), np.empty(count), np.empty(count)
-    own = Turns(edges, reduced, by_load, check, places, flags)
-    chosen, alone = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
+    reaches, alone = np.empty(count), np.zeros(count, np.bool_)
     together, bound = False, 0.0
     for i in range(count):  # that of the largest is for all that are walked together
         if abs(targets[i]) < math.inf:
-            bound = max(bound, targets[i] / unit)
+            bound = max(bound, targets[i])
     bound = reach(basis, measured, bound)
     for i in range(count):
-        target = targets[i] / unit
-        edges[i], reduced[i], places[i] = rims[i] / wavelength, target, math.nan
-        if not (rims[i] > 0.0 and abs(target) < math.inf and (target > 0.0 or not by_load)):
-            continue
-        if not by_load and is_first_contact(table.k, curve, target):
-            flags[i] |= CLOSE_TO_A_JUMP
-        if target < 0.0:
-            places[i] = 0.0
+        if not chosen[i]:
             continue
         reaches[i] = bound
         if bound == math.inf or min(edges[i], bound, last) - first > LONGEST_WALK:
-            reaches[i] = reach(basis, measured, target)
+            reaches[i] = reach(basis, measured, targets[i])
         waves = min(edges[i], reaches[i], last) - first
         if series.shape[0] > 0 and LONGEST_WALK < waves < math.inf:
+            chosen[i] = False
             middle = middle_of(basis, curve, first, min(edges[i], reaches[i], last), 0.0)
             if middle.kind == REGULAR:
-                done, x, found, jumped = _turn_one_far(basis, curve, (first, last), own, reaches[i], i)
+                done, x, found, jumped = _turn_one_far(basis, curve, (first, last), turns, reaches[i], i)
                 if done:
                     places[i], passed[i] = x, jumped
                     flags[i] |= found
                     continue
-            alone[i] = True
             few = middle.kind == FEW
             bounds = (first, middle.until if few else last)
-            if (few or waves * highest < MOST_CELLS) and turn_walked(basis, curve, bounds, own, reaches, alone, passed):
-                continue
-            alone[i] = False
-            places[i] = math.nan
+            alone[i] = few or waves * highest < MOST_CELLS
+            if alone[i] and not turn_walked(basis, curve, bounds, turns, reaches, alone, passed):
+                alone[i], places[i] = False, math.nan
         elif waves * highest < MOST_CELLS:
-            chosen[i] = together = True
-    if together and not turn_walked(basis, curve, (first, last), own, reaches, chosen, passed):
+            together = True
+        else:
+            chosen[i] = False
+    if together and not turn_walked(basis, curve, (first, last), turns, reaches, chosen, passed):
         for i in range(count):  # too many folds up to the furthest of them
             if chosen[i]:
-                alone[i], reaches[i] = True, reach(basis, measured, reduced[i])
-                turn_walked(basis, curve, (first, last), own, reaches, alone, passed)
+                alone[i], reaches[i] = True, reach(basis, measured, targets[i])
+                turn_walked(basis, curve, (first, last), turns, reaches, alone, passed)
                 alone[i] = False
-    for i in range(count):
-        if math.isnan(places[i]):
-            radii[i], flags[i] = math.nan, NO_VALUE
+
+
+@kernel()
+def _turn_curve(basis: Basis, made: Made, turns: Turns, passed: Truths) -> None:
+    """Find where the cycles of a curve turn, and whether a jump has passed the target, of shape (rims,).
+
+    Lengths of `turns` are in R, loads in 1.5 pi R dgamma.
+    """
+    rims, targets, by_load, check, radii, flags = turns
+    curve, k = made.curve, basis.table.k
+    unit = force_unit(k, made.length, made.depth) if by_load else made.depth
+    edges, reduced, places = np.empty(rims.size), np.empty(rims.size), np.empty(rims.size)
+    chosen = np.zeros(rims.size, np.bool_)
+    for i in range(rims.size):
+        target = targets[i] / unit
+        edges[i], reduced[i], places[i] = rims[i] / made.wavelength, target, math.nan
+        if not (rims[i] > 0.0 and abs(target) < math.inf and (target > 0.0 or not by_load)):
+            continue
+        if not by_load and is_first_contact(k, curve, target):
+            flags[i] |= CLOSE_TO_A_JUMP
+        if target < 0.0:
+            places[i] = 0.0
         else:
-            radii[i] = rims[i] if places[i] == edges[i] else min(rims[i], places[i] * wavelength)
+            chosen[i] = True
+    turn_chosen(basis, curve, Turns(edges, reduced, by_load, check, places, flags), chosen, passed)
+    for i in range(rims.size):
+        if math.isnan(places[i]):
+            radii[i], flags[i] = math.nan, NO_VALUE | (flags[i] & TOO_MANY_WAVES)
+        else:
+            radii[i] = rims[i] if places[i] == edges[i] else min(rims[i], places[i] * made.wavelength)
 
 
 @kernel()
@@ -218,15 +237,12 @@ def turn_scenes(basis: Basis, curves: GeneralCurves, turns: Turns, passed: Truth
     What is found goes there, and to `passed`, of shape (curves, rims): whether a jump has passed the target, so that
     the cycle turns beyond it.
     """
-    rims, targets, by_load, check, radii, flags = turns
+    _, targets, by_load, check, radii, flags = turns
     for i in curves.numbers:
-        row = i if rims.shape[0] > 1 else 0
-        valid, rows, curve, length, unit = curve_at(basis, curves, i)
-        waves = Basis(basis.table, basis.cosine_bins, rows)
-        if not valid:
+        made = curve_at(basis, curves, i)
+        if not made.valid:
             radii[i, :], flags[i, :] = math.nan, NO_VALUE
             continue
-        if by_load:
-            unit = force_unit(basis.table.k, length, unit)
-        own = Turns(rims[row], targets[row], by_load, check, radii[i], flags[i])
-        _turn_curve(waves, curve, unit, curves.wavelength[i], own, passed[i])
+        row = targets[i if targets.shape[0] > 1 else 0]
+        own = Turns(rims_of(curves, i), row, by_load, check, radii[i], flags[i])
+        _turn_curve(Basis(basis.table, made.cosine_bins, made.series), made, own, passed[i])

@@ -15,7 +15,7 @@ from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.compiler.marks import note_compiled
 from gradhesion.core.curve.cosine import force_unit
-from gradhesion.core.curve.general import Basis, curve_at, state
+from gradhesion.core.curve.general import Basis, curve_at, rims_of, state
 from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.names import PATTERN
 from gradhesion.core.sweep import How, solve
@@ -30,14 +30,14 @@ def fill_pulls(basis: Basis, curves: GeneralCurves, out: Floats) -> None:
     They are in 1.5 pi R dgamma. The rims are radii of contact.
     """
     for i in curves.numbers:
-        _, rows, curve, length, unit = curve_at(basis, curves, i)
-        waves = Basis(basis.table, basis.cosine_bins, rows)
-        row = curves.rims[i if curves.rims.shape[0] > 1 else 0]
-        for rim in range(row.size):
-            _, _, front, depth, load = state(waves, curve, row[rim] / curves.wavelength[i])
+        made = curve_at(basis, curves, i)
+        waves, curve = Basis(basis.table, made.cosine_bins, made.series), made.curve
+        rims = rims_of(curves, i)
+        for rim in range(rims.size):
+            _, _, front, depth, load = state(waves, curve, rims[rim] / made.wavelength)
             level = curve.alpha * depth + curve.beta * load
             load -= front * level / (curve.alpha + curve.beta * front)
-            out[i, rim] = -force_unit(basis.table.k, length, unit) * load
+            out[i, rim] = -force_unit(basis.table.k, made.length, made.depth) * load
 
 
 def snap_in_force(scenes: Mapping[str, ArrayLike], ratio: NDArray[np.float64], how: How) -> NDArray[np.float64]:

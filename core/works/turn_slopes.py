@@ -14,7 +14,8 @@ from gradhesion.core.arrays.prepared import curves_of, prepared, run_by_exponent
 from gradhesion.core.arrays.tables import changes_of, tables_of
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import force_unit
-from gradhesion.core.curve.general import Basis, Series, coordinate, curve_at, slope
+from gradhesion.core.curve.general import Basis, Series, coordinate, curve_at, rims_of, slope
+from gradhesion.core.face import measured_by
 from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.sensitivities.cosine_slopes import (
@@ -62,16 +63,13 @@ def fill_slopes(basis: Basis, curves: GeneralCurves, sense: Sense, by_load: bool
 
     Slopes by ln of M, lambda, A and a, and by k, are in R or 1.5 pi R dgamma, as `values` of shape (curves, rims).
     """
-    numbers, _, _, stretch, wavelength, amplitude, compliance, rims = curves
-    for i in numbers:
-        _, rows, curve, length, unit = curve_at(basis, curves, i)
-        waves = Basis(basis.table, basis.cosine_bins, rows)
-        own = sensed_by(sense, i, stretch[i], wavelength[i], amplitude[i], compliance[i])
-        held = Series(curve.bend, curve.exponent, curve.gain, 0.0 if by_load else 1.0, 1.0 if by_load else 0.0)
-        scale = force_unit(basis.table.k, length, unit) if by_load else unit
-        row = rims[i if rims.shape[0] > 1 else 0]
-        for rim in range(row.size):
-            values[i, rim] = _put(waves, held, own, scale, row[rim] / wavelength[i], rim)
+    for i in curves.numbers:
+        made = curve_at(basis, curves, i)
+        waves = Basis(basis.table, made.cosine_bins, made.series)
+        own, held, rims = sensed_by(sense, curves, made, i), measured_by(made.curve, by_load), rims_of(curves, i)
+        scale = force_unit(basis.table.k, made.length, made.depth) if by_load else made.depth
+        for rim in range(rims.size):
+            values[i, rim] = _put(waves, held, own, scale, rims[rim] / made.wavelength, rim)
 
 
 def turn_slopes(

@@ -14,6 +14,7 @@ from gradhesion.core import face
 from gradhesion.core.arrays.tables import changes_of, tables_of
 from gradhesion.core.compiler.dispatch import Face
 from gradhesion.core.contact.gap import opening_far, opening_near
+from gradhesion.core.contact.touch import front_at
 from gradhesion.core.curve import cosine, general, short_wave
 from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, ROWS, RUN, RUN_LEAST, START, START_DEPTH
 from gradhesion.core.curve.cosine import Cosine
@@ -44,7 +45,7 @@ OF_CONTACT = {
 }
 OF_CONTACT |= {"panels_of", "profile_at", "edge_at", "excess_at", "fill_heights"}
 OF_PROFILES = {"waves_at", "depth_of_point", "relative_toughness", "shortest_wave"}
-OF_FOLDS = {"window", "find_all_folds", "measured_by", "reach"}
+OF_FOLDS = {"punch_of", "window", "find_all_folds", "measured_by", "reach"}
 OF_SLOPES = {"steepness_at", "rim_slope", "add_slopes", "add_slopes_to_zero", "start_of_wave", "add_slopes_of_waves"}
 DECLARED = {name: value for name, value in vars(face).items() if isinstance(value, Face)}
 
@@ -354,6 +355,22 @@ def test_the_profile_is_that_of_the_depths(exact: Case) -> None:
         edge = exact.ask("edge_at", a)
         near, far = (integral(exact.table, exact.curve, edge, r) for integral in (opening_near, opening_far))
         assert near == pytest.approx(far, rel=1e-9)
+
+
+def test_the_profile_is_a_power_and_the_waves_of_the_punch(profile: Case) -> None:
+    if isinstance(profile.curve, ShortWave):
+        return
+    _, rows, gain = profile.ask("punch_of")
+    bend, m = (
+        profile.curve.bend / (profile.curve.exponent * front_at(K, profile.curve.exponent)),
+        profile.curve.exponent,
+    )
+    for x in (0.3, 1.7, 4.1):
+        waves = sum(
+            even * (1.0 - math.cos(TWO_PI * n * x)) + odd * math.sin(TWO_PI * n * x) for n, even, odd in rows.tolist()
+        )
+        expected = bend * (TWO_PI * x) ** m + gain * waves
+        assert profile.ask("profile_at", x) == pytest.approx(expected, rel=1e-12)
 
 
 def test_what_is_known_of_the_contact_beforehand(exact: Case) -> None:

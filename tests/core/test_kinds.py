@@ -73,3 +73,11 @@ def test_a_force_compiles_what_a_force_needs(tmp_path: Path) -> None:
     assert not cycle & {*tables, *force}
     assert len({*force}) == len(force), "no kernel for two types"
     assert compiled_by(tmp_path, "solve(SCENE, ['pull_off_radius'])") == [[]], "all of it is kept"
+
+
+@pytest.mark.slow
+def test_a_plain_interface_compiles_nothing_of_patterns(tmp_path: Path) -> None:
+    kinds = compiled_by(tmp_path, "compile_kind('general_turning')", "compile_kind('general_reports')")
+    names = {name for kind in kinds for name in kind}
+    assert {"scene.general.solve_scenes", "turning.general.turn_scenes", "scene.general_report.report_scenes"} <= names
+    assert {name for name in names if "pattern" in name} == set()

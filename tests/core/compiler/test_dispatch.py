@@ -6,7 +6,7 @@ import pytest
 from numba.core.errors import NumbaError
 
 from gradhesion.core.compiler import cache, jit
-from gradhesion.core.compiler.dispatch import face
+from gradhesion.core.compiler.dispatch import face, face_of
 
 
 class Line(NamedTuple):
@@ -76,3 +76,27 @@ def test_a_kind_without_an_answer_is_refused() -> None:
         height(1.0, Unknown(1.0))
     with pytest.raises((TypeError, NumbaError), match="height has no answer for a curve of the type Unknown"):
         rise(Unknown(1.0), 1.0)
+
+
+def test_a_kernel_may_answer_for_one_kind_and_others_elsewhere() -> None:
+    @face_of(Line)
+    @jit.kernel()
+    def steepness(curve: Line, x: float) -> float:
+        """Return the slope at x."""
+        return curve.slope + 0.0 * x
+
+    @steepness.answers(Parabola)
+    @jit.kernel()
+    def of_parabola(curve: Parabola, x: float) -> float:
+        return 2.0 * curve.bend * x
+
+    @jit.kernel()
+    def twice(curve: Any, x: float) -> float:
+        return 2.0 * steepness(curve, x)
+
+    assert steepness.answered() == (Line, Parabola)
+    assert steepness.__doc__ == "Return the slope at x."
+    assert (steepness(Line(2.0, 1.0), 3.0), steepness(Parabola(2.0, 1.0), 3.0)) == (2.0, 12.0)
+    assert (twice(Line(2.0, 1.0), 3.0), twice(Parabola(2.0, 1.0), 3.0)) == (4.0, 24.0)
+    with pytest.raises((TypeError, NumbaError), match="steepness has no answer for a curve of the type Unknown"):
+        twice(Unknown(1.0), 1.0)
