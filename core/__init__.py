@@ -35,12 +35,12 @@ if TYPE_CHECKING:
         KERNELS,
         KINDS,
         MANY_SMOOTH,
-        MANY_WAVES,
         NEEDS,
         kind_of_curves,
         kind_of_map,
         kind_of_sensitivities,
         kind_of_turning,
+        kinds_of_long,
     )
     from gradhesion.core.problem.control import CONTROLS, Loading
     from gradhesion.core.problem.names import (
@@ -71,7 +71,6 @@ __all__ = [
     "KERNELS",
     "KINDS",
     "MANY_SMOOTH",
-    "MANY_WAVES",
     "NEEDS",
     "OUTPUTS",
     "PARAMETERS",
@@ -93,6 +92,7 @@ __all__ = [
     "kind_of_map",
     "kind_of_sensitivities",
     "kind_of_turning",
+    "kinds_of_long",
     "place",
     "solve",
     "validity",
@@ -104,8 +104,8 @@ _HOMES: Final = {
     "compiler.cache": "CACHE_FOLDER place",
     "compiler.marks": "compiled_before",
     "curves": "draw_curves",
-    "kinds": "APART CPU_SECONDS KERNELS KINDS MANY_SMOOTH MANY_WAVES NEEDS "
-    "kind_of_curves kind_of_map kind_of_sensitivities kind_of_turning",
+    "kinds": "APART CPU_SECONDS KERNELS KINDS MANY_SMOOTH NEEDS "
+    "kind_of_curves kind_of_map kind_of_sensitivities kind_of_turning kinds_of_long",
     "problem.control": "CONTROLS Loading",
     "problem.names": "CURVES OUTPUTS PARAMETERS RANGE REPORTS SENSITIVITIES SOLVERS TURNS VALIDITY",
     "problem.profile": "Harmonic Profile",

@@ -12,9 +12,11 @@
     long_sensitivities
     general_force      the same of any other profile or control
     general_energy
+    general_long
     general_reports
     general_turning
     general_sensitivities
+    general_long_sensitivities
     general_envelope
     general_curves
     edge               where an edge that closes at less work jumps in, and how its turning point moves
@@ -58,9 +60,11 @@ _WORK: Final[dict[str, tuple[tuple[str, ...], int, float]]] = {
     "long_sensitivities": (("sensitivities",), 46, 7.0),
     "general_force": (("tables",), 92, 5.0),
     "general_energy": (("tables",), 261, 16.0),
+    "general_long": (("general_energy",), 60, 6.0),
     "general_reports": (("general_energy",), 11, 4.5),
     "general_turning": (("general_energy",), 17, 6.0),
     "general_sensitivities": (("general_energy",), 52, 10.0),
+    "general_long_sensitivities": (("general_sensitivities",), 20, 6.0),
     "general_envelope": (("tables",), 0, 0.0),
     "general_curves": (("general_energy",), 49, 7.5),
     "edge": (("tables",), 24, 1.0),
@@ -80,14 +84,16 @@ name. Processes that compile kinds side by side, each after those that it needs 
 no entry twice, and no two write to one index of the cache."""
 MANY_SMOOTH: Final = 4096
 """Scenes of smooth punches in a call from which on kernels of their own solve them."""
-MANY_WAVES: Final = 80.0
-"""Waves within a rim up to which a punch with one cosine needs no kernels of long curves: it is walked there."""
+MANY_WAVES: Final = {"": 80.0, "general_": 512.0}
+"""Waves within a rim up to which all are walked, so that no kernels of long curves are needed: of one cosine, and of
+the shortest harmonic of other profiles."""
 _OF_COSINE: Final = ("force", "energy", "long", "envelope", "sensitivities", "long_sensitivities")
 """Kinds whose loops over curves are entries of the same name (scene/solvers.py)."""
 APART: Final = (
     *({one, other} for one, other in combinations(_OF_COSINE, 2)),
     *({"smooth", other} for other in ("force", "energy", "envelope")),
     *({one, other} for one, other in combinations(("curves", "general_curves", "patterned_curves"), 2)),
+    {"general_long", "general_sensitivities"},
     *({"general_force", other} for other in ("general_energy", "general_sensitivities")),
 )
 """Kinds that do not need each other, and yet compile entries of the same name: not to be compiled side by side."""
@@ -135,6 +141,24 @@ def kind_of_map(
     if any(name in REPORTS for name in outputs):
         return general + "reports"
     return general + ("force" if set(outputs) <= set(PULL_OFF) else "energy")
+
+
+def kinds_of_long(kinds: Sequence[str], waves: float, profile: Profile | None = None) -> tuple[str, ...]:
+    """Return the kinds of work for cycles of many waves that others leave, where rims contain so many wavelengths.
+
+    Examples
+    --------
+    >>> kinds_of_long(["energy"], 70.0), kinds_of_long(["energy", "sensitivities"], 90.0)
+    ((), ('long', 'long_sensitivities'))
+    """
+    waves *= max((one.n for one in (profile or WAVY).harmonics), default=1)
+    found: dict[str, None] = {}
+    for kind in kinds:
+        family = "general_" if kind.startswith("general_") else ""
+        ending = {"energy": "", "reports": "", "sensitivities": "_sensitivities"}.get(kind.removeprefix(family))
+        if ending is not None and waves > MANY_WAVES[family]:
+            found[f"{family}long{ending}"] = None
+    return tuple(found)
 
 
 def kind_of_turning(

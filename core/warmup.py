@@ -156,9 +156,9 @@ def compile_kind(kind: str) -> None:
         case "force":
             solve(scene, ["pull_off_force"], threads=1, **driven)
         case "long":
-            solve(SCENE | FAR, OUTPUTS, threads=1)
+            solve(scene | FAR, OUTPUTS, threads=1, **driven)
         case "long_sensitivities":
-            solve(SCENE | FAR, SENSITIVITIES, threads=1)
+            solve(scene | FAR, SENSITIVITIES, threads=1, **driven)
         case "energy":
             solve(scene, OUTPUTS, threads=1, **driven)
         case "smooth":

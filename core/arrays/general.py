@@ -11,12 +11,14 @@ from numpy.typing import ArrayLike, NDArray
 from gradhesion.core.arrays.cosine import SLOPES
 from gradhesion.core.arrays.prepared import curves_of, prepared, run_by_exponent
 from gradhesion.core.arrays.tables import changes_of, tables_of
+from gradhesion.core.compiler.marks import note_compiled
 from gradhesion.core.curve.general import Basis
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import PULL_OFF
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.results import Results, slots_of, typed
 from gradhesion.core.scene.general import solve_pull_offs, solve_scenes
+from gradhesion.core.scene.general_long import solve_left
 from gradhesion.core.sensitivities.cosine_slopes import COUNT
 from gradhesion.core.sensitivities.general_slopes import Sense
 from gradhesion.core.sensitivities.neighbours import depth_factor_by_k
@@ -64,6 +66,7 @@ def solve_general(
     series, curves_at = curves_of(scenes, profile, toughness)
     force_alone = set(rows) <= set(PULL_OFF) and slopes is None and toughness is None
     solve = solve_pull_offs if force_alone else solve_scenes
+    long = "general_long" if slopes is None else "general_long_sensitivities"
     kind, count = _sense_of(toughness) if slopes else (NoSense, 0)
     sensed = np.full((3, count, *status.shape), np.nan)
 
@@ -76,7 +79,10 @@ def solve_general(
 
     def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
         basis = Basis(*tables_of(exponent, series, interpolated=interpolated and slopes is None), series)
-        solve(basis, curves_at(exponent, index), Results(slots, out, status), sense_at(exponent))
+        curves, results, sense = curves_at(exponent, index), Results(slots, out, status), sense_at(exponent)
+        if solve(basis, curves, results, sense):
+            solve_left(basis, curves, results, sense)
+            note_compiled(long)
 
     run_by_exponent(scenes.k, work, threads, scenes.rim.shape[1])
     result: dict[str, NDArray[Any]] = {}

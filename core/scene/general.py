@@ -22,7 +22,7 @@ from gradhesion.core.problem.results import Results, wants_folds, wants_force
 from gradhesion.core.problem.status import TOO_MANY_WAVES
 from gradhesion.core.pull_off.general import deepest_wave
 from gradhesion.core.pull_off.rims import lowest_loads
-from gradhesion.core.scene.general_rim import follow_alone, only, refuse_waves, shares_trace, walked
+from gradhesion.core.scene.general_rim import is_left, only, refuse_waves, shares_trace, walked
 from gradhesion.core.scene.scene import Scene, put_pull_off, refuse
 from gradhesion.core.sensitivities.general_slopes import put_rest, sensed_by
 from gradhesion.core.sensitivities.wanted import AnySense
@@ -30,15 +30,15 @@ from gradhesion.core.types import Floats
 
 
 @kernel()
-def _cycles(basis: Basis, curve: Series, scene: Scene, rims: Floats, own: AnySense) -> None:
-    """Follow the cycles of a curve up to all its rims that are not refused: those within a walk share one trace.
+def _cycles(basis: Basis, curve: Series, scene: Scene, rims: Floats, own: AnySense) -> bool:
+    """Follow the cycles of a curve up to its rims a_max/R, of shape (rims,), that share a trace, if not refused.
 
-    `rims` are a_max/R, of shape (rims,).
+    Return whether others are left for scene/general_long.py.
     """
     count = rims.size
     bounds = window(basis, curve)
     places, together = np.empty(count), np.zeros(count, np.bool_)
-    shared = False
+    shared, left = False, False
     for i in range(count):
         if not rims[i] > 0.0 or scene.results.status[i] & TOO_MANY_WAVES:
             continue
@@ -46,12 +46,13 @@ def _cycles(basis: Basis, curve: Series, scene: Scene, rims: Floats, own: AnySen
         if shares_trace(basis, curve, bounds, places[i]):
             together[i] = shared = True
         else:
-            follow_alone(basis, curve, scene, bounds, rims, places, i, own)
+            left |= is_left(curve, scene.results, i)
     if not shared or walked(basis, curve, scene, bounds, places, together, own):
-        return
+        return left
     for i in range(count):  # too many folds up to the largest of them
         if together[i] and not walked(basis, curve, scene, bounds, places, only(i, count), own):
             refuse_waves(curve, scene.results, i)
+    return left
 
 
 @kernel()
@@ -78,15 +79,16 @@ def _pull_offs(
         put_pull_off(scene.results, force, scene.wavelength, rims[i], (lowest, place, second), i)
 
 
-def loop_of(*, cycles: bool) -> Callable[..., None]:
+def loop_of(*, cycles: bool) -> Callable[..., int]:
     """Return the kernel that solves many scenes; without `cycles` it knows the pull-off alone."""
 
     @kernel()
-    def solve_scenes(basis: Basis, curves: GeneralCurves, results: Results, sense: AnySense) -> None:
-        """Solve the curves of one gradient exponent, each for all its rims.
+    def solve_scenes(basis: Basis, curves: GeneralCurves, results: Results, sense: AnySense) -> int:
+        """Solve the curves of one gradient exponent, each for its rims; return of how many some rims are left.
 
         Values go to `results` in the shape (results, curves, rims), flags in (curves, rims).
         """
+        left = 0
         work, deepest = room(), deepest_wave(basis.table, basis.series) if wants_force(results.slots) else 0.0
         for i in curves.numbers:
             own = Results(results.slots, results.out[:, i], results.status[i])
@@ -105,8 +107,9 @@ def loop_of(*, cycles: bool) -> Callable[..., None]:
                 force = force_unit(basis.table.k, length, made.depth)
                 _pull_offs(waves, curve, scene, force, rims, work, deepest if curves.amplitude[i] > 0.0 else 0.0)
             if cycles and wants_folds(own.slots):
-                _cycles(waves, curve, scene, rims, sensed)
+                left += _cycles(waves, curve, scene, rims, sensed)
             put_rest(waves, made, sensed, rims, own)
+        return left
 
     return solve_scenes
 

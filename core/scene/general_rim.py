@@ -1,6 +1,6 @@
-"""The cycles of the rims of one curve of any profile: walked together on one trace, or each long one alone.
+"""The cycles of the rims of one curve of any profile, walked together on one trace.
 
-Sensitivities are read off the trace, or the notes of a long cycle, that the energy comes from.
+Sensitivities are read off the trace that the energy comes from. Rims too far out are for scene/general_long.py.
 """
 
 import math
@@ -9,21 +9,19 @@ from typing import Final
 import numpy as np
 
 from gradhesion.core.compiler.dispatch import face_of
-from gradhesion.core.compiler.jit import NONE, kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact.disc import disc_limits, is_one_disc
 from gradhesion.core.curve.arches import is_one_cosine
 from gradhesion.core.curve.branches import ARRIVAL, Trace
-from gradhesion.core.curve.general import Basis, Series, coordinate, state
+from gradhesion.core.curve.general import Basis, Series, coordinate
 from gradhesion.core.curve.general_energy import energies_in
 from gradhesion.core.curve.general_folds import MOST_CELLS
 from gradhesion.core.face import depth_at
 from gradhesion.core.harmonics.series import highest_harmonic
 from gradhesion.core.numbers.circle import TWO_PI
-from gradhesion.core.numbers.intrinsics import fma
 from gradhesion.core.path.general import depth_at_full_contact, walk
-from gradhesion.core.path.general_long import FEW, LONGEST_WALK, REGULAR, Middle, Tasks, middle_of, stride
+from gradhesion.core.path.general_long import LONGEST_WALK
 from gradhesion.core.path.loading import highest_depth, jumps_in_to, loading_to
-from gradhesion.core.path.pieces import notes_for
 from gradhesion.core.path.ties import is_close_to_a_jump
 from gradhesion.core.path.unloading import jumps_out_from, unloading_from
 from gradhesion.core.problem.results import (
@@ -39,7 +37,7 @@ from gradhesion.core.problem.results import (
 )
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC
 from gradhesion.core.scene.scene import Scene, put_cycle, refuse
-from gradhesion.core.sensitivities.general_slopes import NOTES, put_energy, put_noted, slopes_of
+from gradhesion.core.sensitivities.general_slopes import put_energy, slopes_of
 from gradhesion.core.sensitivities.wanted import AnySense
 from gradhesion.core.types import Floats, Truths
 from gradhesion.core.waves.general_jump import LONG
@@ -57,7 +55,7 @@ def refuse_waves(curve: Series, results: Results, i: int) -> None:  # noqa: ARG0
 
 
 @kernel()
-def _put_rim(
+def put_rim(
     basis: Basis,
     curve: Series,
     scene: Scene,
@@ -140,7 +138,7 @@ def walked(
         level = coordinate(basis, curve, x) if x < math.inf else math.inf
         cycle = cycle_to(basis, curve, count, trace, x, level, losses, stations)
         close = is_close_to_a_jump(basis, curve, count, trace, tangency, x, level, slots[TURNED] > 0)
-        _put_rim(basis, curve, scene, (x, 0.0), cycle, (close, is_one_disc(basis, curve, limits, x)), i)
+        put_rim(basis, curve, scene, (x, 0.0), cycle, (close, is_one_disc(basis, curve, limits, x)), i)
         if x == math.inf:  # the last branch has no end, and loading arrives on it
             put(results, OUTERMOST, i, TWO_PI * scene.length * trace[ARRIVAL, count - 1])
         put_energy(basis, curve, own, slopes, x, part_of(own.energy, cycle.loaded, cycle.unloaded), i)
@@ -153,38 +151,6 @@ def only(i: int, count: int) -> Truths:
     chosen = np.zeros(count, np.bool_)
     chosen[i] = True
     return chosen
-
-
-@kernel()
-def _strode(
-    basis: Basis,
-    curve: Series,
-    scene: Scene,
-    first: float,
-    middle: Middle,
-    rim: tuple[float, float],
-    i: int,
-    own: AnySense,
-) -> bool:
-    """Solve rim number i of a long curve, x and its rounding error; return whether its waves could be summed.
-
-    No fold stands before x = `first`.
-    """
-    slots = scene.results.slots
-    tasks = Tasks(wants_losses(slots), curve.alpha > 0.0, slots[CONTACT] >= 0, slots[TURNED] > 0)
-    notes = notes_for(NOTES if own.energy > 0 else NONE)
-    done, up, down, close, one_disc, waves, x = stride(basis, curve, first, middle, rim, tasks, notes)
-    if not done:
-        return False
-    depth = -1.0
-    if down.waves + down.left > 0.0:
-        _, _, _, depth, _ = state(basis, curve, down.left, down.waves)
-    cycle = Cycle(up.loss, up.jumps, down.loss, down.jumps, depth, up.level)
-    _put_rim(basis, curve, scene, (x, waves), cycle, (close, one_disc), i)
-    if x == math.inf:
-        put(scene.results, OUTERMOST, i, TWO_PI * scene.length * (up.waves + up.left))
-    put_noted(basis, curve, own, middle.cut, notes, (x, waves), part_of(own.energy, up.loss, down.loss), i)
-    return True
 
 
 @face_of(Series, _OF_PATTERNS)
@@ -200,31 +166,6 @@ def shares_trace(basis: Basis, curve: Series, bounds: tuple[float, float], x: fl
 
 @face_of(Series, _OF_PATTERNS)
 @kernel()
-def follow_alone(
-    basis: Basis,
-    curve: Series,
-    scene: Scene,
-    bounds: tuple[float, float],
-    rims: Floats,
-    places: Floats,
-    i: int,
-    own: AnySense,
-) -> None:
-    """Follow the cycle of rim number i, which is to share no trace, or refuse it.
-
-    All folds stand between the two x of `bounds`; rims are in R, `places` in wavelengths, both of shape (rims,). The
-    waves of a long curve are summed, or walked for this rim.
-    """
-    series, x, (first, last) = basis.series, places[i], bounds
-    waves = min(x, last) - first
-    if series.shape[0] > 0 and LONGEST_WALK < waves < math.inf:
-        middle = middle_of(basis, curve, first, min(x, last), 0.0)
-        x_low = fma(-x, scene.wavelength, rims[i]) / scene.wavelength if x < math.inf else 0.0
-        if middle.kind == REGULAR and _strode(basis, curve, scene, first, middle, (x, x_low), i, own):
-            return
-        few = (first, middle.until)
-        if middle.kind == FEW and walked(basis, curve, scene, few, places, only(i, rims.size), own):
-            return
-    near = waves * highest_harmonic(series) < MOST_CELLS
-    if not (near and walked(basis, curve, scene, bounds, places, only(i, rims.size), own)):
-        refuse(scene.results, i)
+def is_left(curve: Series, results: Results, i: int) -> bool:  # noqa: ARG001
+    """Return whether rim number i, which shares no trace, is left for scene/general_long.py; refuse it if it is not."""
+    return True

@@ -12,8 +12,7 @@ from gradhesion.core.path.unloading import unloading_from
 from gradhesion.core.problem.results import Cycle, Results
 from gradhesion.core.problem.status import TOO_MANY_WAVES
 from gradhesion.core.scene import general_rim
-from gradhesion.core.scene.scene import Scene, refuse
-from gradhesion.core.sensitivities.wanted import AnySense
+from gradhesion.core.scene.scene import refuse
 from gradhesion.core.types import Floats
 
 
@@ -37,20 +36,12 @@ def shares_trace(basis: Basis, _curve: Patterned, bounds: tuple[float, float], x
     return not are_too_many(basis, bounds[0], min(x, bounds[1]))
 
 
-@general_rim.follow_alone.answers(Patterned)
+@general_rim.is_left.answers(Patterned)
 @kernel()
-def follow_alone(
-    _basis: Basis,
-    curve: Patterned,
-    scene: Scene,
-    _bounds: tuple[float, float],
-    _rims: Floats,
-    _places: Floats,
-    i: int,
-    _own: AnySense,
-) -> None:
+def is_left(curve: Patterned, results: Results, i: int) -> bool:
     """Refuse it."""
-    general_rim.refuse_waves(curve, scene.results, i)
+    general_rim.refuse_waves(curve, results, i)
+    return False
 
 
 @general_rim.refuse_waves.answers(Patterned)

@@ -126,7 +126,8 @@ def _put(own: Sensed, row: int, powers: tuple[float, float, float], by: By, valu
     found[BY_WAVELENGTH, i] = unit + (m - c) * bend + (1.0 - c) * gain + (1.0 + k) * share - rim
     found[BY_AMPLITUDE, i] = gain
     found[BY_RIM, i] = rim
-    found[BY_EXPONENT, i] = by.exponent / value + by_k.bend * bend + by_k.gain * gain + by_k.share * share + unit_by_k
+    by_exponent = by.exponent / value + by_k.bend * bend + by_k.gain * gain + by_k.share * share + unit_by_k
+    found[BY_EXPONENT, i] = by_exponent + own.size * found[BY_STIFFNESS, i]  # at fixed M
     found[BY_MACHINE, i] = -share
 
 
@@ -145,7 +146,8 @@ def _put_depth(basis: Basis, curve: Series, own: Sensed, unit: float, x: float, 
     found[DEPTH, BY_AMPLITUDE, i] = unit * gain
     found[DEPTH, BY_RIM, i] = unit * z * steepness
     found[DEPTH, BY_MACHINE, i] = 0.0
-    found[DEPTH, BY_EXPONENT, i] = unit * (by_k + own.by_k.bend * bend + own.by_k.gain * gain + own.by_k.depth * depth)
+    by_exponent = unit * (by_k + own.by_k.bend * bend + own.by_k.gain * gain + own.by_k.depth * depth)
+    found[DEPTH, BY_EXPONENT, i] = by_exponent + own.size * found[DEPTH, BY_STIFFNESS, i]  # at fixed M
 
 
 @if_wanted("own", Sensed, _OF_PATTERNS)
@@ -153,8 +155,7 @@ def _put_depth(basis: Basis, curve: Series, own: Sensed, unit: float, x: float, 
 def put_rest(basis: Basis, made: Made, own: Sensed, rims: Floats, results: Results) -> None:
     """Store the sensitivities of the pull-off forces of a curve, whose places and flags are there, for all rims.
 
-    Where cycles turn at a depth, those of the depth at the rim as well; `rims` are a_max/R, of shape (rims,). Last, all
-    sensitivities to k are turned into those at fixed M.
+    Where cycles turn at a depth, those of the depth at the rim as well; `rims` are a_max/R, of shape (rims,).
     """
     curve, (B, m, g, _, _) = made.curve, made.curve
     found = own.found
@@ -174,7 +175,6 @@ def put_rest(basis: Basis, made: Made, own: Sensed, rims: Floats, results: Resul
         _put(own, FORCE, powers, By(-bend, -gain, by_rim, -by_k, 0.0), force, i)
         if own.turned and at_rim:
             _put_depth(basis, curve, own, made.depth, x, i)
-    found[:, BY_EXPONENT, :] += own.size * found[:, BY_STIFFNESS, :]
     if not own.wavy or basis.series.shape[0] == 0:
         found[:, BY_WAVELENGTH, :] = 0.0 * found[:, BY_WAVELENGTH, :]
         found[:, BY_AMPLITUDE, :] = 0.0 * found[:, BY_AMPLITUDE, :]

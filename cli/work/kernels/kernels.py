@@ -25,7 +25,6 @@ from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import interrupts
 from gradhesion.core import (
     MANY_SMOOTH,
-    MANY_WAVES,
     NEEDS,
     SENSITIVITIES,
     VALIDITY,
@@ -34,10 +33,10 @@ from gradhesion.core import (
     kind_of_map,
     kind_of_sensitivities,
     kind_of_turning,
+    kinds_of_long,
     place,
 )
 from gradhesion.core.problem.names import CONTACT_SLOPE
-from gradhesion.core.problem.profile import WAVY
 
 PAUSE: Final = 0.2
 """Seconds between two looks at what another process compiles."""
@@ -46,8 +45,6 @@ _AMPLITUDES: Final = ("A", "chi", "amplitude")
 """The parameters that give the height of waves (core/variables/reduced.py)."""
 _WITH_SMOOTH: Final = frozenset({"force", "energy", "reports"})
 """The kinds of work whose smooth scenes, if they are many, have kernels of their own."""
-_LONG: Final = {"energy": "long", "reports": "long", "sensitivities": "long_sensitivities"}
-"""The kinds of work whose cycles of many waves have kernels of their own."""
 _one_of_us: Final = threading.Lock()
 
 
@@ -68,17 +65,16 @@ def kinds_of(study: Study) -> tuple[str, ...]:
     snaps = "snap_in_force" in outputs
     edge = ("edge",) if snaps or (slopes and study.gives(CLOSING) and study.turn) else ()
     jump = (kind_of_turning(*driven),) if snaps else ()
-    walked = _most_waves(study) <= MANY_WAVES
-    long = () if walked else (_LONG[kind] for kind in (*kinds, *slopes) if kind in _LONG)
+    long = kinds_of_long((*kinds, *slopes), _most_waves(study), study.profile)
     return tuple(dict.fromkeys((*kinds, *smooth, *turning, *jump, *slopes, *long, *edge, *moving)))
 
 
 def _most_waves(study: Study) -> float:
-    """Give the most waves that a rim of a study contains, as far as its keys show that: else inf."""
+    """Give the most wavelengths that a rim of a study contains, as far as its keys show that: else inf."""
     given = study.parameters
     if "lambda_over_R" in study.left_out:
         return 0.0
-    if study.search or study.uncertainty or study.profile != WAVY:
+    if study.search or study.uncertainty:
         return math.inf
     for rim, wavelength in (("a_max_over_R", "lambda_over_R"), ("a_max", "wavelength")):
         if rim in given and wavelength in given:
