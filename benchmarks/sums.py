@@ -72,6 +72,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("count", type=int, nargs="?", default=10_000)
     parser.add_argument("seed", type=int, nargs="?", default=20261)
+    parser.add_argument("--alone", action="store_true", help="one cosine alone, without benchmarks/far.py")
     requested = parser.parse_args()
     count, seed = requested.count, requested.seed
     heads = ("waves", "scenes", "no value", "against the second solver", "over stated", "relative")
@@ -88,6 +89,8 @@ def main() -> None:
             f"| {limit.size:,} | {max(limit, default=math.nan):.2g} | {found['alone'].sum():.0f} |",
             flush=True,
         )
+    if requested.alone:
+        return
     print(far.report(4, 14, count, seed))
     print(far.report_of_balls(4, 14, max(1, count // 50), seed))
 

@@ -11,7 +11,7 @@ from gradhesion.core import Harmonic, Loading, Profile, solve
 from tests.core.walked import walked_cosine, walked_general
 
 LOOSE = 50.0
-"""Median of stated over true errors: 30 on the 10,000 scenes of docs/accuracy.md, more or less on some hundred."""
+"""Median of stated over true errors: 23 on the 72,000 scenes of docs/accuracy.md, more or less on some hundred."""
 
 
 def test_sums_over_waves(table_of: Callable[[float], Any]) -> None:
@@ -36,6 +36,26 @@ def test_sums_over_waves(table_of: Callable[[float], Any]) -> None:
     assert len(ratios) > 100
     assert max(ratios) <= 1.0
     assert np.median(ratios) > 1.0 / LOOSE
+
+
+def test_a_walk_is_added_at_once(table_of: Callable[[float], Any]) -> None:
+    """A scene whose 3,600 losses, added one after the other, were further from its energy than is stated."""
+    scene = {
+        "k": 0.515,
+        "nu": -0.04625972653714461,
+        "modulus": 7879.131319716203,
+        "c0_over_R": 4.5586412874844,
+        "lambda_over_R": 0.0007185134155145044,
+        "A": 0.027697682285047986,
+        "a_max_over_R": 2.0830335575436294,
+    }
+    truth = walked_cosine(scene, table_of, 4000.0)
+    found = solve(scene, ["dissipated_energy", "dissipated_energy_error"])
+    assert truth is not None
+    assert abs(float(found["dissipated_energy"]) - truth) <= 0.3 * found["dissipated_energy_error"]
+    other = walked_general(scene, Profile(), Loading(), (100.0, 1e4))
+    assert other is not None
+    assert truth == pytest.approx(other[0], rel=8.0 * 2.0**-52)  # the constants of two curves
 
 
 PAIR = (Harmonic(n=1, cos=0.6, sin=-0.3), Harmonic(n=2, cos=-0.2, sin=0.25))

@@ -1,5 +1,6 @@
 """Energies of long curves with every wave walked: the sums of the solvers are switched off.
 
+The losses of all jumps are added up at once, and rounded once: one after the other, thousands of them lose some 20 eps.
 What the walks have in common with the sums is the curve (the rounding of its constants) and what one jump loses.
 """
 
@@ -12,24 +13,25 @@ import numpy as np
 
 from gradhesion.core.arrays.prepared import prepared
 from gradhesion.core.arrays.tables import tables_of
-from gradhesion.core.compiler.jit import NO, YES
-from gradhesion.core.curve.branches import ROWS
+from gradhesion.core.compiler.jit import NO, YES, kernel
+from gradhesion.core.curve.branches import ARRIVAL, END, LANDING, NEXT, ROWS, START, START_DEPTH, WORK, Trace
+from gradhesion.core.curve.cosine import Cosine, depth
 from gradhesion.core.curve.cosine import curve_of as cosine_of
-from gradhesion.core.curve.cosine import depth
 from gradhesion.core.curve.general import Basis, curve_of
 from gradhesion.core.curve.general_branches import fill_branches
 from gradhesion.core.curve.general_folds import MOST_FOLDS, find_folds, room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
+from gradhesion.core.face import loss_between, loss_from_zero, loss_to_zero
 from gradhesion.core.numbers.circle import TWO_PI
+from gradhesion.core.path import unloading
 from gradhesion.core.path.cosine import extent, is_long, is_unresolved, walk
 from gradhesion.core.path.general_long import LONGEST_WALK, REGULAR, folds_before, middle_of
-from gradhesion.core.path.loading import loading_to
 from gradhesion.core.path.pieces import Piece, State, climb, descend, leave, leave_rim, notes_for, reach_rim
-from gradhesion.core.path.unloading import unloading_from
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
+from gradhesion.core.types import Floats, Table
 from gradhesion.core.waves.general import branches_of_wave, room_for_waves
 
 Walked = tuple[float, float, float]
@@ -50,11 +52,53 @@ def walked_cosine(scene: dict[str, float], table_of: Callable[[float], Any], mos
     arches, x = extent(table, curve), scene["a_max_over_R"] / wavelength
     if is_unresolved(arches, x) or not is_long(table, arches, x) or min(arches[1], 2.0 * x) - arches[0] > most:
         return None
-    count, trace = walk(table, curve, arches, min(x, 1e300), np.empty((ROWS, 64)), True)
+    count, trace = walk(table, curve, arches, min(x, 1e300), np.empty((ROWS, 64)), False)
     rim_depth = depth(table, curve, x) if x < math.inf else math.inf
-    loss, _ = loading_to(table, curve, count, trace, x, True)
-    back, _, _ = unloading_from(table, curve, count, trace, x, rim_depth, True)
-    return 2.0 * math.pi * length**2 * (loss + back)
+    losses = np.empty(2 * count + 3)
+    jumps = losses_of_jumps(table, curve, count, trace, x, rim_depth, losses)
+    return 2.0 * math.pi * length**2 * math.fsum(losses[:jumps])
+
+
+@kernel()
+def losses_of_jumps(
+    table: Table, curve: Cosine, count: int, trace: Trace, rim: float, rim_depth: float, losses: Floats
+) -> int:
+    """Put what each jump of a cycle on a walked curve loses into `losses`; return the number of jumps."""
+    jumps, left = 0, -1.0
+    for branch in range(count):
+        x = trace[ARRIVAL, branch]
+        if not (x <= rim and x < math.inf):
+            continue
+        if left < 0.0:
+            losses[jumps] = loss_from_zero(table, curve, x)
+        else:
+            losses[jumps] = loss_between(table, curve, left, x, trace[WORK])
+        left = trace[END, branch]
+        jumps += 1
+    if left < 0.0:
+        losses[jumps] = loss_from_zero(table, curve, rim)
+        jumps += 1
+    elif left < rim:
+        losses[jumps] = loss_between(table, curve, left, rim, trace[WORK])
+        jumps += 1
+    now, landing = unloading.leave_rim(table, curve, count, trace, rim, rim_depth)
+    if landing != rim and now >= 0:
+        losses[jumps] = loss_between(table, curve, rim, landing, trace[WORK])
+        jumps += 1
+    elif landing != rim:
+        losses[jumps] = loss_to_zero(table, curve, rim, rim_depth)
+        jumps += 1
+    if now >= 0:
+        unloading.descend(table, curve, trace, now, NO)
+    while now >= 0 and trace[START, now] > 0.0:
+        start, lower = trace[START, now], int(trace[NEXT, now])
+        if lower >= 0:
+            losses[jumps] = loss_between(table, curve, start, trace[LANDING, now], trace[WORK])
+        else:
+            losses[jumps] = loss_to_zero(table, curve, start, trace[START_DEPTH, now])
+        jumps += 1
+        now = lower
+    return jumps
 
 
 def walked_general(

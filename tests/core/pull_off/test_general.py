@@ -8,6 +8,7 @@ import pytest
 
 from gradhesion.core import Harmonic, Profile, solve
 from gradhesion.core.problem.material import stiffness
+from gradhesion.core.problem.status import PULL_OFF_AT_RIM
 from gradhesion.core.variables.similarity import amplitude_of_ratio
 from gradhesion.twin.general import Shape
 from tests.twin.far import pull_off_force
@@ -60,6 +61,24 @@ def test_many_waves(name: str, waves: float) -> None:
         for other in (0.999, 1.001):
             if other * radius < scene["a_max_over_R"]:
                 assert pull_off_force(scene, shape, other * radius) < expected
+
+
+@pytest.mark.parametrize("waves", [1.23e7, 3.1234567e7])
+@pytest.mark.parametrize("k", [0.0, 0.1, 0.4])
+def test_a_short_wave(waves: float, k: float) -> None:
+    """At a trough and at rims just before it, where the phase of harmonic 24 needs more than the digits of one double.
+
+    With a place in one double, and the phase to first order in the rest of it, forces were off by 1 to 20 stated errors.
+    """
+    shape = Shape(2.0, ((1, 0.3, 0.2), (24, 0.5, -0.4)))
+    scene = _scene(shape, waves, 0.05, 1.0, k)
+    trough = float(solve(scene, NAMES, profile=_profile(shape))["pull_off_radius"])
+    for back in (0, 1, 6, 20):
+        here = scene | ({"a_max_over_R": trough * (1.0 - back * 1.2e-16)} if back else {})
+        found = solve(here, NAMES, profile=_profile(shape))
+        force, radius, error = (float(found[name]) for name in NAMES)
+        assert bool(found["status"] & PULL_OFF_AT_RIM) == (back > 0)
+        assert abs(force - float(pull_off_force(here, shape, radius))) <= error, here
 
 
 def test_a_sine_at_its_rim() -> None:
