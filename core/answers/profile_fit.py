@@ -7,7 +7,7 @@ The numbers that are not linear, m, lambda and r0, are searched by profile_searc
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,6 +16,13 @@ from threadpoolctl import threadpool_limits
 from gradhesion.core.answers.profile_search import Search
 from gradhesion.core.problem.profile import MOST_HARMONICS, Harmonic, Profile
 from gradhesion.core.types import Floats
+
+_FEWEST: Final = 8
+"""Points that are fitted, at least."""
+_WRONG_WAY: Final = (
+    "the height does not grow with the distance from the centre; it is to grow away from the half-space, "
+    "so reverse its sign, or name another part of the profile with up_to"
+)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -94,7 +101,8 @@ def fit_profile(
     ----------
     r
         Places along a line through the axis, in any unit. Where some are negative, or both ends are well above the
-        lowest height, it is a line over both flanks, whose centre is fitted; otherwise the axis is at 0.
+        lowest height, it is a line over both flanks, whose centre is fitted; otherwise the axis is at 0, and the first
+        place within half of the last one of it.
     height
         Height of the punch above them, in the same unit: it grows away from the half-space.
     up_to
@@ -131,13 +139,23 @@ def fit_profile(
     if exponent is not None and not 1.0 < exponent < math.inf:
         raise ValueError(f'exponent = {exponent}: it is above 1 (a cone of any slope has exponent = "fit"), and finite')
     places, heights = _in_order(places, heights)
-    both = bool(places[0] < 0.0) or _is_lowest_inside(heights)
-    centre = _vertex(places, heights) if both else 0.0
+    vertex = _vertex(places, heights) if places.size >= _FEWEST else 0.0
+    if vertex is None and places[0] < 0.0:
+        raise ValueError(_WRONG_WAY)
+    both = vertex is not None and (
+        bool(places[0] < 0.0) or (places[0] < vertex < places[-1] and _is_lowest_inside(heights))
+    )
+    centre = vertex if vertex is not None and both else 0.0
+    if not both and places[0] > 0.5 * (places[-1] if up_to is None else up_to):
+        raise ValueError(
+            f"no heights within {places[0]:g} of the axis, which is at r = 0; shift r, so that it is the distance from "
+            "the axis"
+        )
     reach = float(np.max(np.abs(places - centre))) if up_to is None else float(up_to)
     inside = np.abs(places - centre) <= reach * (1.0 + 0.05 * both)  # the centre moves by less
     places, heights = places[inside], heights[inside]
     unknown = 2 + 2 * terms + 1 + (exponent is None) + both
-    if places.size < max(8, 2 * unknown):
+    if places.size < max(_FEWEST, 2 * unknown):
         raise ValueError(
             f"{places.size:,} points within {reach:g} of the centre are too few for {terms} terms, which take "
             f"{2 * unknown}; use fewer terms or a larger up_to"
@@ -170,12 +188,14 @@ def _is_lowest_inside(heights: Floats) -> bool:
     return ends - float(heights.min()) > 0.25 * float(np.ptp(heights))
 
 
-def _vertex(places: Floats, heights: Floats) -> float:
-    """Return the vertex of the parabola that fits points (n,) best; an end of the line if it has none within."""
+def _vertex(places: Floats, heights: Floats) -> float | None:
+    """Return the vertex of the parabola that fits points (n,) best, or the end of the line next to it.
+
+    None if the parabola does not open upwards.
+    """
     middle, half = 0.5 * (places[0] + places[-1]), 0.5 * (places[-1] - places[0]) or 1.0
     bend, slope, _ = np.polyfit((places - middle) / half, heights, 2)
-    x = -0.5 * slope / bend if bend > 0.0 else (1.0 if slope < 0.0 else -1.0)
-    return float(middle + half * np.clip(x, -1.0, 1.0))
+    return float(middle + half * np.clip(-0.5 * slope / bend, -1.0, 1.0)) if bend > 0.0 else None
 
 
 def _described(search: Search, vector: Floats) -> FittedProfile:
@@ -186,10 +206,7 @@ def _described(search: Search, vector: Floats) -> FittedProfile:
     found = np.linalg.lstsq(columns * roots[:, None], search.y * roots, rcond=None)[0]
     linear = np.asarray(found, dtype=np.float64)
     if not linear[1] > 0.0:
-        raise ValueError(
-            "the height does not grow with the distance from the centre; it is to grow away from the half-space, "
-            "so reverse its sign, or name another part of the profile with up_to"
-        )
+        raise ValueError(_WRONG_WAY)
     count = (columns.shape[1] - 2) // 2
     rho, left = np.abs(search.x - centre), (search.y - columns @ linear) * unit
     order = np.argsort(rho)
