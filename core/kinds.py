@@ -87,14 +87,18 @@ MANY_SMOOTH: Final = 4096
 MANY_WAVES: Final = {"": 80.0, "general_": 512.0}
 """Waves within a rim up to which all are walked, so that no kernels of long curves are needed: of one cosine, and of
 the shortest harmonic of other profiles."""
-_OF_COSINE: Final = ("force", "energy", "long", "envelope", "sensitivities", "long_sensitivities")
-"""Kinds whose loops over curves are entries of the same name (scene/solvers.py)."""
+_OF_ONE_NAME: Final = (
+    ("force", "energy", "long", "envelope", "sensitivities", "long_sensitivities"),
+    ("general_force", "general_energy", "general_sensitivities", "patterned", "patterned_sensitivities"),
+    ("general_long", "general_long_sensitivities"),
+    ("general_turning", "patterned_turning"),
+    ("general_reports", "patterned_reports"),
+    ("curves", "general_curves", "patterned_curves"),
+)
+"""Kinds whose loops over curves are entries of the same name (scene/solvers.py, scene/general.py)."""
 APART: Final = (
-    *({one, other} for one, other in combinations(_OF_COSINE, 2)),
+    *({one, other} for kinds in _OF_ONE_NAME for one, other in combinations(kinds, 2)),
     *({"smooth", other} for other in ("force", "energy", "envelope")),
-    *({one, other} for one, other in combinations(("curves", "general_curves", "patterned_curves"), 2)),
-    {"general_long", "general_sensitivities"},
-    *({"general_force", other} for other in ("general_energy", "general_sensitivities")),
 )
 """Kinds that do not need each other, and yet compile entries of the same name: not to be compiled side by side."""
 KINDS: Final = tuple(NEEDS)

@@ -98,6 +98,10 @@ def fit_of_a_loop() -> None:
         ("long_sensitivities", [lambda s: solve(s | FAR, SENSITIVITIES[1:])]),
         ("general_force", [lambda s: solve(s, ["pull_off_force"], **OTHERS)]),
         ("general_energy", [lambda s: solve(s, OUTPUTS, **OTHERS), lambda s: solve(s, OUTPUTS, **BY_LOAD)]),
+        (
+            "general_long",
+            [lambda s: solve(s | FAR, OUTPUTS, **OTHERS), lambda s: solve(s | FAR | SPRING, OUTPUTS, **BY_MACHINE)],
+        ),
         ("general_reports", [lambda s: solve(s, REPORTS, **OTHERS), lambda s: solve(s, NOT_OF_A_LOAD, **BY_LOAD)]),
         ("general_turning", [lambda s: solve(s | DEEP, OUTPUTS, **OTHERS), lambda s: solve(s | DEEP, **BY_LOAD)]),
         (
@@ -107,6 +111,7 @@ def fit_of_a_loop() -> None:
                 lambda s: solve(s | SPRING, SENSITIVITIES[1:], loading=Loading(control="machine")),
             ],
         ),
+        ("general_long_sensitivities", [lambda s: solve(s | FAR, SENSITIVITIES, **OTHERS)]),
         ("general_envelope", [lambda s: solve(s, solver="envelope", **OTHERS)]),
         (
             "general_curves",
