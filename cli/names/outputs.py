@@ -20,7 +20,7 @@ OUTPUTS: Final = {
     "dissipated_energy": "energy dissipated in a loading cycle, H/(R^2 dgamma)",
     "loading_jumps": "number of jumps on loading, including the jump-in",
     "unloading_jumps": "number of jumps on unloading, including the jump-out",
-    "delta_max": "greatest indentation depth delta/R of the cycle",
+    "delta_max": "indentation depth delta/R at which unloading starts, the greatest if the depth is controlled",
     "delta_jump_out": "indentation depth delta/R at the jump-out",
     "loading_energy": "energy dissipated on loading, H/(R^2 dgamma)",
     "unloading_energy": "energy dissipated on unloading, H/(R^2 dgamma)",
