@@ -49,7 +49,11 @@ def basins_of(heights: Floats) -> tuple[tuple[Integers, ...], Floats]:
 
 
 def is_new(heights: Floats, places: Floats) -> Truths:
-    """Report for each cell whether a sweep at half the resolution has no basin where its optimum is."""
+    """Report for each cell, shape (cells,), whether a sweep at half the resolution has no basin where its optimum is.
+
+    `heights` are the values of the sweep, of shape (points of each searched input..., cells), `places` the optima on a
+    scale from 0 to 1, of shape (searched inputs, cells), NaN where there is none.
+    """
     coarse = heights[(*(slice(None, None, 2) for _ in heights.shape[1:]), slice(None))]
     indices = np.nonzero(_peaks(coarse))
     shown: Truths = np.any(np.isnan(places), axis=0)  # where nothing is feasible no optimum is missed

@@ -13,7 +13,8 @@ from gradhesion.core.face import window
 from gradhesion.core.harmonics.series import highest_harmonic
 from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.numbers.intrinsics import fma
-from gradhesion.core.path.general_long import FEW, LONGEST_WALK, REGULAR, Middle, Tasks, middle_of, stride
+from gradhesion.core.path.general_long import Tasks, stride
+from gradhesion.core.path.general_middle import FEW, LONGEST_WALK, REGULAR, Middle, middle_of
 from gradhesion.core.path.pieces import notes_for
 from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.results import (

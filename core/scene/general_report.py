@@ -31,16 +31,8 @@ from gradhesion.core.harmonics.series import integrals
 from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.numbers.intrinsics import fma
 from gradhesion.core.path.general import walk
-from gradhesion.core.path.general_long import (
-    FEW,
-    LONGEST_WALK,
-    NEAR_END,
-    REGULAR,
-    Tasks,
-    middle_of,
-    regular_waves,
-    stride,
-)
+from gradhesion.core.path.general_long import Tasks, stride
+from gradhesion.core.path.general_middle import FEW, LONGEST_WALK, NEAR_END, REGULAR, middle_of, regular_waves
 from gradhesion.core.path.loading import highest_depth, loading_to
 from gradhesion.core.path.pieces import notes_for
 from gradhesion.core.path.unloading import descend, leave_rim, unloading_from

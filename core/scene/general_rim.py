@@ -20,7 +20,7 @@ from gradhesion.core.face import depth_at
 from gradhesion.core.harmonics.series import highest_harmonic
 from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.general import depth_at_full_contact, walk
-from gradhesion.core.path.general_long import LONGEST_WALK
+from gradhesion.core.path.general_middle import LONGEST_WALK
 from gradhesion.core.path.loading import highest_depth, jumps_in_to, loading_to
 from gradhesion.core.path.ties import is_close_to_a_jump
 from gradhesion.core.path.unloading import jumps_out_from, unloading_from

@@ -200,9 +200,10 @@ def _solve_block(count: int, block: Block, slots: Slots, far: bool) -> None:
 def _solve_run(
     number: int, rims: Floats, curve: int, place: int, curves: Block, scenes: Block, results: Results
 ) -> int:
-    """Solve the rims (curves, rims) of a curve from `number` on that are far out, if they fill a block: none matters.
+    """Solve at once the run of rims, from `number` on, that are too far out to change any result of a curve.
 
-    Return how many they are, and 0 if they do not. The curve stands at `place` of the block of curves.
+    `rims` are a_max/R, of shape (curves, rims) or (1, rims); the curve is number `curve` of all, and stands at `place`
+    of the block of curves. Return how many rims they are, and 0 if they would not fill a block of scenes.
     """
     slots, out, status = results
     row, end = curve if rims.shape[0] > 1 else 0, number

@@ -18,7 +18,7 @@ from gradhesion.core.curve.general_folds import MOST_CELLS, MOST_FOLDS, room
 from gradhesion.core.face import is_always_one_disc, measured_by, reach, window
 from gradhesion.core.harmonics.series import highest_harmonic
 from gradhesion.core.path.general import is_at_a_fold, walk
-from gradhesion.core.path.general_long import FEW, LONGEST_WALK, REGULAR, middle_of
+from gradhesion.core.path.general_middle import FEW, LONGEST_WALK, REGULAR, middle_of
 from gradhesion.core.path.ties import rim_is_close
 from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE, TOO_MANY_WAVES

@@ -10,7 +10,8 @@ from gradhesion.core.curve.branches import END, END_DEPTH, ROWS, ends
 from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.curve.general_branches import Rows, fill_branches, find_level
 from gradhesion.core.curve.general_folds import MOST_FOLDS, Zeros, find_folds, room
-from gradhesion.core.path.general_long import Middle, first_that_reaches, folds_before, last_of_climb, places_between
+from gradhesion.core.path.general_long import first_that_reaches, folds_before, last_of_climb
+from gradhesion.core.path.general_middle import Middle, places_between
 from gradhesion.core.path.loading import load_up
 from gradhesion.core.turning.corners import ROWS as CORNER_ROWS
 from gradhesion.core.turning.corners import Found, Place, append_corners, corners_of, first_reached
@@ -85,7 +86,7 @@ def turn_far(
 ) -> tuple[bool, Found, float]:
     """Return where loading reaches a target on a long curve up to x = `furthest`; there is no fold before `first`.
 
-    `middle` is what `middle_of` of path/general_long.py has returned, REGULAR. Returned are whether it could be done,
+    `middle` is what `middle_of` of path/general_middle.py has returned, REGULAR. Returned are whether it could be done,
     what it has found, and the whole waves beyond which the place is given.
     """
     _, _, series = basis

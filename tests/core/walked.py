@@ -25,7 +25,8 @@ from gradhesion.core.face import loss_between, loss_from_zero, loss_to_zero
 from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path import unloading
 from gradhesion.core.path.cosine import extent, is_long, is_unresolved, walk
-from gradhesion.core.path.general_long import LONGEST_WALK, REGULAR, folds_before, middle_of
+from gradhesion.core.path.general_long import folds_before
+from gradhesion.core.path.general_middle import LONGEST_WALK, REGULAR, middle_of
 from gradhesion.core.path.pieces import Piece, State, climb, descend, leave, leave_rim, notes_for, reach_rim
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness

@@ -16,7 +16,7 @@ from gradhesion.core.curve.general_folds import MOST_FOLDS, room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.general import walk
-from gradhesion.core.path.general_long import REGULAR, middle_of
+from gradhesion.core.path.general_middle import REGULAR, middle_of
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import RESULTS
 from gradhesion.core.problem.shape import depth_factor_of, rows_of

@@ -19,7 +19,8 @@ from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.harmonics.series import sums
 from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.general import walk
-from gradhesion.core.path.general_long import REGULAR, Tasks, middle_of, stride
+from gradhesion.core.path.general_long import Tasks, stride
+from gradhesion.core.path.general_middle import REGULAR, middle_of
 from gradhesion.core.path.loading import highest_depth, loading_to
 from gradhesion.core.path.unloading import unloading_from
 from gradhesion.core.problem.material import stiffness
