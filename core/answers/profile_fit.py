@@ -146,11 +146,6 @@ def fit_profile(
         bool(places[0] < 0.0) or (places[0] < vertex < places[-1] and _is_lowest_inside(heights))
     )
     centre = vertex if vertex is not None and both else 0.0
-    if not both and places[0] > 0.5 * (places[-1] if up_to is None else up_to):
-        raise ValueError(
-            f"no heights within {places[0]:g} of the axis, which is at r = 0; shift r, so that it is the distance from "
-            "the axis"
-        )
     reach = float(np.max(np.abs(places - centre))) if up_to is None else float(up_to)
     inside = np.abs(places - centre) <= reach * (1.0 + 0.05 * both)  # the centre moves by less
     places, heights = places[inside], heights[inside]
@@ -159,6 +154,11 @@ def fit_profile(
         raise ValueError(
             f"{places.size:,} points within {reach:g} of the centre are too few for {terms} terms, which take "
             f"{2 * unknown}; use fewer terms or a larger up_to"
+        )
+    if not both and places[0] > 0.5 * reach:
+        raise ValueError(
+            f"no heights within {places[0]:g} of the axis, which is at r = 0; shift r, so that it is the distance from "
+            "the axis"
         )
     search = Search(places, heights, reach, terms, exponent, centre if both else None)
     with threadpool_limits(1):  # matrices of a few columns: threads only wait for each other

@@ -124,7 +124,7 @@ def test_names_that_are_not_utf_8(
     assert os.listdir("a/b.nc.parts") == []
     Path("o\udcff.nc").touch()
     for command in ("info", "plot", "explore", "verify", "merge", "status"):
-        assert gradhesion(command, "o\udcff.nc").exit_code == (0 if command == "status" else 2)
+        assert gradhesion(command, "o\udcff.nc").exit_code == 2
 
 
 @pytest.mark.parametrize("name", ["/", ".", "..", "", "x" * 300, "x" * 250 + ".nc", "a/../.."])

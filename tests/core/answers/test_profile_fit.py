@@ -133,7 +133,7 @@ WRONG = {
     "falls in waves": ((R, -(R**2) - 0.4 * (1.0 - np.cos(8.0 * np.pi * R))), {"terms": 4}, "reverse its sign"),
     "falls on both sides": ((R - 0.5, -((R - 0.5) ** 2)), {"terms": 2}, "reverse its sign"),
     "far from the axis": ((R + 2.5, R**2 + 0.01 * np.cos(30.0 * R)), {"terms": 2}, "no heights within 2.5 of the axis"),
-    "a few far from the axis": ((R[:2] + 2.5, R[:2]), {"terms": 2}, "no heights within 2.5 of the axis"),
+    "a few far from the axis": ((R[:2] + 2.5, R[:2]), {"terms": 2}, "too few for 2 terms"),
     "no function": ((np.append(R, 0.5025125628140703), np.append(R**2, 0.7)), {}, "not a function of r: r = 0.502513"),
     "nan": ((R, np.where(R > 0.5, np.nan, R)), {}, "finite"),
     "lengths": ((R, R[1:]), {}, "one length"),

@@ -131,6 +131,6 @@ def test_windows(k: float, a: float) -> None:
 
 
 def test_the_shortest_wave() -> None:
-    (table, bins, rows), curve = _scene(0.3, 2.0, MIXED)
-    assert panels_of((table, bins, rows), curve)[0] == 1 / 3
-    assert panels_of((table, bins, rows_of(Profile())[:0]), curve)[0] == math.inf
+    basis, curve = _scene(0.3, 2.0, MIXED)
+    assert panels_of(basis, curve)[0] == 1 / 3
+    assert panels_of(basis._replace(series=rows_of(Profile())[:0]), curve)[0] == math.inf

@@ -23,6 +23,7 @@ from gradhesion.core.warmup import SCENE
 MANY = {"start": 1.0, "stop": 100.0, "num": MANY_SMOOTH}
 SMOOTH: dict[str, Any] = {"parameters": SCENE | {"A": [0.0, 0.1], "modulus": MANY}}
 """A study half of whose scenes are smooth."""
+TWO = {"harmonics": [{"n": 1, "cos": 1.0}, {"n": 2, "cos": 0.1}]}
 
 
 @pytest.fixture
@@ -82,7 +83,9 @@ def test_each_kind_comes_once_and_after_those_that_it_needs(compiled: list[str])
         (SMOOTH | {"outputs": ["pull_off_force_sensitivity"]}, ("energy", "sensitivities")),
         ({"method": {"solver": "asymptotic"}, "profile": {"exponent": 1.5}}, ("asymptotic",)),
         (SMOOTH | {"loading": {"control": "load"}}, ("general_energy",)),
-        ({"profile": {"exponent": 1.5}}, ("general_energy",)),
+        ({"profile": {"exponent": 1.5}}, ("general_energy", "general_long")),
+        ({"profile": {"exponent": 1.5}, "parameters": SCENE}, ("general_energy",)),
+        ({"profile": TWO, "parameters": SCENE | {"a_max_over_R": 30.0}}, ("general_energy", "general_long")),
         ({"loading": {"control": "load"}, "outputs": ["pull_off_force"]}, ("general_force",)),
         ({"kind": "curve", "outputs": ["path"]}, ("curves",)),
     ],
