@@ -30,8 +30,8 @@ SCENE: Final[dict[str, float]] = {
     "A": 0.03,
     "a_max_over_R": 0.5,
 }
-FAR: Final = {"lambda_over_R": 1e-3, "a_max_over_R": 0.5}
-"""Hundreds of waves that fold."""
+FAR: Final = {"lambda_over_R": 1e-3, "a_max_over_R": 1.0}
+"""A thousand waves that fold: more than are walked of any profile."""
 SPRING: Final[dict[str, float]] = {"machine_stiffness": 3.0}
 LOOPS: Final = ("force", "energy", "general_force", "general_energy")
 """The kinds whose loop over curves can be compiled before the tables that it reads."""

@@ -23,6 +23,7 @@ from gradhesion.core import (
     solve,
     watch_compilation,
 )
+from gradhesion.core.arrays import cosine, general
 from gradhesion.core.arrays.rate import close_at_speed, open_at_speed
 from gradhesion.core.curves import GENERAL_CURVES
 from gradhesion.core.loops.paths.misfit import Data, Misfit
@@ -155,6 +156,16 @@ def test_nothing_is_left_to_compile(kind: str, works: list[Any]) -> None:
         for work in works:
             for change in ({}, {"k": 0.0, "A": 0.0}, {"k": 1.0, "nu": 0.5, "a_max_over_R": math.inf}):
                 work(SCENE | change)
+
+
+def test_the_scene_of_many_waves_is_left_for_their_loops(monkeypatch: pytest.MonkeyPatch) -> None:
+    left: list[str] = []
+    monkeypatch.setattr(cosine, "LONG_LOOP", lambda *_: left.append("one cosine"))
+    monkeypatch.setattr(general, "solve_left", lambda *_: left.append("any profile"))
+    solve(SCENE | FAR, OUTPUTS)
+    solve(SCENE | FAR, OUTPUTS, **OTHERS)
+    solve(SCENE | FAR | SPRING, OUTPUTS, **BY_MACHINE)
+    assert left == ["one cosine", "any profile", "any profile"]
 
 
 @pytest.mark.parametrize("kind", LOOPS)
