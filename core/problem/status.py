@@ -22,6 +22,8 @@ NO_VALUE: Final = 64
 NO_CONTACT: Final = 1024
 """The depth at which the cycle turns is below first contact: force, energies and jumps are 0, radii NaN. In studies
 that turn at a depth only, whose `status` is int16."""
+LEFT: Final = 128
+"""No flag: the loops over curves (scene/solvers.py, scene/general.py) mark rims so that a second loop is to solve."""
 TOO_MANY_WAVES: Final = 8192
 """The contact contains more waves than can be followed one by one: the values are NaN. In studies of patterns of
 toughness or of a speed only, whose `status` is int16."""

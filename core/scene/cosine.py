@@ -45,7 +45,7 @@ from gradhesion.core.problem.results import (
     wants_force,
     wants_losses,
 )
-from gradhesion.core.problem.status import JUMP_IN_TO_RIM, NO_VALUE, PULL_OFF_AT_RIM
+from gradhesion.core.problem.status import JUMP_IN_TO_RIM, LEFT, NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.pull_off.cosine import lowest_load
 from gradhesion.core.scene.cosine_rim import read_rim, slopes_of, walked_to
 from gradhesion.core.scene.scene import Scene, put_pull_off
@@ -127,6 +127,7 @@ def _solve_cycle(
         if is_unresolved(arches, x):
             scene.results.status[i] |= NO_VALUE
         elif is_long(table, arches, x):
+            scene.results.status[i] |= LEFT
             long = True
         else:
             furthest = max(furthest, x)

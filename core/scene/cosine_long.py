@@ -15,7 +15,7 @@ from gradhesion.core.curve.cosine import Cosine, curve_of
 from gradhesion.core.face import is_always_one_disc
 from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.numbers.lanes import LANES, Lanes, eight, lane_of, next_lane
-from gradhesion.core.path.cosine import LARGEST, extent, is_endless_wave, is_long, is_smooth, is_unresolved
+from gradhesion.core.path.cosine import extent
 from gradhesion.core.path.cosine_long import NEAR_RIM, Long, begin_long, ends_folds, stride
 from gradhesion.core.path.cosine_rims import FURTHEST, cycle_among, is_close_among, stand_at_once
 from gradhesion.core.path.cosine_waves import is_reported
@@ -27,10 +27,9 @@ from gradhesion.core.problem.results import (
     Results,
     put,
     wants_cycle,
-    wants_folds,
     wants_losses,
 )
-from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC
+from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LEFT, LOADING_NOT_ONE_DISC
 from gradhesion.core.scene.cosine import mark_unresolved
 from gradhesion.core.scene.cosine_rim import Walked, read_rim, slopes_of, walked_to
 from gradhesion.core.scene.scene import Scene, put_cycle
@@ -146,9 +145,9 @@ def _solve_long(
     furthest, told = 0.0, is_reported(table, curve, final)
     number, indices, places = NONE, eight(0.0), eight(math.nan)
     for i in range(rims.size):
-        x = rims[i] / scene.wavelength
-        if is_unresolved(arches, x) or not is_long(table, arches, x):
+        if not scene.results.status[i] & LEFT:
             continue
+        x = rims[i] / scene.wavelength
         if told and ends_folds(table, arches, x):
             furthest = max(furthest, x)
         elif ends_folds(table, arches, x) or 2.0 * x > FURTHEST:
@@ -169,7 +168,7 @@ def _solve_long(
     slopes = slopes_of(table, curve, sensed, walked, final)
     for i in range(rims.size):
         x = rims[i] / scene.wavelength
-        if not is_unresolved(arches, x) and is_long(table, arches, x) and ends_folds(table, arches, x):
+        if scene.results.status[i] & LEFT and ends_folds(table, arches, x):
             read_rim(table, curve, walked, scene, x, i, sensed, slopes)
 
 
@@ -185,21 +184,11 @@ def solve_left(
     sense: AnySense,
 ) -> None:
     """Follow the cycles of one curve for the rims that `solve_curve` (scene/cosine.py) leaves, with its arguments."""
-    if not wants_folds(results.slots) or is_endless_wave(wavelength, amplitude):
-        return
     curve, length, depth_scale = curve_of(table.k, stretch, wavelength, amplitude * wavelength)
-    if not (0.0 < curve.bend < LARGEST and curve.gain < LARGEST):
-        return
     arches = extent(table, curve)
-    if is_smooth(arches):
-        return
-    left = False
-    for i in range(rims.size):
-        x = rims[i] / wavelength
-        left = left or (is_long(table, arches, x) and not is_unresolved(arches, x))
-    if not left:
-        return
     scene = Scene(wavelength, length, TWO_PI * length * length, depth_scale, results)
     sensed = sensed_by(table, sense, stretch, wavelength, amplitude)
     _solve_long(table, curve, arches, scene, rims, scratch, sensed)
+    for i in range(rims.size):
+        results.status[i] &= ~LEFT
     mark_unresolved(wavelength, rims, results)

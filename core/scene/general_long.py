@@ -27,8 +27,9 @@ from gradhesion.core.problem.results import (
     put,
     wants_losses,
 )
-from gradhesion.core.scene.general_rim import only, put_rim, shares_trace, walked
-from gradhesion.core.scene.scene import Scene, refuse
+from gradhesion.core.problem.status import LEFT
+from gradhesion.core.scene.general_rim import only, put_rim, walked
+from gradhesion.core.scene.scene import Scene, has_left, refuse
 from gradhesion.core.sensitivities.general_slopes import NOTES, put_noted, sensed_by
 from gradhesion.core.sensitivities.wanted import AnySense
 from gradhesion.core.types import Floats
@@ -101,15 +102,16 @@ def _follow_alone(
 def solve_left(basis: Basis, curves: GeneralCurves, results: Results, sense: AnySense) -> None:
     """Follow the cycles of the rims that `solve_scenes` (scene/general.py) leaves, with its arguments."""
     for i in curves.numbers:
-        made = curve_at(basis, curves, i)
-        if not made.valid:
-            continue
         own = Results(results.slots, results.out[:, i], results.status[i])
+        if not has_left(own.status):
+            continue
+        made = curve_at(basis, curves, i)
         waves, rims = Basis(basis.table, made.cosine_bins, made.series), rims_of(curves, i)
         bounds = window(waves, made.curve)
         scene = Scene(made.wavelength, made.length, TWO_PI * made.length * made.length, made.depth, own)
         sensed = sensed_by(sense, curves, made, i)
         places = rims / made.wavelength
         for rim in range(rims.size):
-            if rims[rim] > 0.0 and not shares_trace(waves, made.curve, bounds, places[rim]):
+            if own.status[rim] & LEFT:
+                own.status[rim] &= ~LEFT
                 _follow_alone(waves, made.curve, scene, bounds, rims, places, rim, sensed)

@@ -35,7 +35,7 @@ from gradhesion.core.problem.results import (
     put,
     wants_losses,
 )
-from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC
+from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LEFT, LOADING_NOT_ONE_DISC
 from gradhesion.core.scene.scene import Scene, put_cycle, refuse
 from gradhesion.core.sensitivities.general_slopes import put_energy, slopes_of
 from gradhesion.core.sensitivities.wanted import AnySense
@@ -168,4 +168,5 @@ def shares_trace(basis: Basis, curve: Series, bounds: tuple[float, float], x: fl
 @kernel()
 def is_left(curve: Series, results: Results, i: int) -> bool:  # noqa: ARG001
     """Return whether rim number i, which shares no trace, is left for scene/general_long.py; refuse it if it is not."""
+    results.status[i] |= LEFT
     return True

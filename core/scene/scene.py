@@ -19,7 +19,8 @@ from gradhesion.core.problem.results import (
     Results,
     put,
 )
-from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, NO_VALUE, PULL_OFF_AT_RIM
+from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LEFT, NO_VALUE, PULL_OFF_AT_RIM
+from gradhesion.core.types import Bits
 
 
 class Scene(NamedTuple):
@@ -38,6 +39,15 @@ def refuse(results: Results, i: int) -> None:
     for row in range(CONTACT):
         put(results, row, i, math.nan)
     results.status[i] = NO_VALUE
+
+
+@kernel()
+def has_left(status: Bits) -> bool:
+    """Return whether any rim of a curve, of shape (rims,), is marked as left for the loop of long curves."""
+    left = False
+    for i in range(status.size):
+        left = left or status[i] & LEFT != 0
+    return left
 
 
 @kernel()

@@ -15,6 +15,7 @@ from gradhesion.core.problem.curves import Curves, is_in_range
 from gradhesion.core.problem.results import Results
 from gradhesion.core.scene import cosine as scene
 from gradhesion.core.scene.cosine_long import solve_left
+from gradhesion.core.scene.scene import has_left
 from gradhesion.core.sensitivities.cosine_slopes import of_curve
 from gradhesion.core.sensitivities.wanted import AnySense
 from gradhesion.core.struve.current import ready
@@ -38,14 +39,17 @@ def loop_of(solver: int) -> Callable[..., int]:
         tables, which, index, stiffness, wavelengths, amplitudes, rims = curves
         table = tables[0]
         stretch_factor = math.nan
-        left = 0
+        left, known = 0, -1
         for j in range(index.size):
             i = index[j]
-            if j == 0 or which[j] != which[j - 1]:
-                table = tables[ready(tables, which[j])]
+            own = Results(results.slots, results.out[:, i], results.status[i])
+            if solver == LONG and not has_left(own.status):
+                continue
+            if which[j] != known:
+                known = which[j]
+                table = tables[ready(tables, known)]
                 stretch_factor = 2.0 ** (1.0 + table.k) * math.pi
             row = rims[i if rims.shape[0] > 1 else 0]
-            own = Results(results.slots, results.out[:, i], results.status[i])
             wavelength, amplitude = wavelengths[i], amplitudes[i]
             stretch = math.sqrt(stretch_factor / stiffness[i])  # s = sqrt(2^(1+k) pi dgamma/M)
             if not is_in_range(stretch, wavelength, amplitude):
