@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from gradhesion.core import KINDS, NEEDS, OUTPUTS, REPORTS, Harmonic, Loading, Profile
-from gradhesion.core.kinds import kind_of_curves, kind_of_map
+from gradhesion.core.kinds import MANY_WAVES, kind_of_curves, kind_of_map
+from gradhesion.core.path import cosine, general_middle
 
 
 @pytest.mark.parametrize(
@@ -81,3 +82,8 @@ def test_a_plain_interface_compiles_nothing_of_patterns(tmp_path: Path) -> None:
     names = {name for kind in kinds for name in kind}
     assert {"scene.general.solve_scenes", "turning.general.turn_scenes", "scene.general_report.report_scenes"} <= names
     assert {name for name in names if "pattern" in name} == set()
+
+
+def test_rims_without_long_curves_are_those_that_are_walked() -> None:
+    """What is announced needs no kernel: the numbers stand in core/kinds.py once more."""
+    assert MANY_WAVES == {"": 0.5 * cosine.LONGEST_WALK, "general_": general_middle.LONGEST_WALK}
