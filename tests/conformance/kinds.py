@@ -65,7 +65,8 @@ class Kind:
     @property
     def outputs(self) -> tuple[str, ...]:
         """All results of the kind."""
-        return (*OUTPUTS, *EDGE) if self.solver == "exact" else OUTPUTS
+        slope = ("contact_slope",) if self.unbounded else ()
+        return (*OUTPUTS, *EDGE, *slope) if self.solver == "exact" else OUTPUTS
 
     @property
     def waves_per_wavelength(self) -> int:
@@ -103,7 +104,8 @@ class Kind:
         if self.control == "machine":
             scenes["machine_stiffness"] = between(1e-2, 10.0)
         if self.turn:
-            scenes[self.turn] = length**2 * rng.uniform(-0.1, 2.5, count) if self.turn == DEPTH else between(0.02, 10.0)
+            depths, loads = length**2 * rng.uniform(-0.1, 2.5, count), length ** (self.exponent - 2) * between(0.02, 10.0)
+            scenes[self.turn] = depths if self.turn == DEPTH else loads
         if self.ratio:
             scenes["closing_ratio"] = rng.choice([0.0, 1.0, *rng.uniform(0, 1, 6)], count)
         if self.pattern:
