@@ -127,16 +127,22 @@ def short(k: float, chi: float, ratio: float) -> Scenes:
 @pytest.mark.parametrize("k", [0.0, 0.31, 0.8])
 @pytest.mark.parametrize("waves", [((1, 1.0, 0.0),), ((1, 0.6, 0.8),)], ids=["cosine", "shifted"])
 def test_short_waves_follow_their_envelopes(k: float, waves: Any) -> None:
-    """Force -> (3 + k)/3 (1 + chi)^2 and energy -> that of the envelopes, in proportion to lambda."""
-    chi, off = 0.4, []
+    """Force -> (3 + k)/3 (1 + chi)^2 in proportion to lambda; energy -> that of the envelopes.
+
+    The envelopes leave out the mean height lambda A of a cosine, by which the depth of the jump into contact is moved:
+    it falls as lambda^((1-k)/2) at a given chi, and is compared with L^2, the depth that a smooth cycle has.
+    """
+    chi, off, allowed = 0.4, [], []
     kind = Kind("short", waves=waves)
-    ratios = (0.2, 0.02, 0.002)
-    for ratio in ratios:
-        found, even = kind.solve(short(k, chi, ratio)), at(kind, solver="envelope").solve(short(k, chi, ratio))
+    for ratio in (0.2, 0.02, 0.002):
+        scene = short(k, chi, ratio)
+        found, even = kind.solve(scene), at(kind, solver="envelope").solve(scene)
         assert float(even["pull_off_force"]) == pytest.approx((3 + k) / 3 * (1 + chi) ** 2, rel=1e-11)
         names = ("pull_off_force", "dissipated_energy")
         off.append([abs(float(found[name]) / float(even[name]) - 1) for name in names])
-    assert (np.array(off[2]) <= 3 * ratios[2]).all(), off
+        length = scene["lambda_over_R"] / ratio
+        allowed.append([ratio, 3 * ratio + scene["lambda_over_R"] * scene["A"] / length**2])
+    assert (np.array(off) <= np.array(allowed)).all(), (off, allowed)
     assert (np.array(off[2]) <= 0.3 * np.array(off[0])).all(), off
 
 
@@ -197,7 +203,8 @@ def test_a_tiny_ratio_is_none(kind: Kind) -> None:
     for name in names:
         limit = errors(kind, scenes, none)[name] * 2 + 1e-8 * (np.abs(none[name]) + scenes["a_max_over_R"] ** 2)
         with np.errstate(invalid="ignore"):
-            assert ((np.abs(none[name] - tiny[name]) <= limit) | jumped).all(), name
+            same = (none[name] == tiny[name]) | (np.abs(none[name] - tiny[name]) <= limit)
+        assert (same | jumped).all(), name
 
 
 def test_waves_on_a_pair_of_works_are_a_smooth_pair() -> None:

@@ -7,12 +7,11 @@ With R = dgamma = 1 and z = 2 pi a/lambda (Jin, Guo & Wan 2013, sections 3 and 4
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import beta as euler_beta
 from scipy.special import gamma, jv, roots_jacobi, struve
 
 Array = NDArray[np.float64]
@@ -114,15 +113,21 @@ class Curve:
 
     def gaps(self, a: float, depth: float, radii: Array) -> Array:
         """The gap between the surfaces at radii > a, over (2/pi) cos(k pi/2), section 7; at k = 1 the integrand at r."""
+        return self._integrated(a, radii, lambda s: self.without_adhesion(s) - depth)
+
+    def edge_gap(self, a: float, pull: float, radii: Array) -> Array:
+        """The same with the integrand held at its value at the edge: what the pull of the edge alone opens."""
+        return self._integrated(a, radii, lambda s: np.full(s.shape, pull))
+
+    def _integrated(self, a: float, radii: Array, height: Callable[[Array], Array]) -> Array:
         k = self.k
         if k == 1.0:
-            return self.without_adhesion(radii) - depth
+            return height(radii)
         c = 0.5 * (1 - k)  # r^2 - s^2 = (r^2 - a^2) v takes the end of the integral into the weight v^(c-1)
         places, weights = roots_jacobi(80, 0.0, c - 1)
         v, weights = 0.5 * (1 + places), weights / 2**c
         s = np.sqrt(radii[:, None] ** 2 - (radii[:, None] ** 2 - a * a) * v)
-        height = self.without_adhesion(s.ravel()).reshape(s.shape) - depth
-        return np.asarray(0.5 * (radii**2 - a * a) ** c * ((s ** (k - 1) * height) @ weights))
+        return np.asarray(0.5 * (radii**2 - a * a) ** c * ((s ** (k - 1) * height(s)) @ weights))
 
     def loss(self, start: float, end: float, level: float, work: float = 1.0) -> float:
         """What a jump at constant depth loses, section 5: the integral of 2 pi a [work kappa^2 - rho^2]."""
@@ -141,7 +146,3 @@ def wave_size(k: Any, A: Any, wavelength: Any) -> Array:
     result: Array = np.pi ** ((1 - k) / 2) * gamma((1 + k) / 2) * A * np.asarray(wavelength) ** ((1 + k) / 2)
     return result
 
-
-def beta_half(k: float) -> float:
-    """The integral of (1-t^2)^((k-1)/2) over [0, 1]."""
-    return 0.5 * float(euler_beta(0.5, (1 + k) / 2))
