@@ -7,11 +7,12 @@ import pytest
 
 from gradhesion.core import OUTPUTS, PARAMETERS
 
-from .kinds import COUNTS, DEPTH, EXACT, LOAD, Kind, Scenes, drawn, name_of, rng_of, some
+from .faults import kinds_with
+from .kinds import COUNTS, DEPTH, EXACT, LOAD, Kind, Scenes, drawn, rng_of, some
 from .promises import CLOSE, NO_CONTACT, NO_VALUE, SENSITIVITY, SHARE, errors, has
 
 BOTH = ("pull_off_force_sensitivity", "dissipated_energy_sensitivity")
-EVERY = pytest.mark.parametrize("kind", [k for k in EXACT if not k.unbounded], ids=name_of)
+EVERY = pytest.mark.parametrize("kind", kinds_with("slopes", [k for k in EXACT if not k.unbounded]))
 
 
 def names_of(kind: Kind) -> list[str]:

@@ -8,6 +8,7 @@ from scipy.interpolate import CubicSpline
 
 from gradhesion.core import FLAGS, draw_curves
 
+from .faults import kinds_with
 from .kinds import BY_NAME, COUNTS, EXACT, Kind, Scenes, drawn, name_of, rng_of, some
 from .promises import CLOSE, has
 from .theory import Curve
@@ -46,7 +47,7 @@ def bisected(kind: Kind, scenes: Scenes, name: str, output: str) -> tuple[Scenes
     return tuple(some(scenes | {name: end}, use) for end in (low, high))  # type: ignore[return-value]
 
 
-@pytest.mark.parametrize("kind", [k for k in EXACT if not k.unbounded], ids=name_of)
+@pytest.mark.parametrize("kind", kinds_with("ties", [k for k in EXACT if not k.unbounded]))
 def test_scenes_on_a_tie_are_close_to_a_jump(kind: Kind) -> None:
     """A count is promised where the bit is not set: at one of two neighbouring doubles it may be either."""
     scenes = some(drawn(kind)[0], slice(48))
