@@ -9,11 +9,10 @@ from gradhesion.core.compiler.dispatch import face_of
 from gradhesion.core.compiler.jit import NO, NONE, kernel
 from gradhesion.core.contact.disc import is_surely_open
 from gradhesion.core.contact.least import least_opening
-from gradhesion.core.curve.branches import END_DEPTH, START, START_DEPTH, Trace, ends
+from gradhesion.core.curve.branches import START, START_DEPTH, Trace
 from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.curve.general import Basis, Made, Series, coordinate, curve_at, rims_of
-from gradhesion.core.curve.general_branches import find_level
 from gradhesion.core.curve.general_folds import MOST_CELLS, MOST_FOLDS, room
 from gradhesion.core.face import is_always_one_disc, measured_by, reach, window
 from gradhesion.core.harmonics.series import highest_harmonic
@@ -40,27 +39,26 @@ def is_first_contact(k: float, curve: Series, target: float) -> bool:
 
 
 @kernel()
-def is_one_disc(basis: Basis, curve: Series, count: int, trace: Trace, x: float, rim: float) -> bool:
-    """Return whether the contact that turns at x is one disc, out to the rim of the punch."""
-    if is_always_one_disc(basis, curve):
+def is_one_disc(basis: Basis, curve: Series, count: int, trace: Trace, furthest: float, x: float, rim: float) -> bool:
+    """Return whether the contact that turns at x is one disc, out to the rim of the punch.
+
+    Loading has not tested the contacts beyond x, so that every trough counts up to where the depth surely exceeds that
+    at x: waves of several lengths have deeper ones behind shallow ones. The trace knows all folds up to `furthest`.
+    """
+    if is_always_one_disc(basis, curve) or x > window(basis, curve)[1]:  # from there on the coordinate rises
         return True
-    level = coordinate(basis, curve, x)
-    lowest, end = math.inf, math.inf
-    for branch in range(count):
-        if trace[START, branch] <= x:
-            continue
-        lowest = min(lowest, trace[START_DEPTH, branch])
-        if trace[END_DEPTH, branch] > level:
-            end = find_level(basis, curve, level, ends(trace, branch), 0.0)
-            break
-    if end < math.inf and is_surely_open(basis, curve, x, level - lowest):
+    by_depth = measured_by(curve, NO)
+    end = min(rim, reach(basis, by_depth, coordinate(basis, by_depth, x)))
+    if not x < end:
         return True
-    if end == math.inf:
-        if x > window(basis, curve)[1]:  # from here on the coordinate rises
+    if end <= furthest:
+        lowest = coordinate(basis, curve, end)
+        for branch in range(count):
+            if x < trace[START, branch] < end:
+                lowest = min(lowest, trace[START_DEPTH, branch])
+        if is_surely_open(basis, curve, x, coordinate(basis, curve, x) - lowest):
             return True
-        end = reach(basis, curve, level)
-    end = min(end, rim)
-    return not x < end or least_opening(basis, curve, x, end) >= 0.0
+    return least_opening(basis, curve, x, end) >= 0.0
 
 
 @kernel()
@@ -103,7 +101,7 @@ def turn_walked(
             if not x < rims[i]:
                 level = coordinate(basis, curve, rims[i]) if rims[i] < math.inf else math.inf
                 close = close or rim_is_close(basis, curve, count, trace, rims[i], level)
-            elif check and not is_one_disc(basis, curve, count, trace, x, rims[i]):
+            elif check and not is_one_disc(basis, curve, count, trace, furthest, x, rims[i]):
                 flags[i] |= LOADING_NOT_ONE_DISC
             if close:
                 flags[i] |= CLOSE_TO_A_JUMP
@@ -137,7 +135,7 @@ def _turn_one_far(
         if found and whole + x < rim:
             if turns.check:
                 empty = np.empty((1, 0))
-                if not is_one_disc(basis, curve, NONE, empty, whole + x, rim):
+                if not is_one_disc(basis, curve, NONE, empty, 0.0, whole + x, rim):
                     flags |= LOADING_NOT_ONE_DISC
             return True, whole + x, flags, jumped
         if furthest >= rim:
