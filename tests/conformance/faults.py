@@ -15,7 +15,8 @@ def _fails(reason: str, *, strict: bool = True) -> pytest.MarkDecorator:
     return pytest.mark.xfail(strict=strict, reason=reason)
 
 
-FAULT_OF_EDGES: Final = _fails("front_energy and pinned_depth are 0 where there is no value; empty arrays are an error")
+FAULT_OF_EDGES: Final = _fails("front_energy and pinned_depth are 0 where there is no value, if no ratio is given")
+FAULT_OF_EMPTY_TURNS: Final = _fails("empty arrays of cycles that turn at a depth or a load are an error")
 FAULT_OF_RIMS: Final = _fails("pull_off_radius of short waves is a_max where that is out of range")
 FAULT_OF_WARNINGS: Final = _fails("a wavelength of 0 with a closing ratio warns of a division by zero")
 OF_SLOPES: Final = "energy sensitivities of a machine's cycle that turns where a jump lands differ from differences"

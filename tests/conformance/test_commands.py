@@ -39,6 +39,8 @@ def study(kind: Kind, folder: Path, parameters: Any) -> Path:
     """Write a study of a grid: lists are axes."""
     waves = ", ".join(f"{{ n = {n}, cos = {even!r}, sin = {odd!r} }}" for n, even, odd in kind.waves)
     lines = [f"{name} = {np.asarray(values).tolist()!r}" for name, values in parameters.items()]
+    stiffness = [line for line in lines if line.startswith("machine_stiffness")]
+    lines = [line for line in lines if line not in stiffness]
     path = folder / "study.toml"
     path.write_text(
         f"""title = "Scenes"
@@ -50,6 +52,7 @@ exponent = {kind.exponent!r}
 harmonics = [{waves}]
 [loading]
 control = "{kind.control}"
+{"".join(stiffness)}
 """,
         encoding="utf-8",
     )
@@ -78,16 +81,18 @@ def read(out: Path) -> tuple[dict[str, Any], dict[str, Any]]:
 
 @EVERY
 def test_by_command_in_blocks(name: str, gradhesion: Callable[..., Any], tmp_path: Path) -> None:
-    """One thread and two, and shards that are merged, have the values of one call."""
+    """One thread and two, and two studies that are merged, have the values of one call."""
     kind = BY_NAME[name]
-    path = study(kind, tmp_path, grid_of(kind))
+    grid = grid_of(kind)
     outputs = [tmp_path / f"{threads}.nc" for threads in (1, 2)]
     for threads, out in enumerate(outputs, 1):
-        assert gradhesion("run", path, "-o", out, "--threads", threads, "--quiet").exit_code == 0
-    outputs.append(tmp_path / "shards.nc")
-    for part in (1, 2):
-        assert gradhesion("run", path, "-o", outputs[2], "--shard", f"{part}/2", "--quiet").exit_code == 0
-    assert gradhesion("merge", outputs[2], "--quiet").exit_code == 0
+        assert gradhesion("run", study(kind, tmp_path, grid), "-o", out, "--threads", threads, "--quiet").exit_code == 0
+    parts = [tmp_path / "low.nc", tmp_path / "high.nc"]
+    for out, chosen in zip(parts, (slice(0, 1), slice(1, 3)), strict=True):
+        piece = study(kind, tmp_path, grid | {"A": grid["A"][chosen]})
+        assert gradhesion("run", piece, "-o", out, "--quiet").exit_code == 0
+    outputs.append(tmp_path / "all.nc")
+    assert gradhesion("merge", *parts, "-o", outputs[2], "--quiet").exit_code == 0
     expected = None
     for out in outputs:
         own, values = read(out)
