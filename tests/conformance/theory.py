@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 from scipy.special import gamma, jv, roots_jacobi, struve
 
 Array = NDArray[np.float64]
+Waves = tuple[tuple[int, float, float], ...]
+"""n, cos_n and sin_n of harmonics."""
 FORCE = 1.5 * math.pi
 """The unit of forces, 1.5 pi R dgamma."""
 
@@ -111,33 +113,18 @@ class Curve:
             return self.load(a)
         return np.asarray(self.depth(a) + self.compliance * FORCE * self.load(a))
 
-    def gaps(self, a: float, depth: float, radii: Array) -> Array:
-        """The gap between the surfaces at radii > a, over (2/pi) cos(k pi/2), section 7; at k = 1 the integrand at r."""
-        return self._integrated(a, radii, lambda s: self.without_adhesion(s) - depth)
+    def gaps(self, a: float, radii: Array, height: Callable[[Array], Array]) -> Array:
+        """Gaps at radii > a over (2/pi) cos(k pi/2), section 7, where delta_H exceeds the depth by a height.
 
-    def edge_gap(self, a: float, pull: float, radii: Array) -> Array:
-        """The same with the integrand held at its value at the edge: what the pull of the edge alone opens."""
-        return self._integrated(a, radii, lambda s: np.full(s.shape, pull))
-
-    def _integrated(self, a: float, radii: Array, height: Callable[[Array], Array]) -> Array:
-        k = self.k
-        if k == 1.0:
+        At k = 1 the integrand at r.
+        """
+        if self.k == 1.0:
             return height(radii)
-        c = 0.5 * (1 - k)  # r^2 - s^2 = (r^2 - a^2) v takes the end of the integral into the weight v^(c-1)
+        c = 0.5 * (1 - self.k)  # r^2 - s^2 = (r^2 - a^2) v takes the end of the integral into the weight v^(c-1)
         places, weights = roots_jacobi(80, 0.0, c - 1)
-        v, weights = 0.5 * (1 + places), weights / 2**c
-        s = np.sqrt(radii[:, None] ** 2 - (radii[:, None] ** 2 - a * a) * v)
-        return np.asarray(0.5 * (radii**2 - a * a) ** c * ((s ** (k - 1) * height(s)) @ weights))
-
-    def loss(self, start: float, end: float, level: float, work: float = 1.0) -> float:
-        """What a jump at constant depth loses, section 5: the integral of 2 pi a [work kappa^2 - rho^2]."""
-        x, weights = np.polynomial.legendre.leggauss(400)
-        low, high = min(start, end), max(start, end)
-        a = low + (high - low) * (0.5 + 0.5 * x) ** 4  # the branch point at a = 0
-        da = (high - low) * 2.0 * (0.5 + 0.5 * x) ** 3
-        delta = float(stretch(self.k, self.M)) * a ** ((1 - self.k) / 2)
-        density = work * self.toughness(a) ** 2 - ((self.without_adhesion(a) - level) / delta) ** 2
-        return float(math.copysign(1.0, end - start) * np.sum(weights * da * 2 * np.pi * a * density))
+        wide = radii[:, None] ** 2 - a * a
+        s = np.sqrt(radii[:, None] ** 2 - 0.5 * (1 + places) * wide)
+        return np.asarray(0.5 * wide[:, 0] ** c * ((s ** (self.k - 1) * height(s)) @ weights) / 2**c)
 
 
 def wave_size(k: Any, A: Any, wavelength: Any) -> Array:
@@ -145,4 +132,3 @@ def wave_size(k: Any, A: Any, wavelength: Any) -> Array:
     k = np.asarray(k, dtype=float)
     result: Array = np.pi ** ((1 - k) / 2) * gamma((1 + k) / 2) * A * np.asarray(wavelength) ** ((1 + k) / 2)
     return result
-
