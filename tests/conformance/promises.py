@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gradhesion.core import FLAGS
 
-from .kinds import COUNTS, DEPTH, Kind, Scenes, one_of
+from .kinds import COUNTS, Kind, Scenes, one_of
 from .theory import FORCE, Curve, power_factor, stiffness, stretch, wave_size
 
 SHARE: Final = 1e-12
