@@ -42,12 +42,6 @@ def phase_of(kind: Kind, scenes: Scenes, a: Any) -> Array:
     return np.asarray(2 * np.pi * kind.highest * a / np.asarray(scenes["lambda_over_R"]))
 
 
-def share_of(kind: Kind, scenes: Scenes, a: Any) -> Array:
-    """The promised share at a radius of contact."""
-    waves = np.nan_to_num(phase_of(kind, scenes, a) / (2 * np.pi), nan=0.0, posinf=0.0)
-    return np.asarray(SHARE * np.maximum(1.0, waves / 1000.0))
-
-
 def depth_size(kind: Kind, scenes: Scenes, a: Any) -> Array:
     """The sum of the sizes of the terms of the depth at a radius: punch, waves, adhesion."""
     k, m, A, wavelength = np.asarray(scenes["k"]), kind.exponent, scenes["A"], np.asarray(scenes["lambda_over_R"])
@@ -66,20 +60,17 @@ def load_size(kind: Kind, scenes: Scenes, a: Any) -> Array:
     return np.asarray(2 ** (1 - k) * M / (1 + k) * a ** (1 + k) * depth_size(kind, scenes, a) / FORCE)
 
 
-def spring(kind: Kind, scenes: Scenes, a: Any) -> Any:
-    """By how much the end of a machine's spring moves more than the punch: 1 + K a^(1+k)/S; 1 without a machine."""
-    if kind.control != "machine":
-        return 1.0
-    k, M = scenes["k"], stiffness(scenes["k"], scenes["nu"], scenes["modulus"], scenes["c0_over_R"])
-    return 1.0 + 2 ** (1 - k) * M / (1 + k) * a ** (1 + k) / (
-        np.asarray(scenes["machine_stiffness"]) * scenes["modulus"]
-    )
-
-
 def work_size(kind: Kind, scenes: Scenes, a: Any) -> Array:
     """The size of what is done up to a radius: the area of the loop in the plane of load and what is prescribed."""
-    depth, load = depth_size(kind, scenes, a), FORCE * load_size(kind, scenes, a)
-    return np.asarray(np.pi * np.asarray(a) ** 2 + load * depth * spring(kind, scenes, a))
+    return np.asarray(np.pi * np.asarray(a) ** 2 + FORCE * load_size(kind, scenes, a) * moved_size(kind, scenes, a))
+
+
+def moved_size(kind: Kind, scenes: Scenes, a: Any) -> Array:
+    """The size of the depth, or of where the far end of a machine's spring is: 1 + K a^(1+k)/S of it."""
+    depth = depth_size(kind, scenes, a)
+    if kind.control == "machine":
+        depth += FORCE * load_size(kind, scenes, a) / (np.asarray(scenes["machine_stiffness"]) * scenes["modulus"])
+    return depth
 
 
 def turn_error(kind: Kind, scenes: Scenes, radius: Array) -> Array:
@@ -102,7 +93,7 @@ def errors(kind: Kind, scenes: Scenes, found: Results) -> dict[str, Array]:
     """The promised error of each result that is a number, in its unit."""
     with np.errstate(all="ignore"):
         pull, most = found["pull_off_radius"], reached(found)
-        share = share_of(kind, scenes, most)
+        share = SHARE * np.maximum(1.0, np.nan_to_num(phase_of(kind, scenes, most), posinf=0.0) / (2e3 * np.pi))
         moved = turn_error(kind, scenes, found["turning_radius"])
         # a turn that is moved moves what depends on the radius there at first order: powers of it up to 4
         turned = 4 * moved / most
@@ -116,7 +107,7 @@ def errors(kind: Kind, scenes: Scenes, found: Results) -> dict[str, Array]:
         allowed["delta_jump_out"] = 2 * share * depth_size(kind, scenes, pull)  # contact ends within the pull-off
         allowed["turning_radius"] = moved + 4e-16 * np.nan_to_num(most)
         allowed["snap_in_force"] = share * load_size(kind, scenes, most)
-        allowed["pinned_depth"] = (share + turned) * depth * spring(kind, scenes, most)
+        allowed["pinned_depth"] = (share + turned) * moved_size(kind, scenes, most)
         allowed["contact_slope"] = PLACE * most
     return allowed
 

@@ -156,7 +156,8 @@ def test_a_turn_at_what_loading_reaches_is_a_rim_there(kind: Kind, turn: str) ->
 def test_the_drawn_path(kind: Kind) -> None:
     """It is in equilibrium, its jumps are those that are counted and lose what is lost, and its area is the loss."""
     scenes, found = drawn(kind)
-    sure = np.flatnonzero(~has(found, NO_VALUE | NO_CONTACT | CLOSE))
+    few = found["loading_jumps"] < 3000  # the most that every kind can draw is a few times that
+    sure = np.flatnonzero(few & ~has(found, NO_VALUE | NO_CONTACT | CLOSE))
     for i in rng_of(f"path {kind.name}").permutation(sure)[:6]:
         scene, values, own = one_of(scenes, i), some(found, [i]), some(scenes, [i])
         path, status = draw_curves(scene, ["path", "jumps"], **kind.how)

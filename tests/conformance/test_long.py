@@ -41,17 +41,11 @@ def agree_but_for_a_jump(kind: Kind, scenes: Scenes, found: Any, expected: Any, 
 
 
 @EVERY
-def test_similarity(kind: Kind) -> None:
+def test_similarity_and_alone_and_beside(kind: Kind) -> None:
     scenes = long(kind, "similar")
     found, other = kind.solve(scenes), rescaled(kind, scenes, scenes["k"], 4.0)
     assert (found["unloading_jumps"] > 20).any()
     agree_but_for_a_jump(kind, other, kind.solve(other), rescaled(kind, found, scenes["k"], 4.0))
-
-
-@EVERY
-def test_alone_and_beside(kind: Kind) -> None:
-    scenes = long(kind, "beside")
-    found = kind.solve(scenes)
     for i in range(WAVES.size):
         agree_but_for_a_jump(kind, some(scenes, [i]), kind.solve(some(scenes, [i])), some(found, [i]))
 

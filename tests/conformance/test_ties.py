@@ -45,9 +45,11 @@ def bisected(kind: Kind, scenes: Scenes, name: str, output: str) -> list[Scenes]
 def tied(kind: Kind, at_1: bool) -> int:
     """Assert that scenes on a tie are close to a jump, at k = 1 or below; return how many there are."""
     scenes = drawn(kind)[0]
-    scenes, count = some(scenes, np.flatnonzero((scenes["k"] == 1) == at_1)[:40]), 0
+    index, count = np.flatnonzero((scenes["k"] == 1) == at_1)[:40], 0
     for name, output in (("A", COUNTS[0]), ("lambda_over_R", COUNTS[1]), ("a_max_over_R", COUNTS[0])):
-        for ends in bisected(kind, scenes, name, output):
+        for ends in bisected(kind, some(scenes, index), name, output) if index.size else ():
+            if not ends["A"].size:
+                continue
             on = has(kind.solve(ends, COUNTS), CLOSE)
             assert on.all(), some(ends, ~on)
             apart = has(kind.solve(ends | {name: ends[name] * (1 + 3e-7)}, COUNTS), CLOSE)
