@@ -44,7 +44,7 @@ def test_60_cosines() -> None:
     agrees_with_stored(Kind("stored"), arrays([scene["parameters"] for scene in scenes]), expected)
 
 
-@pytest.mark.parametrize("scene", stored("general")["scenes"], ids=str)
+@pytest.mark.parametrize("scene", stored("general")["scenes"], ids=range(24))
 def test_profiles_and_controls(scene: dict[str, Any]) -> None:
     given = dict(scene["parameters"])
     waves = tuple((wave["n"], wave["cos"], wave["sin"]) for wave in given.pop("harmonics"))
