@@ -60,18 +60,15 @@ class Kind:
 
     @property
     def outputs(self) -> tuple[str, ...]:
-        """All results of the kind."""
         slope = ("contact_slope",) if self.unbounded else ()
         return (*OUTPUTS, *EDGE, *slope) if self.solver == "exact" else OUTPUTS
 
     @property
     def highest(self) -> int:
-        """Number of the highest harmonic: waves of it in a wavelength."""
         return max(n for n, _, _ in self.waves)
 
     @property
     def has_rim(self) -> bool:
-        """Whether cycles go up to a rim."""
         return not self.unbounded and not self.turn
 
     def solve(self, scenes: Mapping[str, Any], outputs: Sequence[str] = (), **more: Any) -> dict[str, NDArray[Any]]:

@@ -31,6 +31,11 @@ def has(found: Results, bits: int) -> NDArray[np.bool_]:
     return np.asarray(np.asarray(found["status"]).astype(int) & bits != 0)
 
 
+def is_sure(found: Results) -> NDArray[np.bool_]:
+    """Tell which scenes have values of a contact, and no tie."""
+    return ~has(found, NO_VALUE | NO_CONTACT | CLOSE)
+
+
 def reached(found: Results) -> Array:
     """The largest radius of contact over R: the turn, or of an unbounded paraboloid the slope at the end of its jumps."""
     end = found["turning_radius"]

@@ -21,12 +21,10 @@ KEYS |= {"turn": DEPTH, "turn_load": LOAD, "end": "a_max_over_R", "k": "k", "nu"
 
 
 def stored(name: str) -> Any:
-    """Read one of the files of values."""
     return json.loads((REFERENCE / f"{name}.json").read_text(encoding="utf-8"))
 
 
 def arrays(scenes: list[dict[str, Any]]) -> Scenes:
-    """Turn scenes into an array for each parameter or value."""
     return {name: np.array([float(scene[name]) for scene in scenes]) for name in scenes[0]}
 
 

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import OUTPUTS, Harmonic, Loading, Profile, draw_curves, solve
+from gradhesion.core import OUTPUTS, draw_curves, solve
 from gradhesion.core.problem.names import EDGE
 
 from .faults import fault
@@ -89,54 +89,12 @@ def test_what_is_a_number_is_read(value: Any) -> None:
         np.testing.assert_array_equal(np.squeeze(found[name]), expected[name])
 
 
-def test_views_and_read_only_arrays_are_read_and_left_alone() -> None:
-    kind = Kind("cosine")
-    scenes, found = drawn(kind)
-    kept = {name: values.copy() for name, values in scenes.items()}
-    backwards = {name: values[::-1] for name, values in kept.items()}
-    for values in backwards.values():
-        values.flags.writeable = False
-    agree(kind, scenes, some(kind.solve(backwards), np.s_[::-1]), found)
-    for name, values in kept.items():
-        np.testing.assert_array_equal(values, scenes[name])
-
-
-REFUSED: list[tuple[Any, Any, Any]] = [
-    *(({"modulus": value}, OUTPUTS, {}) for value in ("a", [1.0, "b"], {}, 1j)),
-    ({"A": np.zeros(3), "k": np.zeros(4)}, OUTPUTS, {}),
-    ({}, ["pull_of_force"], {}),
-    ({}, OUTPUTS, {"solver": "approximate"}),
-    ({"machine_stiffness": 1.0}, OUTPUTS, {}),
-    ({}, OUTPUTS, {"loading": Loading(control="machine")}),
-    ({DEPTH: 0.1, LOAD: 1.0}, OUTPUTS, {}),
-    ({}, ["energy_residual"], {"loading": Loading(control="load")}),
-    ({}, ["energy_residual"], {"solver": "envelope"}),
-    ({}, OUTPUTS, {"solver": "asymptotic", "loading": Loading(control="load")}),
-    ({"toughness_amplitude": 0.1}, OUTPUTS, {}),
-    ({"toughness_wavelength_over_R": 0.1}, OUTPUTS, {}),
-]
-
-
-@pytest.mark.parametrize(("change", "outputs", "how"), REFUSED, ids=range(len(REFUSED)))
-def test_requests_that_cannot_be_met_are_refused(change: Any, outputs: Any, how: Any) -> None:
+@pytest.mark.parametrize(
+    "change", [*({"modulus": bad} for bad in ("a", [1.0, "b"], {}, 1j)), {"A": [0, 0], "k": [0, 0, 0]}]
+)
+def test_what_is_no_number_or_does_not_fit_is_refused(change: Any) -> None:
     with pytest.raises((TypeError, ValueError)):
-        solve(SCENE | change, outputs, **how)
-
-
-@pytest.mark.parametrize("missing", SCENE)
-def test_a_missing_parameter_is_refused(missing: str) -> None:
-    for request in (solve, draw_curves):
-        with pytest.raises(ValueError, match=missing):
-            request({name: value for name, value in SCENE.items() if name != missing}, ["path"])
-
-
-@pytest.mark.parametrize("exponent", [0.99, NAN, INF, 2.0])
-@pytest.mark.parametrize("numbers", [(), (2, 2), range(1, 66), (0,), (1.5,), (1,)])
-def test_profiles_out_of_range_are_refused(exponent: float, numbers: Any) -> None:
-    if exponent == 2.0 and numbers == (1,):
-        return  # these are in range
-    with pytest.raises(ValueError, match=r"exponent|harmonic"):
-        Profile(exponent=exponent, harmonics=tuple(Harmonic(n=n) for n in numbers))
+        solve(SCENE | change)
 
 
 @for_kinds(["cosine, turned at a depth", "exponent 1.5, machine, turned"])

@@ -11,13 +11,13 @@ from gradhesion.core import FLAGS, draw_curves
 from .kinds import COUNTS, DEPTH, EXACT, KINDS, LOAD, Kind, Scenes, drawn, for_kinds, one_of, rescaled, rng_of, some
 from .promises import (
     CLOSE,
-    NO_CONTACT,
     NO_VALUE,
     SHARE,
     agree,
     depth_size,
     errors,
     has,
+    is_sure,
     load_size,
     phase_of,
     reached,
@@ -26,45 +26,36 @@ from .promises import (
 )
 from .theory import FORCE, Curve, stiffness
 
-EVERY = for_kinds(KINDS)
 
-
-@EVERY
-def test_similarity(kind: Kind) -> None:
-    """Three numbers decide everything: scenes with the same ones have the same reduced values."""
+@for_kinds(KINDS)
+def test_the_same_problem_in_other_numbers(kind: Kind) -> None:
+    """Three numbers decide everything, among them M = theta(k, nu) E*/c0^k; what has no amplitude is not there."""
     scenes, found = drawn(kind)
-    c = 2.0 ** rng_of(f"similar {kind.name}").integers(-3, 4, found["status"].size)
-    other = rescaled(kind, scenes, scenes["k"], c)
-    agree(kind, other, kind.solve(other), rescaled(kind, found, scenes["k"], c))
-
-
-@EVERY
-def test_one_number_is_the_material(kind: Kind) -> None:
-    """nu, E* and c0 enter through M = theta(k, nu) E*/c0^k alone."""
-    scenes, found = drawn(kind)
-    rng, count = rng_of(f"material {kind.name}"), found["status"].size
-    c0 = scenes["c0_over_R"] * np.exp(rng.uniform(-1, 1, count))
-    nu = np.where(scenes["k"] > 0.98, scenes["nu"], rng.uniform(-0.4, 0.45, count))
-    before = stiffness(scenes["k"], scenes["nu"], 1.0, scenes["c0_over_R"])
-    factor = before / stiffness(scenes["k"], nu, 1.0, c0)
-    other = scenes | {"c0_over_R": c0, "nu": nu, "modulus": scenes["modulus"] * factor}
+    rng, k, size = rng_of(f"similar {kind.name}"), scenes["k"], found["status"].size
+    c = 2.0 ** rng.integers(-3, 4, size)
+    others = {"similar": (kind, rescaled(kind, scenes, k, c), rescaled(kind, found, k, c))}
+    c0, nu = scenes["c0_over_R"] * np.exp(rng.uniform(-1, 1, size)), rng.uniform(-0.4, 0.45, size)
+    nu = np.where(k > 0.98, scenes["nu"], nu)
+    factor = stiffness(k, scenes["nu"], 1.0, scenes["c0_over_R"]) / stiffness(k, nu, 1.0, c0)
+    material = scenes | {"c0_over_R": c0, "nu": nu, "modulus": scenes["modulus"] * factor}
     if kind.control == "machine":
-        other["machine_stiffness"] = scenes["machine_stiffness"] / factor
-    agree(kind, other, kind.solve(other), found)
-
-
-@EVERY
-def test_the_same_series_written_otherwise(kind: Kind) -> None:
-    """n waves in lambda are 2 n waves in 2 lambda with half the amplitude over it; a wave of no amplitude is none."""
-    scenes, found = drawn(kind)
+        material["machine_stiffness"] = scenes["machine_stiffness"] / factor
+    others["of another material"] = (kind, material, found)
     doubled = replace(kind, waves=tuple((2 * n, even, odd) for n, even, odd in kind.waves))
-    other = scenes | {"lambda_over_R": 2 * scenes["lambda_over_R"], "A": 0.5 * scenes["A"]}
-    agree(kind, scenes, doubled.solve(other), found)
-    longer = replace(kind, waves=(*kind.waves, (9, 0.0, 0.0)))
-    agree(kind, scenes, longer.solve(scenes), found)
+    longer = scenes | {"lambda_over_R": 2 * scenes["lambda_over_R"], "A": 0.5 * scenes["A"]}
+    others["in another wavelength"] = (doubled, longer, found)
+    others["with an empty wave"] = (replace(kind, waves=(*kind.waves, (9, 0.0, 0.0))), scenes, found)
+    if not kind.ratio:
+        others["with two equal works"] = (replace(kind, ratio=True), scenes | {"closing_ratio": np.ones(size)}, found)
+    if kind.solver == "exact" and kind.has_rim and not kind.pattern:
+        flat = {"toughness_wavelength_over_R": 0.3 * scenes["a_max_over_R"], "toughness_amplitude": np.zeros(size)}
+        for of in ("toughness", "work"):
+            others[f"with a flat pattern of {of}"] = (replace(kind, pattern=of), scenes | flat, found)
+    for name, (other, own, expected) in others.items():
+        agree(replace(kind, name=f"{kind.name} {name}"), own, other.solve(own, kind.outputs), expected)
 
 
-@EVERY
+@for_kinds(KINDS)
 def test_parts_are_all_that_is_lost(kind: Kind) -> None:
     scenes, found = drawn(kind)
     total = found["loading_energy"] + found["unloading_energy"] + found.get("front_energy", 0.0)
@@ -72,7 +63,7 @@ def test_parts_are_all_that_is_lost(kind: Kind) -> None:
     if "front_energy" in found and not kind.pattern:
         front = np.pi * found["turning_radius"] ** 2 * (1 - scenes["closing_ratio"]) if kind.ratio else 0.0 * total
         agree(kind, scenes, found | {"front_energy": front}, found, ["front_energy"])
-    sure = ~has(found, NO_VALUE | NO_CONTACT)
+    sure = is_sure(found)
     assert (found["unloading_energy"] >= -errors(kind, scenes, found)["unloading_energy"])[sure].all()
     assert (found["pull_off_force"] > 0)[sure].all()
 
@@ -157,7 +148,7 @@ def test_the_drawn_path(kind: Kind) -> None:
     """It is in equilibrium, its jumps are those that are counted and lose what is lost, and its area is the loss."""
     scenes, found = drawn(kind)
     few = found["loading_jumps"] < 3000  # the most that every kind can draw is a few times that
-    sure = np.flatnonzero(few & ~has(found, NO_VALUE | NO_CONTACT | CLOSE))
+    sure = np.flatnonzero(few & is_sure(found))
     for i in rng_of(f"path {kind.name}").permutation(sure)[:6]:
         scene, values, own = one_of(scenes, i), some(found, [i]), some(scenes, [i])
         path, status = draw_curves(scene, ["path", "jumps"], **kind.how)

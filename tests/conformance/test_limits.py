@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -11,7 +10,7 @@ from gradhesion.core import solve
 from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
 
 from .faults import fault
-from .kinds import EXACT, KINDS, SINES, Kind, Scenes, drawn, for_kinds, some
+from .kinds import EXACT, SINES, Kind, Scenes, drawn, for_kinds, some
 from .promises import SHARE, agree, errors, work_size
 from .theory import stiffness, stretch, wave_size
 
@@ -32,52 +31,20 @@ def test_smooth_punches_are_those_of_jkr(kind: Kind) -> None:
     np.testing.assert_allclose(found["pull_off_radius"][:, 0], (9 * np.pi / (8 * moduli[:, 0])) ** (1 / 3), rtol=1e-6)
 
 
-def part(k: Any, q: Any) -> Any:
-    """F(q) of the energy of a smooth cycle, section 10."""
-    return 16 * q * q / ((1 + k) * (3 + k) * (5 + k)) - 8 * q / ((1 + k) * (3 + k)) + 2 / (1 + k) - 1
-
-
 @for_kinds(["cosine", "two harmonics", "cosine, two works", "envelope of a cosine"])
 def test_smooth_cycles_have_their_closed_forms(kind: Kind) -> None:
-    """Section 10: a jump into contact at depth 0 and one out at the fold; section 16: F_in = 8 (1+k) Gamma/(3 (3+k))."""
+    """Section 10: pi a^2 F(q) of the jumps in (q = 1) and out (q = (1-k)/4); section 16: the pull after the first."""
     ratio = np.array([0.04, 0.4, 0.9, 1.0, 0.7]) if kind.ratio else np.ones(5)
     scenes = {name: np.broadcast_to(value, 5) for name, value in (SMOOTH | {"a_max_over_R": 1.5}).items()}
     scenes |= {"closing_ratio": ratio} if kind.ratio else {}
     found = kind.solve(scenes)
     k, s = EXPONENTS, stretch(EXPONENTS, stiffness(EXPONENTS, 0.3, 500.0, 0.07))
-    first, last = (((1 + k) * q * s) ** (2 / (3 + k)) for q in (np.sqrt(ratio), (1 - k) / 4))
-    expected = {"loading_energy": -np.pi * ratio * part(k, 1.0) * first**2}
-    expected |= {"unloading_energy": np.pi * part(k, (1 - k) / 4) * last**2}
-    if kind.solver == "exact":
-        expected |= {"snap_in_force": 8 * (1 + k) * ratio / (3 * (3 + k)), "front_energy": 2.25 * np.pi * (1 - ratio)}
-    agree(kind, scenes, found, found | expected, list(expected))
-
-
-@pytest.mark.parametrize(
-    ("k", "c0", "rim", "force", "energy"),
-    [(0.0, 1.0, 1.6, 1.2252120971, 1.42657111), (0.5, 0.1, 1.95, 1.1676276541, 0.874428597)],
-)
-def test_the_method_of_dimensionality_reduction(k: float, c0: float, rim: float, force: float, energy: float) -> None:
-    """Another route to two scenes, in units of R = 1, dgamma = 1/pi, E* = 3/4, with the digits in which it was told."""
-    scene = {"k": k, "nu": 0.3, "modulus": 0.75 * math.pi, "c0_over_R": c0, "lambda_over_R": 0.5, "A": 0.1}
-    found = Kind().solve(scene | {"a_max_over_R": rim})
-    assert float(found["pull_off_force"]) * 3 / (3 + k) == pytest.approx(force, rel=1e-10)
-    assert float(found["dissipated_energy"]) / math.pi == pytest.approx(energy, rel=1e-8)
-
-
-@for_kinds([kind for kind in KINDS if not kind.ratio])
-def test_one_work_is_two_equal_ones(kind: Kind) -> None:
-    scenes, found = drawn(kind)
-    both = replace(kind, ratio=True).solve(scenes | {"closing_ratio": np.ones(160)}, kind.outputs)
-    agree(kind, scenes, both, found)
-
-
-@for_kinds([kind for kind in EXACT if not kind.pattern and not kind.unbounded])
-def test_a_pattern_without_amplitude_is_none(kind: Kind) -> None:
-    scenes, found = (some(values, slice(60)) for values in drawn(kind))
-    flat = {"toughness_wavelength_over_R": 0.3 * scenes["a_max_over_R"], "toughness_amplitude": np.zeros(60)}
-    for of in ("toughness", "work"):
-        agree(kind, scenes, replace(kind, pattern=of).solve(scenes | flat), found)
+    expected = {"snap_in_force": 8 * (1 + k) * ratio / (3 * (3 + k)), "front_energy": 2.25 * np.pi * (1 - ratio)}
+    for name, q, size, work in (("loading", np.ones(5), np.sqrt(ratio), -ratio), ("unloading", (1 - k) / 4, 1.0, 1.0)):
+        radius = ((1 + k) * q * size * s) ** (2 / (3 + k))
+        density = 16 * q * q / ((1 + k) * (3 + k) * (5 + k)) - 8 * q / ((1 + k) * (3 + k)) + 2 / (1 + k) - 1
+        expected[f"{name}_energy"] = np.pi * work * density * radius**2
+    agree(kind, scenes, found, found | expected, [name for name in expected if name in found])
 
 
 @for_kinds([kind for kind in EXACT if kind.control == "machine"])

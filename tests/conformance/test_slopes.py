@@ -9,7 +9,7 @@ from gradhesion.core import OUTPUTS, PARAMETERS
 
 from .faults import OF_SLOPES, fault
 from .kinds import BY_NAME, COUNTS, DEPTH, EXACT, Kind, Scenes, drawn, for_kinds, one_of, powers_of, rng_of, some
-from .promises import CLOSE, NO_CONTACT, NO_VALUE, SENSITIVITY, SHARE, Array, errors, has, phase_of
+from .promises import SENSITIVITY, SHARE, Array, errors, is_sure, phase_of
 
 VALUES = ("pull_off_force", "dissipated_energy")
 EVERY = for_kinds([kind for kind in EXACT if not kind.unbounded], OF_SLOPES)
@@ -24,7 +24,7 @@ def solved(kind: Kind) -> tuple[Scenes, Any, Any, dict[str, dict[str, Array]]]:
     names = [*PARAMETERS, *(name for name in scenes if name not in (*PARAMETERS, *edge))]
     names += [name for name in edge if name in scenes]
     slopes = {v: dict(zip(names, np.moveaxis(found[f"{v}_sensitivity"], -1, 0), strict=True)) for v in VALUES}
-    return scenes, found, ~has(found, NO_VALUE | NO_CONTACT | CLOSE), slopes
+    return scenes, found, is_sure(found), slopes
 
 
 def sizes(kind: Kind, scenes: Scenes, found: Any, value: str) -> Array:
@@ -64,7 +64,7 @@ def test_central_differences(kind: Kind) -> None:
             with np.errstate(all="ignore"):
                 values = kind.solve(scenes | {name: moved}, OUTPUTS)
                 logs[j] = {value: np.log(values[value]) for value in VALUES}
-                free &= ~has(values, CLOSE | NO_VALUE | NO_CONTACT)
+                free &= is_sure(values)
                 free &= np.logical_and.reduce([values[count] == found[count] for count in COUNTS])
                 free &= np.abs(values["pull_off_radius"] / found["pull_off_radius"] - 1) < 0.02
                 free &= np.abs(values["turning_radius"] / found["turning_radius"] - 1) < 0.1

@@ -3,7 +3,6 @@
 from typing import Any
 
 import numpy as np
-import pytest
 from scipy.interpolate import CubicSpline
 
 from gradhesion.core import FLAGS, draw_curves
@@ -126,14 +125,3 @@ def test_a_punch_that_touches_elsewhere_first_is_flagged(kind: Kind) -> None:
     lower = np.array([touches_elsewhere(kind, one_of(scenes, i)) for i in range(160)])
     assert lower.any()
     assert has(found, NOT_ONE)[lower].all()
-
-
-def test_a_monotonic_profile_that_is_not_one_disc() -> None:
-    """Section 7 has the scene and its gap, -2.6e-4 R."""
-    scene = {"k": 0.0, "nu": 0.3, "modulus": 1e7, "c0_over_R": 1.0, "lambda_over_R": 0.1, "a_max_over_R": 0.3}
-    scene["A"] = 4.59 * 0.1 / (4 * np.pi**2)
-    assert has(Kind().solve(scene), NOT_ONE)
-    curve = Curve(Kind(), scene)
-    depth = float(curve.depth(np.array([0.0511]))[0])
-    gap = curve.gaps(0.0511, np.array([0.0811]), lambda s: curve.without_adhesion(s) - depth)
-    assert float(gap[0]) * 2 / np.pi == pytest.approx(-2.6e-4, abs=0.05e-4)
