@@ -175,7 +175,7 @@ def some(scenes: Mapping[str, Any], index: Any) -> Scenes:
     return {name: np.asarray(values)[index] for name, values in scenes.items()}
 
 
-def one_of(scenes: Mapping[str, Any], i: int) -> dict[str, float]:
+def one_of(scenes: Mapping[str, Any], i: Any) -> dict[str, float]:
     """One scene as numbers."""
     return {name: float(values[i]) for name, values in scenes.items()}
 

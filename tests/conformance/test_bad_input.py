@@ -69,9 +69,9 @@ def test_empty_and_single_arrays_keep_their_shape(kind: Kind) -> None:
     for shape in ((0,), (0, 3), (2, 0)) if not kind.turn else ():
         empty = kind.solve(some(scenes, 0) | {"A": np.zeros(shape)}, OUTPUTS)
         assert {values.shape for values in empty.values()} == {shape}
-    for shape in ((), (1,), (1, 1, 1)):
-        one = kind.solve({name: np.full(shape, values[0]) for name, values in scenes.items()})
-        assert {values.shape for values in one.values()} == {shape}
+    for single in ((), (1,), (1, 1, 1)):
+        one = kind.solve({name: np.full(single, values[0]) for name, values in scenes.items()})
+        assert {values.shape for values in one.values()} == {single}
         agree(kind, some(scenes, [0]), {name: values.reshape(1) for name, values in one.items()}, some(found, [0]))
 
 
@@ -90,7 +90,7 @@ def test_what_is_a_number_is_read(value: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    "change", [*({"modulus": bad} for bad in ("a", [1.0, "b"], {}, 1j)), {"A": [0, 0], "k": [0, 0, 0]}]
+    "change", [{"modulus": "a"}, {"modulus": [1, "b"]}, {"modulus": {}}, {"modulus": 1j}, {"A": [0, 0], "k": [0, 0, 0]}]
 )
 def test_what_is_no_number_or_does_not_fit_is_refused(change: Any) -> None:
     with pytest.raises((TypeError, ValueError)):

@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from .kinds import BY_NAME, KINDS, Kind, drawn, for_kinds, one_of, rng_of, some
+from .kinds import BY_NAME, KINDS, Kind, Scenes, drawn, for_kinds, one_of, rng_of, some
 from .promises import agree, same_status
 
 EVERY = for_kinds(KINDS)
 
 
-def agrees_alone(kind: Kind, scene: dict[str, float], beside: dict[str, np.ndarray], i: int) -> None:
+def agrees_alone(kind: Kind, scene: dict[str, float], beside: Scenes, i: int) -> None:
     """Assert that a scene has alone what it has beside others, where it has the number i."""
     alone = {name: values.reshape(1) for name, values in kind.solve(scene).items()}
     agree(kind, {name: np.array([value]) for name, value in scene.items()}, alone, some(beside, [i]))
@@ -95,7 +95,7 @@ def test_a_ratio_beside_1_and_0(kind: Kind, ratio: float) -> None:
 
 @pytest.mark.parametrize("ratios", [[0.5], [0.5, 0.9], [0.5, 1.0], [0.5, 0.0, 1.0]])
 def test_the_scene_whose_ratio_was_forgotten_beside_1(ratios: list[float]) -> None:
-    scene = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.1, "lambda_over_R": 0.1, "A": 0.03}
+    scene: Scenes = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.1, "lambda_over_R": 0.1, "A": 0.03}
     scene |= {"a_max_over_R": 0.5, "closing_ratio": np.array(ratios)}
     found = BY_NAME["cosine, two works"].solve(scene, ["delta_max", "loading_jumps"])
     assert float(found["delta_max"][0]) == pytest.approx(0.14582587, abs=5e-9)  # the digits that were noted

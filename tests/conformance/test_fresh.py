@@ -42,7 +42,7 @@ def compared(kind: Kind, scene: Scenes, found: dict[str, Any]) -> int:
 @for_kinds([kind for kind in KINDS if kind.solver != "asymptotic"])
 def test_fresh_scenes(kind: Kind) -> None:
     scenes, found = drawn(kind)
-    values = []
+    values: list[int] = []
     for i in rng_of(f"fresh {kind.name}").permutation(found["status"].size):
         scene, jumps = one_of(scenes, i), found["loading_jumps"][i]
         try:

@@ -87,18 +87,18 @@ class Curve:
         rest = (1 + self.k) / (1 + self.k + self.m) * self.c * a**self.m + self._waves(a, 1)
         return np.asarray(self.K * a ** (1 + self.k) * (self.depth(a) - rest) / FORCE)
 
-    def gaps(self, a: float, radii: Array, height: Callable[[Array], Array]) -> Array:
-        """Gaps at radii > a over (2/pi) cos(k pi/2), section 7, where delta_H exceeds the depth by a height.
+    def gaps(self, a: float, radii: Array, function: Callable[[Array], Array], more: float) -> Array:
+        """Gaps at radii > a over (2/pi) cos(k pi/2), section 7, where delta_H less the depth is a function and a number.
 
         At k = 1 the integrand at r.
         """
         if self.k == 1.0:
-            return height(radii)
+            return function(radii) + more
         c = 0.5 * (1 - self.k)  # r^2 - s^2 = (r^2 - a^2) v takes the end of the integral into the weight v^(c-1)
         places, weights = roots_jacobi(80, 0.0, c - 1)
         wide = radii[:, None] ** 2 - a * a
         s = np.sqrt(radii[:, None] ** 2 - 0.5 * (1 + places) * wide)
-        return np.asarray(0.5 * wide[:, 0] ** c * ((s ** (self.k - 1) * height(s)) @ weights) / 2**c)
+        return np.asarray(0.5 * wide[:, 0] ** c * ((s ** (self.k - 1) * (function(s) + more)) @ weights) / 2**c)
 
 
 def wave_size(k: Any, A: Any, wavelength: Any) -> Array:
