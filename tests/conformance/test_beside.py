@@ -73,9 +73,10 @@ def test_a_grid_is_its_points(kind: Kind) -> None:
 def test_what_is_asked_for_changes_no_value(kind: Kind) -> None:
     scenes, found = (some(values, slice(50)) for values in drawn(kind))
     rng = rng_of(f"asked {kind.name}")
+    # contact_slope is that of what else is asked for; a rim of its own has a value where others of short waves have none
+    of_others = ("contact_slope", "turning_radius" if kind.solver == "asymptotic" else "")
     for _ in range(4):
-        # contact_slope is that of what else is asked for
-        names = [str(name) for name in rng.permutation(kind.outputs)[:3] if name != "contact_slope"]
+        names = [str(name) for name in rng.permutation(kind.outputs)[:3] if name not in of_others]
         asked = kind.solve(scenes, names)
         assert set(asked) == {*names, "status"}
         agree(kind, scenes, found | asked, found, names)

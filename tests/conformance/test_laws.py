@@ -112,7 +112,7 @@ def reached_by_loading(kind: Kind, turn: str, rng: np.random.Generator) -> tuple
     """Numbers of scenes, radii on their drawn loading paths, and depths or loads there that were not met before."""
     scenes, found = drawn(kind)
     turns = []
-    for i in rng.permutation(np.flatnonzero(found["loading_jumps"] > 0))[:24]:
+    for i in rng.permutation(np.flatnonzero((found["loading_jumps"] > 0) & (found["loading_jumps"] < 3000)))[:24]:
         path, _ = draw_curves(one_of(scenes, i), ["path"], **kind.how)
         loading = path["path_unloading"] == 0
         a, on = path["path_contact_radius"][loading], path["path_jump"][loading] == 0
