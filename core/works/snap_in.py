@@ -27,11 +27,11 @@ _LANDED: Final = 1e-6
 
 
 @kernel()
-def fill_pulls(basis: Basis, curves: GeneralCurves, out: Floats) -> None:
+def fill_pulls(basis: Basis, curves: GeneralCurves, landed: float, out: Floats) -> None:
     """Put the pulls at the coordinate 0 of contacts up to the rims of curves into `out`, of shape (curves, rims).
 
     They are in 1.5 pi R dgamma. The rims are radii of contact. NaN where the jump from the coordinate 0 through a
-    machine does not end there: on the curve the coordinate is above 0.
+    machine does not end there: on the curve the coordinate is above 0 by more than `landed` of its terms.
     """
     for i in curves.numbers:
         made = curve_at(basis, curves, i)
@@ -41,7 +41,7 @@ def fill_pulls(basis: Basis, curves: GeneralCurves, out: Floats) -> None:
             _, _, front, depth, load = state(waves, curve, rims[rim] / made.wavelength)
             level = curve.alpha * depth + curve.beta * load
             size = abs(curve.alpha * depth) + abs(curve.beta * load)
-            if curve.beta > 0.0 and level > _LANDED * size:
+            if curve.beta > 0.0 and level > landed * size:
                 continue
             load -= front * level / (curve.alpha + curve.beta * front)
             out[i, rim] = -force_unit(basis.table.k, made.length, made.depth) * load
@@ -80,11 +80,14 @@ def pulls_at(scenes: Mapping[str, ArrayLike], how: How) -> NDArray[np.float64]:
     plain = {name: value for name, value in scenes.items() if name not in PATTERN}  # no effect at the depth 0
     found = prepared(plain, how.loading)
     series, curves_at = curves_of(found, how.profile)
+    landed = (
+        _LANDED if how.toughness is None else np.inf
+    )  # these curves are without a pattern
     out = np.full((found.k.size, found.rim.shape[1]), np.nan)
 
     def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
         basis = Basis(*tables_of(exponent, series, interpolated=interpolated), series)
-        fill_pulls(basis, curves_at(exponent, index), out)
+        fill_pulls(basis, curves_at(exponent, index), landed, out)
 
     run_by_exponent(found.k, work, how.threads, found.rim.shape[1])
     note_compiled("edge")
