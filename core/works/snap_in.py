@@ -80,9 +80,7 @@ def pulls_at(scenes: Mapping[str, ArrayLike], how: How) -> NDArray[np.float64]:
     plain = {name: value for name, value in scenes.items() if name not in PATTERN}  # no effect at the depth 0
     found = prepared(plain, how.loading)
     series, curves_at = curves_of(found, how.profile)
-    landed = (
-        _LANDED if how.toughness is None else np.inf
-    )  # these curves are without a pattern
+    landed = _LANDED if how.toughness is None else np.inf  # these curves are without a pattern
     out = np.full((found.k.size, found.rim.shape[1]), np.nan)
 
     def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
