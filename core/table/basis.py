@@ -113,7 +113,7 @@ def make_basis(exponent: float, waves: Floats, form: int = EXACT, finer: int = 1
         near = ((nodes[U] - nodes[U1]) / (nodes[E] * nodes[Y]))[GEOMETRIC - 20 :].min()
         lowest[node] = min(-wave, 1.02 * near)
     return Basis(
-        exponent, FIRST * width, width, ends, values, nodes[list(FIXED)], polys[:, PP].copy(), crest, lowest, zero
+        exponent, FIRST * width, width, ends, values, nodes[list(FIXED)], polys[:, PP].copy(), crest, lowest
     )
 
 
