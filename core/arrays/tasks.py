@@ -9,7 +9,7 @@ from typing import Final, Protocol, TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core.arrays.processors import processors
+from gradhesion.core.processors import processors
 
 _T = TypeVar("_T")
 _Made_co = TypeVar("_Made_co", covariant=True)

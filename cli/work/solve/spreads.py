@@ -26,7 +26,7 @@ from gradhesion.core.answers.uncertainty import (
     statistics_of,
 )
 from gradhesion.core.problem.status import NO_VALUE
-from gradhesion.core.sensitivities.physical import POWERS
+from gradhesion.core.answers.physical import POWERS
 
 SCENES: Final = 2**20
 """Samples that are solved at a time: some ten arrays of 8 MB are held."""

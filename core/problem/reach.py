@@ -19,7 +19,7 @@ from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE
 
 SMALL: Final = 1.0
 """The slope up to which the punch counts as shallow: at a = R a sphere is twice as deep as its paraboloid."""
-_OF_PULL_OFF: Final = (*PULL_OFF, "pull_off_force_error", "pull_off_force_sensitivity", "adhesion_gain")
+_OF_PULL_OFF: Final = (*PULL_OFF, "pull_off_force_sensitivity", "adhesion_gain")
 _OF_NOTHING: Final = (*VALIDITY, "roughness_parameter")
 """Outputs that depend on no radius of contact."""
 
