@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.arrays.cosine import SLOPES, solve_cosine, turning_cosine
-from gradhesion.core.problem.reach import radius_of, slope_at
 from gradhesion.core.arrays.turned import Results, turned_results
 from gradhesion.core.compiler.marks import note_compiled
 from gradhesion.core.kinds import kind_of_map, kind_of_sensitivities, kind_of_turning
@@ -36,6 +35,7 @@ from gradhesion.core.problem.names import (
     WITHOUT_LOAD,
 )
 from gradhesion.core.problem.profile import WAVY, Profile
+from gradhesion.core.problem.reach import radius_of, slope_at
 from gradhesion.core.problem.results import WHOLE_CYCLE
 from gradhesion.core.problem.shape import equivalent_wave
 from gradhesion.core.problem.status import NO_VALUE

@@ -23,11 +23,11 @@ from gradhesion.cli.study.rules.search import Search
 from gradhesion.cli.study.rules.uncertainty import Uncertainty
 from gradhesion.cli.study.tiling import CHUNK, Block, Tiling
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
-from gradhesion.core.problem.reach import depends_on_contact
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import PARAMETERS, RANGE, SENSITIVITIES
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.rate import Rate
+from gradhesion.core.problem.reach import depends_on_contact
 from gradhesion.core.problem.toughness import Toughness
 
 FEW_SAMPLES: Final = 32

@@ -16,10 +16,10 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gradhesion.core.problem.material import theta_slopes
 from gradhesion.core.problem.names import PARAMETERS, PATTERN, SENSITIVITIES, TURNS
 from gradhesion.core.problem.status import PULL_OFF_AT_RIM
 from gradhesion.core.sensitivities.cosine_slopes import BY_RIM, COUNT
-from gradhesion.core.problem.material import theta_slopes
 
 NEEDED: Final = {
     "pull_off_force_sensitivity": ("pull_off_force", "pull_off_radius"),
