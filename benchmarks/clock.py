@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from gradhesion.core.arrays.processors import processors
+from gradhesion.core.processors import processors
 
 ROOT = Path(__file__).parents[1]
 FIGURES = ROOT / "docs" / "figures"

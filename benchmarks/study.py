@@ -7,7 +7,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from gradhesion.core.arrays.processors import processors
+from gradhesion.core.processors import processors
 
 STUDY = """title = "Ten million scenes"
 outputs = ["pull_off_force", "dissipated_energy"]

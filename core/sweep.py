@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.arrays.cosine import SLOPES, solve_cosine, turning_cosine
-from gradhesion.core.arrays.reach import radius_of, slope_at
 from gradhesion.core.arrays.turned import Results, turned_results
 from gradhesion.core.compiler.marks import note_compiled
 from gradhesion.core.kinds import kind_of_map, kind_of_sensitivities, kind_of_turning
@@ -36,6 +35,7 @@ from gradhesion.core.problem.names import (
     WITHOUT_LOAD,
 )
 from gradhesion.core.problem.profile import WAVY, Profile
+from gradhesion.core.problem.reach import radius_of, slope_at
 from gradhesion.core.problem.results import WHOLE_CYCLE
 from gradhesion.core.problem.shape import equivalent_wave
 from gradhesion.core.problem.status import NO_VALUE
@@ -176,7 +176,7 @@ def solve(
         beyond 2,000 waves); roughness_parameter chi = r/s; saturation_radius in R, beyond which there is no fold;
         adhesion_gain and energy_gain over the smooth punch of the same material and rim; and pull_off_force_sensitivity
         and dissipated_energy_sensitivity, d ln(value)/d ln p of every parameter, for k and nu d ln(value)/dp. And
-        contact_slope, (a/R)^(m-1) at the largest radius on which the other outputs depend (arrays/reach.py); of an
+        contact_slope, (a/R)^(m-1) at the largest radius on which the other outputs depend (problem/reach.py); of an
         unbounded punch to about 1e-12, by the asymptotic solver 1e-6.
     solver
         One of `SOLVERS`.

@@ -5,10 +5,10 @@ from pathlib import Path
 
 from gradhesion.cli.work.kernels.warming import warm
 from gradhesion.core import KINDS, compile_kind
-from gradhesion.core.arrays.processors import processors
 from gradhesion.core.compiler import ahead, keeping, linking
 from gradhesion.core.compiler.probe import LAZY
 from gradhesion.core.kinds import before
+from gradhesion.core.processors import processors
 
 
 def main(folder: Path, kinds: list[str]) -> None:

@@ -22,8 +22,8 @@ def warmup(everything: bool, workers: int | None, quiet: bool) -> None:
     """
     from gradhesion.cli.work.kernels.kernels import missing_of, refuse_without_compiler
     from gradhesion.core import KINDS, place
-    from gradhesion.core.arrays.processors import processors
     from gradhesion.core.compiler.ahead import is_complete
+    from gradhesion.core.processors import processors
 
     refuse_without_compiler()
     from gradhesion.cli.work.kernels.compiling import say_why

@@ -14,7 +14,7 @@ from gradhesion.cli.work.parts.manifest import differences_of, manifest_of
 from gradhesion.cli.work.parts.parts import bytes_of, key_of
 from gradhesion.cli.work.parts.resume import found
 from gradhesion.cli.work.probe import probe
-from gradhesion.core.arrays.processors import processors
+from gradhesion.core.processors import processors
 
 BASE: Final = 220e6
 """Bytes of the program itself, its libraries and kernels: 170 to 195 MB as measured, the more kernels the more."""

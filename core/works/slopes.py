@@ -19,11 +19,11 @@ from numpy.typing import ArrayLike, NDArray
 from gradhesion.core.arrays.cosine import SLOPES
 from gradhesion.core.arrays.prepared import prepared
 from gradhesion.core.closed.pattern import pattern_area, toughness_at
+from gradhesion.core.problem.material import theta_slopes
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, SENSITIVITIES, TURNS
 from gradhesion.core.problem.results import LOADING_PART, UNLOADING_PART
 from gradhesion.core.problem.status import PULL_OFF_AT_RIM
 from gradhesion.core.sensitivities.cosine_slopes import BY_EXPONENT, BY_RIM, BY_STIFFNESS, COUNT, ENERGY, FORCE
-from gradhesion.core.sensitivities.material_slopes import theta_slopes
 from gradhesion.core.sensitivities.sensitivity import MACHINE, by_parameters
 from gradhesion.core.sweep import How, solve, up_to_rims
 from gradhesion.core.works.cycle import LEAST, closing_parameters

@@ -140,8 +140,8 @@ def _compile_side_by_side(kinds: Sequence[str]) -> None:
 
     What becomes of the other process does not matter: this one compiles what is not kept then.
     """
-    from gradhesion.core.arrays.processors import processors  # noqa: PLC0415 (a run whose kernels are compiled)
     from gradhesion.core.compiler.probe import LAZY  # noqa: PLC0415
+    from gradhesion.core.processors import processors  # noqa: PLC0415 (a run whose kernels are compiled)
     from gradhesion.core.warmup import LOOPS, compile_loop  # noqa: PLC0415
 
     loop = next((kind for kind in kinds if kind in LOOPS), None)

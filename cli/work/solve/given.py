@@ -70,7 +70,7 @@ def physical_of(
     study: Study, given: Mapping[str, NDArray[np.float64]], found: Mapping[str, NDArray[Any]]
 ) -> dict[str, NDArray[np.float64]]:
     """Give the sensitivities to quantities with units, from those that are found."""
-    from gradhesion.core.sensitivities.physical import physical_sensitivities  # noqa: PLC0415 (300 ms for SciPy)
+    from gradhesion.core.answers.physical import physical_sensitivities  # noqa: PLC0415 (300 ms for SciPy)
 
     plain = {name: values for name, values in given.items() if name != RANGE and INPUTS[name].gives != RANGE}
     if study.spectrum is not None:  # the last dimension of the scenes

@@ -35,7 +35,7 @@ def compiled(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[str]:
     for module in (kernels, compiling):
         monkeypatch.setattr(module, "place", lambda: Place(tmp_path))
     monkeypatch.setattr(kernels, "PAUSE", 0.01)
-    monkeypatch.setattr("gradhesion.core.arrays.processors.processors", lambda: 1)
+    monkeypatch.setattr("gradhesion.core.processors.processors", lambda: 1)
     return kinds
 
 
@@ -130,7 +130,7 @@ def test_where_nothing_can_be_kept_it_says_so(
 def test_where_a_processor_is_free_another_process_compiles_the_tables(count: int, alone: bool, tmp_path: Path) -> None:
     code = (
         "from gradhesion.cli.work.kernels import kernels\n"
-        "from gradhesion.core.arrays import processors\n"
+        "from gradhesion.core import processors\n"
         f"processors.processors = lambda: {count}\n"
         f"kernels.compile_kinds(['force'], print, alone={alone})\n"
         "print(kernels.missing_of(['force', 'tables']))\n"

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gradhesion.core.arrays import processors as module
-from gradhesion.core.arrays.processors import processors
+from gradhesion.core import processors as module
+from gradhesion.core.processors import processors
 
 
 @pytest.fixture(autouse=True)

@@ -4,7 +4,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from gradhesion.core.sensitivities.material_slopes import theta_slopes
+from gradhesion.core.problem.material import theta_slopes
 
 
 def _logarithm(k: mpmath.mpf, nu: mpmath.mpf) -> mpmath.mpf:
