@@ -30,14 +30,14 @@ from gradhesion.core.table.layout import (
     KV,
     LANES,
     M0,
-    N,
     PC,
     PE,
     PP,
     PU,
     PW,
-    T,
     YC,
+    N,
+    T,
 )
 
 GAUSS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(8)
@@ -97,17 +97,13 @@ def energy_between(curve: Curve, depth: float, low: float, high: float) -> float
     if low <= 0.0:
         first = min(j, curve.table.geometric)
         return (
-            _from_zero(curve, depth, first)
-            + _whole_bins(curve, depth, first, j)
-            + _within(curve, depth, j, -1.0, end)
+            _from_zero(curve, depth, first) + _whole_bins(curve, depth, first, j) + _within(curve, depth, j, -1.0, end)
         )
     i, start = place_of(curve.table, low)
     if i == j:
         return _within(curve, depth, i, start, end)
     return (
-        _within(curve, depth, i, start, 1.0)
-        + _whole_bins(curve, depth, i + 1, j)
-        + _within(curve, depth, j, -1.0, end)
+        _within(curve, depth, i, start, 1.0) + _whole_bins(curve, depth, i + 1, j) + _within(curve, depth, j, -1.0, end)
     )
 
 

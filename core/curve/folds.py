@@ -25,7 +25,7 @@ from gradhesion.core.curve.values import (
     slope_in,
 )
 from gradhesion.core.jit import kernel, leaf
-from gradhesion.core.table.layout import BE, BP, BV, E, HALF, QPOW, QUP, RLOW, RPOW, SLOPE, T, V, Y, end_of
+from gradhesion.core.table.layout import BE, BP, BV, HALF, KE, QPOW, QUP, RLOW, RPOW, SLOPE, E, T, V, Y, end_of
 from gradhesion.core.types import Floats
 
 CHUNK: Final = 32

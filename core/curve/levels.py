@@ -15,7 +15,7 @@ from gradhesion.core.curve.values import (
     softness,
 )
 from gradhesion.core.jit import kernel, leaf
-from gradhesion.core.table.layout import HALF, N, PE, T, Y, YC, end_of
+from gradhesion.core.table.layout import HALF, PE, YC, N, T, end_of
 
 LANDING: Final = 4e-4
 """Accuracy of a landing, in half widths, before its last step, whose error is the cube: energies forgive its square."""

@@ -1,13 +1,13 @@
 """The trace of a curve: its branches, on which what is prescribed rises, from within outwards, a column each.
 
-    START, END                  radii y at which a branch begins and ends; inf while its end is not known
-    START_DEPTH, END_DEPTH      the depths there
-    START_LOAD, END_LOAD        the loads there (under displacement control 0)
-    START_LEVEL, END_LEVEL      what is prescribed there
-    LANDING                     where loading arrives on the branch
-    LOADED, LOADING_JUMPS       what loading has lost by then, in 2 pi l^2 dgamma, and in how many jumps
-    UNLOADED, UNLOADING_JUMPS   what unloading still loses from the start of the branch on; NaN: not computed yet
-    LAST                        the branch from whose start unloading leaves contact
+START, END                  radii y at which a branch begins and ends; inf while its end is not known
+START_DEPTH, END_DEPTH      the depths there
+START_LOAD, END_LOAD        the loads there (under displacement control 0)
+START_LEVEL, END_LEVEL      what is prescribed there
+LANDING                     where loading arrives on the branch
+LOADED, LOADING_JUMPS       what loading has lost by then, in 2 pi l^2 dgamma, and in how many jumps
+UNLOADED, UNLOADING_JUMPS   what unloading still loses from the start of the branch on; NaN: not computed yet
+LAST                        the branch from whose start unloading leaves contact
 """
 
 from typing import Final

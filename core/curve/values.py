@@ -15,13 +15,10 @@ from typing import Final, NamedTuple
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.table.filling import waves_at
 from gradhesion.core.table.layout import (
-    E,
     GEOMETRIC,
     HALF,
     KE,
     LANES,
-    N,
-    P,
     PE,
     PP,
     PU,
@@ -29,14 +26,17 @@ from gradhesion.core.table.layout import (
     PW,
     RATIO,
     SLOPE,
+    U1,
+    YC,
+    E,
+    N,
+    P,
     Source,
     T,
     Table,
     U,
-    U1,
     V,
     Y,
-    YC,
     end_of,
 )
 

@@ -14,7 +14,7 @@ import numpy as np
 from gradhesion.core.curve.trace import END, END_DEPTH, LANDING
 from gradhesion.core.curve.values import Curve, bin_of, place_of
 from gradhesion.core.jit import kernel, leaf
-from gradhesion.core.table.layout import E, N, P, PE, POINTS, PP, PU, SLOPE, U, V, WEIGHTS, Y, end_of
+from gradhesion.core.table.layout import PE, POINTS, PP, PU, SLOPE, WEIGHTS, E, N, P, U, V, Y, end_of
 from gradhesion.core.types import Floats, Integers
 
 _SAMPLES: Final = 32
@@ -48,11 +48,13 @@ def profile_of(waves: Floats) -> Floats:
 
     It is empty, (3, 0), if the waves are nowhere below 0. `waves` are rows (n, cos, sin).
     """
-    n, cos, sin = waves.T
-    y = np.linspace(0.0, 2.0 * np.pi, _SAMPLES * int(n.max()) + 1)
-    angle = np.outer(y, n)
-    height, slope = (1.0 - np.cos(angle)) @ cos + np.sin(angle) @ sin, np.sin(angle) @ (n * cos) + np.cos(angle) @ (n * sin)
-    needed = bool((cos < 0.0).any() or sin.any())
+    y = np.linspace(0.0, 2.0 * np.pi, _SAMPLES * int(waves[:, 0].max()) + 1)
+    height, slope = np.zeros(y.size), np.zeros(y.size)
+    for n, cos, sin in waves:
+        cosine, sine = np.cos(n * y), np.sin(n * y)
+        height += cos * (1.0 - cosine) + sin * sine
+        slope += n * (cos * sine + sin * cosine)
+    needed = bool((waves[:, 1] < 0.0).any() or waves[:, 2].any())
     return np.ascontiguousarray(np.array([y, height, slope])[:, : None if needed else 0])
 
 
@@ -116,7 +118,12 @@ def _opening(curve: Curve, disc: Disc, depth: float, a: float, r: float) -> floa
 
 @kernel
 def _dip_is_open(
-    curve: Curve, disc: Disc, depth: float, a: float, radii: tuple[float, float, float], gaps: tuple[float, float, float]
+    curve: Curve,
+    disc: Disc,
+    depth: float,
+    a: float,
+    radii: tuple[float, float, float],
+    gaps: tuple[float, float, float],
 ) -> bool:
     """Return whether no gap is negative near the least of three, the middle one, by vertices of parabolas.
 

@@ -8,7 +8,8 @@ import math
 from typing import NamedTuple
 
 from gradhesion.core.curve.energy import jump_energy
-from gradhesion.core.curve.levels import BEYOND, LANDING as ACCURACY, at_level
+from gradhesion.core.curve.levels import BEYOND, at_level
+from gradhesion.core.curve.levels import LANDING as ACCURACY
 from gradhesion.core.curve.trace import (
     END,
     END_DEPTH,

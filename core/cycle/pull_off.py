@@ -4,14 +4,13 @@ Every load is above an envelope, which is smooth. From the envelope's lowest pla
 inwards, as long as the envelope lies below the best of them.
 """
 
-import math
 from typing import Final, NamedTuple
 
 from gradhesion.core.curve.folds import pair_in, swing_in, zero_in
 from gradhesion.core.curve.values import Curve, bin_of, depth_and_load, load_curve, place_of, radius_of, slope_at
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.table.basis import Basis, mix_bins
-from gradhesion.core.table.layout import E, P, T, U, U1, Y, end_of
+from gradhesion.core.table.layout import U1, E, P, T, U, Y
 from gradhesion.core.types import Floats, Integers
 
 _MARGIN: Final = 0.002

@@ -89,4 +89,3 @@ def target_is_tied(measured: Curve, target: float, rim: float, branches: Floats,
         if branches[END, j] < math.inf and _are_close(measured, branches[END_LEVEL, j], target, branches[END, j]):
             return True
     return False
-

@@ -16,14 +16,12 @@ from gradhesion.core.jit import kernel, quadrature
 from gradhesion.core.table.filling import bend_of, fit, with_bounds
 from gradhesion.core.table.layout import (
     BV,
-    E,
     HALF,
     KE,
     KU,
     KUU,
     KV,
     M0,
-    N,
     PE,
     POINTS,
     PP,
@@ -32,13 +30,15 @@ from gradhesion.core.table.layout import (
     PW,
     RLOW,
     ROWS,
+    U1,
+    WEIGHTS,
+    YC,
+    E,
+    N,
     Table,
     U,
-    U1,
     V,
-    WEIGHTS,
     Y,
-    YC,
 )
 from gradhesion.core.types import Floats
 
@@ -150,7 +150,9 @@ def patterned_table(
             nodes[KE, i + edge] = nodes[E, i + edge] + value / nodes[Y, i + edge]
     lowest = g * plain.lowest - (pattern.most - 1.0)
     table = with_bounds(
-        Table(k, plain.exponent, plain.share, plain.start, plain.width, lowest, 0.0, plain.geometric, bins, nodes, polys),
+        Table(
+            k, plain.exponent, plain.share, plain.start, plain.width, lowest, 0.0, plain.geometric, bins, nodes, polys
+        ),
         g * crest + pattern.steep,
         bins,
     )

@@ -100,8 +100,11 @@ def reduce_scene(punch: Punch, scenes: Floats, i: int, theta: float, depth_facto
     k, m = scenes[K, i], punch.exponent
     eta = 0.5 * (1.0 - k)
     M = theta * scenes[MODULUS, i] / scenes[C0, i] ** k
+    stretch = math.sqrt(2.0 ** (1.0 + k) * math.pi / M)
     length = scenes[WAVELENGTH, i] / (2.0 * math.pi)
-    depth = math.sqrt(2.0 ** (1.0 + k) * math.pi / M) * length**eta
+    if scenes[AMPLITUDE, i] == 0.0 and punch.rows.shape[1] == 0:  # no wave gives a length: that at which B is 1
+        length = (stretch / depth_factor) ** (1.0 / (m - eta))
+    depth = stretch * length**eta
     load = 2.0 ** (1.0 - k) * M / (1.0 + k) * length ** (1.0 + k) * depth
     reduced[BY_POWER, i] = depth_factor * length**m / depth
     reduced[BY_WAVES, i] = scenes[AMPLITUDE, i] * scenes[WAVELENGTH, i] / depth

@@ -6,7 +6,6 @@ tenth of the price of new ones. All scenes within its reach are solved on such t
 so that a value does not depend on its neighbours.
 """
 
-import math
 import threading
 from collections import OrderedDict
 from typing import Final, NamedTuple
@@ -14,12 +13,11 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from gradhesion.core.jit import kernel, leaf, quadrature
-from gradhesion.core.table.filling import fill_bins, source_of, with_bounds, width_of
+from gradhesion.core.table.filling import fill_bins, source_of, width_of, with_bounds
 from gradhesion.core.table.layout import (
     BE,
     BP,
     BV,
-    E,
     EXACT,
     FIRST,
     GEOMETRIC,
@@ -28,8 +26,6 @@ from gradhesion.core.table.layout import (
     KE,
     LANES,
     M0,
-    N,
-    P,
     PC,
     PE,
     PP,
@@ -37,13 +33,16 @@ from gradhesion.core.table.layout import (
     PU1,
     ROWS,
     SLOPE,
+    U1,
+    YC,
+    E,
+    N,
+    P,
     T,
     Table,
     U,
-    U1,
     V,
     Y,
-    YC,
 )
 from gradhesion.core.table.leading import crests_of
 from gradhesion.core.types import Floats
@@ -112,9 +111,7 @@ def make_basis(exponent: float, waves: Floats, form: int = EXACT, finer: int = 1
         crest[node], wave, _ = crests_of(k, waves)
         near = ((nodes[U] - nodes[U1]) / (nodes[E] * nodes[Y]))[GEOMETRIC - 20 :].min()
         lowest[node] = min(-wave, 1.02 * near)
-    return Basis(
-        exponent, FIRST * width, width, ends, values, nodes[list(FIXED)], polys[:, PP].copy(), crest, lowest
-    )
+    return Basis(exponent, FIRST * width, width, ends, values, nodes[list(FIXED)], polys[:, PP].copy(), crest, lowest)
 
 
 _bases: OrderedDict[tuple[object, ...], Basis] = OrderedDict()

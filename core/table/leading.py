@@ -26,12 +26,14 @@ def crests_of(k: float, waves: Floats) -> tuple[float, float, float]:
 
     `waves` are rows (n, cos, sin); the phase is y within a wavelength.
     """
-    n, cos, sin = waves.T
-    phases = np.linspace(0.0, 2.0 * np.pi, 256 * int(n.max()) + 1)
-    angle = np.outer(n, phases) - 0.25 * np.pi * (1.0 + k)
-    size = amplitude_of(k) * n ** (0.5 * (1.0 - k))
-    slope = (size * n * cos) @ np.cos(angle) - (size * n * sin) @ np.sin(angle)
-    wave = (size * cos) @ np.sin(angle) + (size * sin) @ np.cos(angle)
+    phases = np.linspace(0.0, 2.0 * np.pi, 256 * int(waves[:, 0].max()) + 1)
+    slope, wave = np.zeros(phases.size), np.zeros(phases.size)
+    for n, cos, sin in waves:
+        angle = n * phases - 0.25 * np.pi * (1.0 + k)
+        size = amplitude_of(k) * n ** (0.5 * (1.0 - k))
+        cosine, sine = np.cos(angle), np.sin(angle)
+        slope += size * n * (cos * cosine - sin * sine)
+        wave += size * (cos * sine + sin * cosine)
     margin = 1.005  # of the maxima between the phases that are looked at, and of the terms after the leading one
     return -margin * float(slope.min()), -margin * float(wave.min()), float(phases[slope.argmin()])
 
