@@ -13,26 +13,12 @@ force is (3+k)/3 (1+r/s)^2. The printed form leaves out lambda A, the mean heigh
 """
 
 import math
-from typing import Annotated
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.special import gamma
 
 from gradhesion.core.equations import hertz
-from gradhesion.core.equations._arguments import (
-    Amplitude,
-    Cosines,
-    Gradient,
-    MeanHeight,
-    Power,
-    Radius,
-    Sines,
-    Stiffness,
-    StiffnessOrInf,
-    Wavelength,
-    documented,
-)
+from gradhesion.core.equations._arguments import Real, Waves, documented
 from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive, power_of
 from gradhesion.core.equations.general import harmonics
 
@@ -40,28 +26,21 @@ _SAMPLES = 64
 _NEWTON_STEPS = 6
 """Newton's steps from 1/128 of the shortest wave: four suffice."""
 
-Pull = Annotated[ArrayLike, "s - r for loading, s + r for unloading, over R^((1+k)/2)."]
-PositivePull = Annotated[ArrayLike, "s - r for loading, s + r for unloading, over R^((1+k)/2), > 0."]
 
-
-@documented
-def adhesion_strength(k: Gradient, stiffness: StiffnessOrInf) -> Array:
+@documented()
+def adhesion_strength(k: Real, stiffness: Real) -> Array:
     """Return s/R^((1+k)/2) = sqrt(2^(1+k) pi dgamma/M).
 
-    Examples
-    --------
     >>> float(adhesion_strength(0.0, 200.0 * np.pi).round(12))
     0.1
     """
     return np.sqrt(2.0 ** (1.0 + exponent_of(k)) * math.pi / positive(stiffness))
 
 
-@documented
-def waviness_strength(k: Gradient, wavelength: Wavelength, amplitude: Amplitude) -> Array:
+@documented()
+def waviness_strength(k: Real, wavelength: Real, amplitude: Real) -> Array:
     """Return r/R^((1+k)/2) = pi^((1-k)/2) G((1+k)/2) A lambda^((1+k)/2) of one cosine wave.
 
-    Examples
-    --------
     >>> waviness_strength([0.0, 1.0], 0.01, 0.02).round(6).tolist()
     [0.006283, 0.0002]
     """
@@ -69,8 +48,8 @@ def waviness_strength(k: Gradient, wavelength: Wavelength, amplitude: Amplitude)
     return math.pi ** (1.0 - n) * gamma(n) * not_negative(amplitude) * positive(wavelength) ** n
 
 
-@documented
-def series_strengths(k: Gradient, wavelength: Wavelength, cosines: Cosines, sines: Sines = ()) -> tuple[Array, Array]:
+@documented()
+def series_strengths(k: Real, wavelength: Real, cosines: Waves, sines: Waves = ()) -> tuple[Array, Array]:
     """Return r/R^((1+k)/2) of a Fourier series, for loading and for unloading (5.21)-(5.25).
 
     Returns
@@ -78,8 +57,6 @@ def series_strengths(k: Gradient, wavelength: Wavelength, cosines: Cosines, sine
     Two arrays of the broadcast shape; NaN outside the ranges. The extrema of zeta are the true ones: every local
     extremum of 64 samples for each wave of the shortest harmonic is refined by Newton's method; the best counts.
 
-    Examples
-    --------
     >>> one, other = series_strengths(0.0, 0.01, [-0.02])
     >>> one.round(6) == other.round(6) == waviness_strength(0.0, 0.01, 0.02).round(6)
     np.True_
@@ -90,16 +67,14 @@ def series_strengths(k: Gradient, wavelength: Wavelength, cosines: Cosines, sine
     return size * highest, -size * lowest
 
 
-@documented
-def zeta_extrema(k: Gradient, cosines: Cosines, sines: Sines = ()) -> tuple[Array, Array]:
+@documented()
+def zeta_extrema(k: Real, cosines: Waves, sines: Waves = ()) -> tuple[Array, Array]:
     """Return the true minimum and maximum of zeta (5.17) over its period.
 
     Returns
     -------
     Two arrays of the shape of `k`; NaN outside the range.
 
-    Examples
-    --------
     >>> [float(value.round(12)) for value in zeta_extrema(1.0, [-0.02])]
     [-0.02, 0.02]
     """
@@ -132,8 +107,8 @@ def zeta_extrema(k: Gradient, cosines: Cosines, sines: Sines = ()) -> tuple[Arra
     return extreme[0], extreme[1]
 
 
-@documented
-def power_pull_off(k: Gradient, stiffness: Stiffness, pull: PositivePull, exponent: Power = 2.0) -> tuple[Array, Array]:
+@documented()
+def power_pull_off(k: Real, stiffness: Real, pull: Real, exponent: Real = 2.0) -> tuple[Array, Array]:
     """Return the radius and the force of pull-off of an envelope of any power m.
 
     With G the factor of `hertz.power_indentation` and c = (1-k)/2,
@@ -144,8 +119,6 @@ def power_pull_off(k: Gradient, stiffness: Stiffness, pull: PositivePull, expone
     -------
     a/R and F/(1.5 pi R dgamma), of the broadcast shape; NaN outside the ranges.
 
-    Examples
-    --------
     >>> s, r = adhesion_strength(0.2, 500.0), waviness_strength(0.2, 0.01, 0.02)
     >>> bool(abs(power_pull_off(0.2, 500.0, s + r)[1] / pull_off_force(0.2, r / s) - 1) < 1e-14)
     True
@@ -157,8 +130,8 @@ def power_pull_off(k: Gradient, stiffness: Stiffness, pull: PositivePull, expone
     return radius, hertz.disc_stiffness(k, stiffness, radius) * hold * radius**c * (m - c) / (1.0 + gradient + m)
 
 
-@documented
-def power_radii(k: Gradient, pull: PositivePull, exponent: Power = 2.0) -> tuple[Array, Array]:
+@documented()
+def power_radii(k: Real, pull: Real, exponent: Real = 2.0) -> tuple[Array, Array]:
     """Return the radii of an envelope of any power m at the depth 0 and at its fold, (5.34) and (5.35).
 
         a_2^(m-c) = pull/G,   a_4^(m-c) = (1-k) pull/(2 m G)
@@ -169,8 +142,6 @@ def power_radii(k: Gradient, pull: PositivePull, exponent: Power = 2.0) -> tuple
     -------
     a_2/R and a_4/R, of the broadcast shape; NaN outside the ranges.
 
-    Examples
-    --------
     >>> [float(radius.round(12)) for radius in power_radii(0.0, 0.008)]
     [0.04, 0.01587401052]
     """
@@ -180,27 +151,23 @@ def power_radii(k: Gradient, pull: PositivePull, exponent: Power = 2.0) -> tuple
     return ratio ** (1.0 / (m - c)), (c * ratio / m) ** (1.0 / (m - c))
 
 
-@documented
-def pull_off_force(k: Gradient, ratio: Annotated[ArrayLike, "r/s >= 0."]) -> Array:
+@documented(ratio="r/s >= 0.")
+def pull_off_force(k: Real, ratio: Real) -> Array:
     """Return the pull-off force of the unloading envelope over 1.5 pi R dgamma, (3+k)/3 (1+r/s)^2.
 
     The exact force tends to it as lambda -> 0 at fixed r/s, with an error of the order (lambda/a)^2, below it except
     for k near 1.
 
-    Examples
-    --------
     >>> pull_off_force([0.0, 0.6], 0.5).round(12).tolist()
     [2.25, 2.7]
     """
     return (3.0 + exponent_of(k)) / 3.0 * (1.0 + not_negative(ratio)) ** 2
 
 
-@documented
-def indentation(k: Gradient, radius: Radius, pull: Pull, mean_height: MeanHeight = 0.0, exponent: Power = 2.0) -> Array:
+@documented()
+def indentation(k: Real, radius: Real, pull: Real, mean_height: Real = 0.0, exponent: Real = 2.0) -> Array:
     """Return the depth delta/R on an envelope (5.26).
 
-    Examples
-    --------
     >>> s, r = adhesion_strength(0.0, 500.0), waviness_strength(0.0, 0.01, 0.02)
     >>> indentation(0.0, 0.3, [s - r, s + r], 0.01 * 0.02).round(6).tolist()
     [0.032242, 0.025359]
@@ -210,12 +177,10 @@ def indentation(k: Gradient, radius: Radius, pull: Pull, mean_height: MeanHeight
     return smooth + np.asarray(mean_height, dtype=float)
 
 
-@documented
-def load(k: Gradient, stiffness: Stiffness, radius: Radius, pull: Pull, exponent: Power = 2.0) -> Array:
+@documented()
+def load(k: Real, stiffness: Real, radius: Real, pull: Real, exponent: Real = 2.0) -> Array:
     """Return the load P/(1.5 pi R dgamma) on an envelope (5.27).
 
-    Examples
-    --------
     >>> s, r = adhesion_strength(0.0, 500.0), waviness_strength(0.0, 0.01, 0.02)
     >>> load(0.0, 500.0, 0.3, [s - r, s + r]).round(4).tolist()
     [0.13, -0.3082]
