@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from gradhesion.core.arrays.general import solve_general
 from gradhesion.core.arrays.prepared import curves_of, prepared, run_by_exponent
 from gradhesion.core.arrays.tables import tables_of
-from gradhesion.core.closed.general_envelope import chis
+from gradhesion.core.closed.envelope import chis
 from gradhesion.core.curve.general import Basis
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.profile import Profile

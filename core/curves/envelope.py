@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core.closed.general_envelope import chis, scales_of
+from gradhesion.core.closed.envelope import chis, scales_of
 from gradhesion.core.curves.equilibrium import draw_through
 from gradhesion.core.curves.forms import General, PowerLaw
 from gradhesion.core.curves.smooth import Turns, turns_of

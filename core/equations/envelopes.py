@@ -19,12 +19,9 @@ from scipy.special import gamma
 
 from gradhesion.core.equations import hertz
 from gradhesion.core.equations._arguments import Real, Waves, documented
+from gradhesion.core.equations._crests import swings_of
 from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive, power_of
 from gradhesion.core.equations.general import harmonics
-
-_SAMPLES = 64
-_NEWTON_STEPS = 6
-"""Newton's steps from 1/128 of the shortest wave: four suffice."""
 
 
 @documented()
@@ -67,44 +64,18 @@ def series_strengths(k: Real, wavelength: Real, cosines: Waves, sines: Waves = (
     return size * highest, -size * lowest
 
 
-@documented()
+@documented(returns="Two arrays of the shape of `k`; NaN outside the range.")
 def zeta_extrema(k: Real, cosines: Waves, sines: Waves = ()) -> tuple[Array, Array]:
     """Return the true minimum and maximum of zeta (5.17) over its period.
-
-    Returns
-    -------
-    Two arrays of the shape of `k`; NaN outside the range.
 
     >>> [float(value.round(12)) for value in zeta_extrema(1.0, [-0.02])]
     [-0.02, 0.02]
     """
-    exponents = exponent_of(k)[..., None]
-    waves = harmonics(cosines, sines)
-    count = _SAMPLES * max(1, len(waves))
-    turns = np.broadcast_to(np.arange(count) / count, (*exponents.shape[:-1], count))
-
-    def derivative(xi: Array, order: int) -> Array:
-        # a derivative of a harmonic is (2 pi n)^order of it, a quarter turn on
-        total = np.zeros(np.broadcast_shapes(exponents.shape, xi.shape))
-        for n, a_n, b_n in waves:
-            phase = 2.0 * math.pi * np.mod(n * xi, 1.0) - 0.25 * math.pi * (1.0 + exponents) + 0.5 * math.pi * order
-            size = (2.0 * math.pi * n) ** (0.5 * (1.0 - exponents) + order)
-            total = total + size * (b_n * np.cos(phase) - a_n * np.sin(phase))
-        return total
-
-    values = derivative(turns, 0)
-    extreme = []
-    for sign in (-1.0, 1.0):
-        crests = sign * values
-        local = (crests >= np.roll(crests, 1, -1)) & (crests >= np.roll(crests, -1, -1))
-        xi = turns
-        for _ in range(_NEWTON_STEPS):
-            bend = sign * derivative(xi, 2)
-            step = np.divide(-sign * derivative(xi, 1), bend, out=np.zeros_like(bend), where=bend < 0.0)
-            xi = turns + np.clip(xi + step - turns, -1.0 / count, 1.0 / count)
-        refined = np.maximum(sign * derivative(xi, 0), crests)
-        extreme.append(sign * np.max(np.where(local, refined, crests), axis=-1))
-    return extreme[0], extreme[1]
+    exponents = exponent_of(k)
+    rows = tuple((float(n), -a_n, b_n) for n, a_n, b_n in harmonics(cosines, sines) if a_n != 0.0 or b_n != 0.0)
+    up, down = swings_of(exponents, rows)
+    size = (2.0 * math.pi) ** (0.5 * (1.0 - exponents))
+    return -size * down, size * up
 
 
 @documented()

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from gradhesion.core import OUTPUTS, PARAMETERS, Harmonic, Loading, Profile, solve
-from gradhesion.core.closed.crest import swings
-from gradhesion.core.closed.general_envelope import solve_envelope
+from gradhesion.core.closed.envelope import solve_envelope
 from gradhesion.core.equations import envelopes
+from gradhesion.core.equations._crests import swings
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import RESULTS
 from gradhesion.core.problem.status import NO_VALUE
