@@ -125,7 +125,7 @@ def up_to_rims(
 
         return solve_short_waves(scenes, wanted, profile, threads)
     if solver == "envelope" and not is_one_wave:
-        from gradhesion.core.closed.general_envelope import solve_envelope  # noqa: PLC0415 (SciPy)
+        from gradhesion.core.closed.envelope import solve_envelope  # noqa: PLC0415 (SciPy)
 
         return solve_envelope(scenes, PARAMETERS, wanted, profile)
     checks: Any = {"check_contact": check_contact, "turned": turned, "slopes": slopes}
