@@ -14,7 +14,7 @@ import numpy as np
 
 from gradhesion.core.curves import draw_curves
 from gradhesion.core.equations import gap, general, pressure
-from gradhesion.core.equations._domain import Array
+from gradhesion.core.equations._arguments import Array
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.profile import Profile
