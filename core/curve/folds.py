@@ -25,6 +25,7 @@ from gradhesion.core.curve.values import (
     radius_of,
     slope_at,
     slope_in,
+    slope_near,
 )
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.table.layout import BE, BP, BV, HALF, KE, QPOW, QUP, RLOW, RPOW, SLOPE, E, T, V, Y, end_of
@@ -76,9 +77,9 @@ def pair_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
 
     Return that, the place of the extremum and D there times the half width; (False, 0, inf) if there is none.
     """
-    _, D1, _, _ = slope_in(curve, i, -1.0)
+    _, D1, _, _ = slope_near(curve, i, -1.0)
     left = D1 * sign
-    _, D1, _, _ = slope_in(curve, i, 1.0)
+    _, D1, _, _ = slope_near(curve, i, 1.0)
     right = D1 * sign
     if left >= 0.0 or right <= 0.0:
         return False, 0.0, math.inf
@@ -86,7 +87,7 @@ def pair_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
     t = left / (left - right) * 2.0 - 1.0
     D = 0.0
     for _ in range(60):
-        D, D1, D2, _ = slope_in(curve, i, t)
+        D, D1, D2, _ = slope_near(curve, i, t)
         if D1 * sign > 0.0:
             high = t
         else:
@@ -103,11 +104,11 @@ def pair_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
 @kernel
 def _turn_of_slope(curve: Curve, i: int, low: float, high: float, sign: float) -> float:
     """Return the place between two where sign D' turns from positive to negative, or the reverse, by bisection."""
-    _, D1, _, _ = slope_in(curve, i, low)
+    _, D1, _, _ = slope_near(curve, i, low)
     rises = D1 * sign > 0.0
     for _ in range(40):
         t = 0.5 * (low + high)
-        _, D1, _, _ = slope_in(curve, i, t)
+        _, D1, _, _ = slope_near(curve, i, t)
         if (D1 * sign > 0.0) == rises:
             low = t
         else:
@@ -122,14 +123,14 @@ def detour_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
     Return that, and the places of the crest and of the trough between them. D' must be positive at both edges and
     negative somewhere between: at the least of D', which is looked for where D'' turns.
     """
-    _, left, left2, _ = slope_in(curve, i, -1.0)
-    _, right, right2, _ = slope_in(curve, i, 1.0)
+    _, left, left2, _ = slope_near(curve, i, -1.0)
+    _, right, right2, _ = slope_near(curve, i, 1.0)
     if left * sign <= 0.0 or right * sign <= 0.0 or left2 * sign >= 0.0 or right2 * sign <= 0.0:
         return False, 0.0, 0.0
     low, high, middle = -1.0, 1.0, 0.0
     for _ in range(40):
         middle = 0.5 * (low + high)
-        _, D1, D2, _ = slope_in(curve, i, middle)
+        _, D1, D2, _ = slope_near(curve, i, middle)
         if D1 * sign < 0.0:
             break
         if D2 * sign < 0.0:
@@ -140,8 +141,8 @@ def detour_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
         return False, 0.0, 0.0
     crest = _turn_of_slope(curve, i, -1.0, middle, sign)
     trough = _turn_of_slope(curve, i, middle, 1.0, sign)
-    top, _, _, _ = slope_in(curve, i, crest)
-    bottom, _, _, _ = slope_in(curve, i, trough)
+    top, _, _, _ = slope_near(curve, i, crest)
+    bottom, _, _, _ = slope_near(curve, i, trough)
     return top * sign > 0.0 and bottom * sign < 0.0, crest, trough
 
 
@@ -180,11 +181,10 @@ def _guess_of(older: float, before: float, after: float) -> float:
 
 
 @kernel
-def scan(curve: Curve, first: int, last: int, count: int, slopes: Floats, trace: Floats) -> tuple[int, bool]:
+def scan(curve: Curve, first: int, last: int, count: int, trace: Floats) -> tuple[int, bool]:
     """Add the folds in the bins `first` to `last` - 1 to `count` branches.
 
-    `slopes` is room for CHUNK numbers. Return the number of branches (FULL: no room) and whether the bounds of the table
-    say that no fold follows.
+    Return the number of branches (FULL: no room) and whether the bounds of the table say that no fold follows.
     """
     table, nodes = curve.table, curve.table.nodes
     B, g, k = curve.B, curve.g, curve.table.k
@@ -193,6 +193,7 @@ def scan(curve: Curve, first: int, last: int, count: int, slopes: Floats, trace:
     ends = table.exponent - 1.0 >= base  # else the power loses against the waves, and folds need not end
     before = slope_at(curve, first)
     older, start = before, first
+    slopes = np.zeros(CHUNK)
     places, values = np.zeros(4), np.zeros(4)  # the ends of the pieces of a bin on which D has one fold, and D there
     while start < last:
         if ends and B * nodes[RPOW, start] + g * nodes[RLOW, start] > highest / nodes[Y, start]:
@@ -267,10 +268,10 @@ def close_end(curve: Curve, last: int, count: int, trace: Floats) -> None:
 
 
 @kernel
-def find_folds(curve: Curve, y_end: float, slopes: Floats, trace: Floats) -> int:
+def find_folds(curve: Curve, y_end: float, trace: Floats) -> int:
     """Fill the trace with all branches that begin below a radius, and return their number, FULL or TOO_SHORT.
 
-    `slopes` is room for CHUNK numbers. The last branch is endless (END = inf) if no fold follows at all.
+    The last branch is endless (END = inf) if no fold follows at all.
     """
     table = curve.table
     first = first_bin(curve)
@@ -282,7 +283,7 @@ def find_folds(curve: Curve, y_end: float, slopes: Floats, trace: Floats) -> int
         trace[START_LEVEL, 0] = coordinate_of(curve, depth, 0.0)
         trace[END, 0], trace[END_LEVEL, 0], trace[UNLOADED, 0] = math.inf, math.inf, math.nan
         count = 1
-    count, ended = scan(curve, first, last, count, slopes, trace)
+    count, ended = scan(curve, first, last, count, trace)
     if ended or count < 0:
         return count
     if last == table.bins and y_end > end_of(table):

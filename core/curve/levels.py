@@ -13,6 +13,7 @@ from gradhesion.core.curve.values import (
     radius_of,
     slope_at,
     slope_in,
+    slope_near,
     softness,
 )
 from gradhesion.core.jit import kernel, leaf
@@ -130,7 +131,7 @@ def polished(curve: Curve, y: float, level: float) -> float:
         return y
     i, t = place_of(curve.table, y)
     if math.isnan(level):
-        D, D1, _, _ = slope_in(curve, i, t)
+        D, D1, _, _ = slope_near(curve, i, t)
         step = D / D1
     else:
         value, D, _ = _value_in(curve, i, t)
