@@ -327,7 +327,7 @@ def _put_cycle(
 
 
 @kernel
-def _turns_of(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> Walked:
+def turns_of(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> Walked:
     """Store where scenes of one curve turn, in TURN, as a reduced radius; return their curve of closing as walked.
 
     The curve is traced as far as some scene is sure to turn, and farther where a jump has passed its target.
@@ -362,21 +362,31 @@ def _last_fold(task: Task, pair: Pair, walked: Walked) -> float:
 
 
 @kernel
-def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
-    """Solve the scenes `first` to `last` - 1, all of one curve and valid; store their results, or SHORT as status."""
-    rooms = task.rooms
-    walked = _turns_of(task, scenes, reduced, first, last, out)
-    pair = walked.pair
-    farthest = 0.0
+def open_curve(task: Task, walked: Walked, first: int, last: int, out: Floats) -> tuple[int, float]:
+    """Trace the curve of opening of scenes whose TURN is stored; return its branches and the farthest turn.
+
+    Those that turn beyond the table get SHORT as status and no TURN.
+    """
+    farthest, rooms = 0.0, task.rooms
     for i in range(first, last):
-        beyond = task.punch.turn != AT_RIM and out[TURN, i] >= end_of(pair.closing.table) and walked.count >= 0
+        beyond = task.punch.turn != AT_RIM and out[TURN, i] >= end_of(walked.pair.closing.table) and walked.count >= 0
         if math.isnan(out[TURN, i]) or beyond:
             _no_value(out, i, SHORT)
         else:
             farthest = max(farthest, out[TURN, i])
     opened = walked.count
-    if pair.ratio < 1.0 and walked.count >= 0 and farthest > 0.0:
-        opened = find_folds(pair.opening, farthest, rooms.slopes, rooms.opening)
+    if walked.pair.ratio < 1.0 and walked.count >= 0 and farthest > 0.0:
+        opened = find_folds(walked.pair.opening, farthest, rooms.slopes, rooms.opening)
+    return opened, farthest
+
+
+@kernel
+def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
+    """Solve the scenes `first` to `last` - 1, all of one curve and valid; store their results, or SHORT as status."""
+    rooms = task.rooms
+    walked = turns_of(task, scenes, reduced, first, last, out)
+    pair = walked.pair
+    opened, farthest = open_curve(task, walked, first, last, out)
     pull = pair.opening
     if pair.pattern.rows.shape[1] == 0:
         pull = Curve(task.by_load, pull.B, pull.g, pull.by_depth, pull.by_load)
@@ -418,20 +428,23 @@ def _may_be_solved(task: Task, scenes: Floats, reduced: Floats, i: int, out: Flo
 
 
 @kernel
+def curve_end(task: Task, scenes: Floats, reduced: Floats, start: int, last: int, out: Floats) -> int:
+    """Return the end of the scenes from `start` on that share its curve; `start` if it cannot be solved, which is stored."""
+    end = start
+    while end < last and same_curve(scenes, reduced, start, end) and _may_be_solved(task, scenes, reduced, end, out):
+        end += 1
+    return end
+
+
+@kernel
 def solve_cycles(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Solve the scenes `first` to `last` - 1 of one exponent."""
     start = first
     while start < last:
-        end = start + 1
-        if _may_be_solved(task, scenes, reduced, start, out):
-            while (
-                end < last
-                and same_curve(scenes, reduced, start, end)
-                and _may_be_solved(task, scenes, reduced, end, out)
-            ):
-                end += 1
+        end = curve_end(task, scenes, reduced, start, last, out)
+        if end > start:
             solve_curve(task, scenes, reduced, start, end, out)
-        start = end
+        start = max(end, start + 1)
 
 
 @kernel

@@ -9,7 +9,7 @@ import threading
 from collections import OrderedDict
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from typing import Final, NamedTuple
+from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,6 +58,8 @@ _SCENES: Final = 1024
 """Scenes of a part, at least: a millisecond or more."""
 _MOST_SCENES: Final = 32768
 """And at most: some megabytes."""
+Group: TypeAlias = Callable[[int, Floats, Floats, Floats], None]
+"""What solves scenes of one fineness of bins: takes that, scenes, their reduced numbers, and room for results."""
 
 
 @kernel
@@ -85,9 +87,7 @@ def near_forces(
     source, disc = source_for(punch, basis, 0.5, False), disc_of(0.5, 2.0, 1.0, punch.waves, profile)
     first = 0
     while first < scenes.shape[1]:
-        k, last = scenes[K, first], first + 1
-        while last < scenes.shape[1] and scenes[K, last] == k:
-            last += 1
+        k, last = scenes[K, first], end_of_exponent(scenes, first)
         filled[:] = 0
         fill_weights(basis.k, k, weights)
         table = empty_table(basis, k, nodes, polys)
@@ -95,6 +95,58 @@ def near_forces(
         task = Task(punch, wanted, table, table, 0.0, source, disc, filling, rooms, math.inf)
         solve_forces(task, scenes, reduced, first, last, out)
         first = last
+
+
+@kernel
+def end_of_exponent(scenes: Floats, first: int) -> int:
+    """Return the end of the scenes that share the exponent of the first one."""
+    last = first + 1
+    while last < scenes.shape[1] and scenes[K, last] == scenes[K, first]:
+        last += 1
+    return last
+
+
+@kernel
+def near_task(
+    punch: Punch,
+    wanted: Wanted,
+    basis: Basis,
+    by_load: Basis,
+    profile: Floats,
+    rooms: Rooms,
+    nodes: Floats,
+    polys: Floats,
+    load_nodes: Floats,
+    load_polys: Floats,
+    weights: Floats,
+    scenes: Floats,
+    reduced: Floats,
+    first: int,
+    last: int,
+) -> Task:
+    """Return what the scenes `first` to `last` - 1, of one exponent, are solved with: tables filled as far as they need.
+
+    Arguments are those of `near_cycles`; `weights` is room, (NODES,).
+    """
+    k, far, at_far_rim = scenes[K, first], 0.0, False
+    reach = basis.start + (basis.values.shape[0] - 3 - GEOMETRIC) * basis.width
+    for i in range(first, last):
+        if reduced[NEED, i] <= reach:
+            far = max(far, reduced[NEED, i])
+            at_far_rim = at_far_rim or (wanted.depth and reduced[NEED, i] < reduced[RIM_Y, i] < math.inf)
+    if not (far > 0.0 and 0.0 <= k <= 1.0):
+        k = 0.5  # none can be solved here
+    bins = GEOMETRIC + max(16, int((far - basis.start) / basis.width) + 2)
+    table = fill_table(basis, k, weights, min(bins, basis.values.shape[0] - 1), nodes, polys)
+    pull = table
+    if load_nodes.shape[1] > 1:
+        pull = fill_table(by_load, k, weights, table.bins, load_nodes, load_polys)
+    source = source_for(punch, basis, k, at_far_rim)
+    node = between(basis, k)
+    crest = 1.01 * max(basis.crest[node], basis.crest[node + 1])
+    disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
+    filling = Filling(basis, weights, np.array([ALL, ALL]))
+    return Task(punch, wanted, table, pull, crest, source, disc, filling, rooms, reach)
 
 
 @kernel
@@ -117,30 +169,27 @@ def near_cycles(
 
     `by_load` is the basis of the pull-off, which is that of the cycle but for the leading terms of short waves.
     """
-    weights, filled = np.zeros(NODES), np.array([ALL, ALL])
-    reach = basis.start + (basis.values.shape[0] - 3 - GEOMETRIC) * basis.width
+    weights = np.zeros(NODES)
     first = 0
     while first < scenes.shape[1]:
-        k, last = scenes[K, first], first + 1
-        while last < scenes.shape[1] and scenes[K, last] == k:
-            last += 1
-        far, at_far_rim = 0.0, False
-        for i in range(first, last):
-            if reduced[NEED, i] <= reach:
-                far = max(far, reduced[NEED, i])
-                at_far_rim = at_far_rim or (wanted.depth and reduced[NEED, i] < reduced[RIM_Y, i] < math.inf)
-        if not (far > 0.0 and 0.0 <= k <= 1.0):
-            k = 0.5  # none can be solved here
-        bins = GEOMETRIC + max(16, int((far - basis.start) / basis.width) + 2)
-        table = fill_table(basis, k, weights, min(bins, basis.values.shape[0] - 1), nodes, polys)
-        pull = table
-        if load_nodes.shape[1] > 1:
-            pull = fill_table(by_load, k, weights, table.bins, load_nodes, load_polys)
-        source = source_for(punch, basis, k, at_far_rim)
-        node = between(basis, k)
-        crest = 1.01 * max(basis.crest[node], basis.crest[node + 1])
-        disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
-        task = Task(punch, wanted, table, pull, crest, source, disc, Filling(basis, weights, filled), rooms, reach)
+        last = end_of_exponent(scenes, first)
+        task = near_task(
+            punch,
+            wanted,
+            basis,
+            by_load,
+            profile,
+            rooms,
+            nodes,
+            polys,
+            load_nodes,
+            load_polys,
+            weights,
+            scenes,
+            reduced,
+            first,
+            last,
+        )
         solve_cycles(task, scenes, reduced, first, last, out)
         first = last
 
@@ -212,11 +261,23 @@ def _lowest(nodes: Floats, crest: float) -> float:
     return min(crest, 1.02 * float(((near[U] - near[U1]) / (near[E] * near[Y])).min()))
 
 
-def _solve_far(
-    punch: Punch, wanted: Wanted, form: int, finer: int, profile: Floats, scenes: Floats, reduced: Floats, out: Floats
+def solve_far(
+    punch: Punch,
+    wanted: Wanted,
+    form: int,
+    finer: int,
+    profile: Floats,
+    scenes: Floats,
+    reduced: Floats,
+    out: Floats,
+    most_bins: int = _MOST_BINS,
+    solve: Callable[[Task, Floats, Floats, int, int, Floats], None] = solve_cycles,
 ) -> None:
-    """Solve scenes of one exponent that reach beyond near tables, on tables that are tripled where they prove too short."""
-    k, most = float(scenes[K, 0]), (_MOST_BINS - GEOMETRIC) * width_of(punch.waves, finer)
+    """Solve scenes of one exponent that reach beyond near tables, on tables that are tripled where they prove too short.
+
+    `solve` takes a task and scenes as `solve_cycles` does. Tables have `most_bins` bins at most.
+    """
+    k, most = float(scenes[K, 0]), (most_bins - GEOMETRIC) * width_of(punch.waves, finer)
     filling_basis = basis_of(punch.exponent, punch.waves, EXACT if form == EXACT else BY_DEPTH, finer)
     filling = Filling(filling_basis, np.zeros(NODES), np.array([ALL, ALL]))
     left, factor = np.arange(scenes.shape[1]), 1.0
@@ -232,8 +293,7 @@ def _solve_far(
         rooms = rooms_for(table.bins, punch.rows.shape[1] > 0)
         task = Task(punch, wanted, table, pull, crest, source, disc, filling, rooms, math.inf)
         chosen, own = np.ascontiguousarray(scenes[:, left]), np.ascontiguousarray(reduced[:, left])
-        found = np.empty((RESULT_ROWS, left.size))
-        solve = solve_cycles if wanted.cycle or punch.turn != AT_RIM or punch.rows.shape[1] else solve_forces
+        found = np.empty((len(out), left.size))
         solve(task, chosen, own, 0, left.size, found)
         out[:, left] = found
         left = left[found[STATUS] == SHORT]
@@ -253,9 +313,15 @@ def _finer_bins(punch: Punch, scenes: Floats, least: Floats) -> Integers:
         return 2 ** np.clip(np.nan_to_num(np.ceil(np.log2(ratio))), 0, 12).astype(np.int64)
 
 
-def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes: Floats) -> Floats:
-    """Return the results of scenes in the order of their exponents, of one thread."""
-    out = np.full((RESULT_ROWS, scenes.shape[1]), np.nan)
+def in_groups(
+    punch: Punch, form: int, scenes: Floats, rows: int, near: Group, far: Group, *, whole: bool = False
+) -> Floats:
+    """Return the results of scenes in the order of their exponents, (rows, scenes), those of STATUS among them.
+
+    `near` solves scenes of one fineness of bins, `far` those of one exponent that it leaves as SHORT; each takes the
+    fineness, scenes, their reduced numbers, and room for results. `whole`: all folds are needed, wherever the rim is.
+    """
+    out = np.full((rows, scenes.shape[1]), np.nan)
     most, steep = np.ones(scenes.shape[1]), np.zeros(scenes.shape[1])
     finer = np.ones(1, dtype=np.int64)
     if punch.rows.shape[1] > 0:
@@ -266,37 +332,45 @@ def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes
         finer = _finer_bins(punch, scenes, least)
     basis = basis_of(punch.exponent, punch.waves, EXACT if form == EXACT else BY_DEPTH)
     reduced = reduced_of(punch, basis, scenes, most, steep)
-    if wanted.saturation:  # all folds are needed, wherever the rim is
+    if whole:
         reduced[NEED] = np.fmax(reduced[NEED], reduced[WINDOW])
-    groups = (
-        [(int(finer[0]), slice(None))]
-        if (finer == finer[0]).all()
-        else [(int(value), np.flatnonzero(finer == value)) for value in np.unique(finer)]
-    )
-    for value, chosen in groups:
-        own = np.ascontiguousarray(scenes[:, chosen])
-        found = np.empty((RESULT_ROWS, own.shape[1]))
-        _solve_near(punch, wanted, form, value, profile, own, np.ascontiguousarray(reduced[:, chosen]), found)
+
+    def put(solve: Group, value: int, chosen: slice | Integers) -> None:
+        """Solve chosen scenes."""
+        own, numbers = (np.ascontiguousarray(array[:, chosen]) for array in (scenes, reduced))
+        found = np.full((rows, own.shape[1]), np.nan)
+        solve(value, own, numbers, found)
         out[:, chosen] = found
+
+    if (finer == finer[0]).all():
+        put(near, int(finer[0]), slice(None))
+    else:
+        for value in np.unique(finer):
+            put(near, int(value), np.flatnonzero(finer == value))
     short = np.flatnonzero(out[STATUS] == SHORT)
     finer = np.broadcast_to(finer, scenes.shape[1])
     for value in np.unique(finer[short]):
         for k in np.unique(scenes[K, short]):
             index = short[(scenes[K, short] == k) & (finer[short] == value)]
             if index.size:
-                found = np.empty((RESULT_ROWS, index.size))
-                _solve_far(
-                    punch,
-                    wanted,
-                    form,
-                    int(value),
-                    profile,
-                    np.ascontiguousarray(scenes[:, index]),
-                    np.ascontiguousarray(reduced[:, index]),
-                    found,
-                )
-                out[:, index] = found
+                put(far, int(value), index)
     return out
+
+
+def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes: Floats) -> Floats:
+    """Return the results of scenes in the order of their exponents, of one thread."""
+    cycles = wanted.cycle or punch.turn != AT_RIM or punch.rows.shape[1] > 0
+
+    def near(finer: int, own: Floats, reduced: Floats, out: Floats) -> None:
+        """Solve near scenes."""
+        _solve_near(punch, wanted, form, finer, profile, own, reduced, out)
+
+    def far(finer: int, own: Floats, reduced: Floats, out: Floats) -> None:
+        """Solve others."""
+        solve = solve_cycles if cycles else solve_forces
+        solve_far(punch, wanted, form, finer, profile, own, reduced, out, _MOST_BINS, solve)
+
+    return in_groups(punch, form, scenes, RESULT_ROWS, near, far, whole=wanted.saturation)
 
 
 class Request(NamedTuple):
