@@ -9,7 +9,8 @@ import math
 from typing import NamedTuple
 
 from gradhesion.core.curve.folds import CLOSE, find_folds
-from gradhesion.core.curve.trace import END, LANDING, START
+from gradhesion.core.curve.levels import polished
+from gradhesion.core.curve.trace import END, END_LEVEL, LANDING, START
 from gradhesion.core.curve.values import Curve, coordinate_of, load_curve, softness, state_at
 from gradhesion.core.cycle.disc import Disc, gap_is_open, loading_is_one_disc
 from gradhesion.core.cycle.path import load_to, unload_from, visited_within, walk_loading
@@ -174,6 +175,12 @@ def _walk(task: Task, scenes: Floats, reduced: Floats, i: int, y_end: float) -> 
     closing = pair.closing
     count = find_folds(closing, y_end, rooms.slopes, rooms.closing)
     visits = walk_loading(closing, rooms.closing, count, rooms.visited) if count >= 0 else 0
+    if task.punch.turn != AT_RIM:  # losses forgive the error of a landing, but not where a cycle turns
+        level = 0.0
+        for v in range(visits):
+            j = rooms.visited[v]
+            rooms.closing[LANDING, j] = polished(closing, rooms.closing[LANDING, j], level)
+            level = rooms.closing[END_LEVEL, j]
     if task.punch.turn == AT_A_LOAD and closing.by_depth > 0.0 and count >= 0:
         measured = load_curve(closing)
         rising = find_folds(measured, y_end, rooms.slopes, rooms.measured)

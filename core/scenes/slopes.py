@@ -22,7 +22,6 @@ from gradhesion.core.cycle.disc import profile_of
 from gradhesion.core.cycle.jumps import (
     JUMP_ROWS,
     LANDED,
-    LANDED_BRANCH,
     LEFT,
     list_loading_jumps,
     list_unloading_jumps,
@@ -208,10 +207,10 @@ def _freeze(task: Task, walked: Walked, opened: int, y: float, pull: float, turn
 
 
 @kernel
-def _farthest(frozen: Frozen) -> float:
-    """Return the largest radius at which anything is observed."""
+def _farthest(frozen: Frozen, patterned: bool) -> float:
+    """Return the largest radius at which anything is observed: with a pattern the area of the edge up to the turn."""
     y = frozen.pull
-    if frozen.moves or frozen.jumps[LANDED_BRANCH, frozen.loading - 1] < 0.0:
+    if frozen.moves or (patterned and frozen.turn < math.inf):
         y = frozen.turn
     for n in range(frozen.count):
         y = max(y, frozen.jumps[LEFT, n], frozen.jumps[LANDED, n])
@@ -309,7 +308,7 @@ def _fill_scene(
     near.scene[:, 0], near.numbers[:, 0] = scenes[:, i], reduced[:, i]
     near.value[:] = 0.0
     _observe(task, pair, frozen, 1.0, near.value)
-    y_end = _farthest(frozen)
+    y_end = _farthest(frozen, pair.pattern.rows.shape[1] > 0)
     _fill_tables(near, y_end)
     _fill_by(task, near, frozen, y_end)
     _put_slopes(near, pair, frozen, reduced[TARGET_VALUE, i] / math.sqrt(pair.ratio), out, i)
