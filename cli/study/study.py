@@ -215,7 +215,7 @@ class Study:
         made = tuple(name for name in INPUTS if name in wanted)
         if not self.search:
             return made
-        from gradhesion.core.variables.reduced import sources_of  # noqa: PLC0415 (300 ms for SciPy)
+        from gradhesion.core.closed.reduced import sources_of  # noqa: PLC0415 (300 ms for SciPy)
 
         searched = {one.name for one in self.search.inputs}
         return tuple(name for name in made if not searched & {*sources_of(name, dict.fromkeys(self.given))})

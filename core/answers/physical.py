@@ -1,7 +1,7 @@
 """Sensitivities to quantities with units: those to the parameters without units, by the chain rule.
 
 A value in SI units is that of the theory times powers of R and of the work of adhesion, 1.5 pi R dgamma for the force
-and R^2 dgamma for the energy. The parameters are powers of the quantities, or follow from them (variables/reduced.py);
+and R^2 dgamma for the energy. The parameters are powers of the quantities, or follow from them (closed/reduced.py);
 how each follows from each is found by differences of logarithms, which are exact for powers.
 """
 
@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.variables.reduced import parameters_from
+from gradhesion.core.closed.reduced import parameters_from
 
 POWERS: Final = {
     "pull_off_force_sensitivity": {"R": 1.0, "work_of_adhesion": 1.0},

@@ -12,29 +12,24 @@ results are those of hertz.py. Lengths are in R, loads in 1.5 pi R dgamma, M in 
 
 import math
 from collections.abc import Callable
-from typing import Annotated
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gradhesion.core.equations import _abel, hertz, jkr
-from gradhesion.core.equations._arguments import Gradient, Radius, Stiffness, StiffnessOrInf, documented
+from gradhesion.core.equations._arguments import Real, documented
 from gradhesion.core.equations._domain import Array, exponent_of, not_negative
 
-Slope = Annotated[
-    Callable[[Array], ArrayLike], "f'(r), a function of an array of r/R in (0, a/R); smooth there, and bounded at 0."
-]
-Shortest = Annotated[float, "The shortest wave of f'/R, if it has waves."]
+Slope: TypeAlias = Callable[[Array], ArrayLike]
 
 
-@documented
-def hertz_indentation(k: Gradient, radius: Radius, slope: Slope, shortest: Shortest = math.inf) -> Array:
+@documented()
+def hertz_indentation(k: Real, radius: Real, slope: Slope, shortest: float = math.inf) -> Array:
     """Return delta_H/R, the depth of contact over a disc without adhesion (3.9).
 
     Accurate to 1e-13 of a times the largest slope.
 
-    Examples
-    --------
     A sphere in the place of its paraboloid, f' = r/sqrt(1-r^2); at k = 1 depth is the profile:
 
     >>> float(hertz_indentation(1.0, 0.6, lambda r: r / np.sqrt(1 - r**2)).round(12))
@@ -43,12 +38,10 @@ def hertz_indentation(k: Gradient, radius: Radius, slope: Slope, shortest: Short
     return _integrals(k, radius, slope, shortest)[0]
 
 
-@documented
-def hertz_load(k: Gradient, stiffness: Stiffness, radius: Radius, slope: Slope, shortest: Shortest = math.inf) -> Array:
+@documented()
+def hertz_load(k: Real, stiffness: Real, radius: Real, slope: Slope, shortest: float = math.inf) -> Array:
     """Return P_H/(1.5 pi R dgamma), the load of contact over a disc without adhesion (3.10).
 
-    Examples
-    --------
     >>> own, power = hertz_load(0.3, 500.0, 0.2, lambda r: r**2), hertz.load(0.3, 500.0, 0.2, 1.0, 0.0, 3.0)
     >>> bool(abs(own / power - 1) < 1e-13)
     True
@@ -57,14 +50,10 @@ def hertz_load(k: Gradient, stiffness: Stiffness, radius: Radius, slope: Slope, 
     return hertz.disc_stiffness(k, stiffness, radius) * (depth - mean)
 
 
-@documented
-def indentation(
-    k: Gradient, stiffness: StiffnessOrInf, radius: Radius, slope: Slope, shortest: Shortest = math.inf
-) -> Array:
+@documented()
+def indentation(k: Real, stiffness: Real, radius: Real, slope: Slope, shortest: float = math.inf) -> Array:
     """Return the depth delta/R in adhesive equilibrium (4.8), (5.1), (5.3).
 
-    Examples
-    --------
     >>> own, power = indentation(0.3, 500.0, 0.2, lambda r: r), jkr.indentation(0.3, 500.0, 0.2, 1.0, 0.0)
     >>> bool(abs(own - power) < 1e-14)
     True
@@ -72,12 +61,10 @@ def indentation(
     return hertz_indentation(k, radius, slope, shortest) - jkr.adhesive_depth(k, stiffness, radius)
 
 
-@documented
-def load(k: Gradient, stiffness: Stiffness, radius: Radius, slope: Slope, shortest: Shortest = math.inf) -> Array:
+@documented()
+def load(k: Real, stiffness: Real, radius: Real, slope: Slope, shortest: float = math.inf) -> Array:
     """Return the load P/(1.5 pi R dgamma) in adhesive equilibrium (4.7), (5.2), (5.4).
 
-    Examples
-    --------
     A sphere adheres a little less than its paraboloid, here with E* R/dgamma = 500:
 
     >>> a = np.linspace(0.1, 0.3, 201)

@@ -11,46 +11,28 @@ leave out, raises depths by -lambda sum a_n. Lengths are in R, loads in 1.5 pi R
 Jin, Guo & Wan (2013).
 """
 
-from typing import Annotated
-
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import gamma
 
 from gradhesion.core.equations import envelopes, hertz, jkr
-from gradhesion.core.equations._arguments import (
-    Cosines,
-    Depth,
-    Gradient,
-    LargestRadius,
-    MeanHeight,
-    Power,
-    Sines,
-    Stiffness,
-    StiffnessOrInf,
-    Wavelength,
-    documented,
-)
+from gradhesion.core.equations._arguments import Real, Waves, documented
 from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive
 
-Alpha = Annotated[ArrayLike, "A value of zeta, between `envelopes.zeta_extrema`."]
 
-
-@documented
+@documented()
 def indentation(
-    k: Gradient,
-    stiffness: StiffnessOrInf,
-    radius: LargestRadius,
-    alpha: Alpha,
-    wavelength: Wavelength,
+    k: Real,
+    stiffness: Real,
+    radius: Real,
+    alpha: Real,
+    wavelength: Real,
     *,
-    exponent: Power = 2.0,
-    mean_height: MeanHeight = 0.0,
+    exponent: Real = 2.0,
+    mean_height: Real = 0.0,
 ) -> Array:
     """Return the depth delta/R at the radius a_am, for a value alpha of zeta (5.28).
 
-    Examples
-    --------
     >>> lowest, highest = envelopes.zeta_extrema(0.2, [-0.02])
     >>> span = indentation(0.2, 500.0, 0.3, highest, 0.01) - indentation(0.2, 500.0, 0.3, lowest, 0.01)
     >>> bool(abs(span / drop(0.2, 0.3, 0.01, [-0.02]) - 1) < 1e-13)
@@ -60,20 +42,10 @@ def indentation(
     return smooth + _swing(k, radius, wavelength) * np.asarray(alpha, dtype=float) + np.asarray(mean_height)
 
 
-@documented
-def load(
-    k: Gradient,
-    stiffness: Stiffness,
-    radius: LargestRadius,
-    alpha: Alpha,
-    wavelength: Wavelength,
-    *,
-    exponent: Power = 2.0,
-) -> Array:
+@documented()
+def load(k: Real, stiffness: Real, radius: Real, alpha: Real, wavelength: Real, *, exponent: Real = 2.0) -> Array:
     """Return the load P/(1.5 pi R dgamma) at the radius a_am, for a value alpha of zeta (5.29).
 
-    Examples
-    --------
     At alpha = 0 it is the smooth punch:
 
     >>> own, smooth = load(0.2, 500.0, 0.3, 0.0, 0.01), jkr.load(0.2, 500.0, 0.3, 0.01, 0.0)
@@ -85,20 +57,12 @@ def load(
     return smooth + hertz.disc_stiffness(k, stiffness, radius) * swing
 
 
-@documented
+@documented()
 def load_at_depth(
-    k: Gradient,
-    stiffness: Stiffness,
-    radius: LargestRadius,
-    depth: Depth,
-    *,
-    exponent: Power = 2.0,
-    mean_height: MeanHeight = 0.0,
+    k: Real, stiffness: Real, radius: Real, depth: Real, *, exponent: Real = 2.0, mean_height: Real = 0.0
 ) -> Array:
     """Return the load P/(1.5 pi R dgamma) on the line of early unloading at a depth (5.30).
 
-    Examples
-    --------
     For a paraboloid it is (5.32):
 
     >>> from gradhesion.core.equations import effective
@@ -112,14 +76,12 @@ def load_at_depth(
     return start + hertz.disc_stiffness(k, stiffness, radius) * lowered
 
 
-@documented
-def drop(k: Gradient, radius: LargestRadius, wavelength: Wavelength, cosines: Cosines, sines: Sines = ()) -> Array:
+@documented()
+def drop(k: Real, radius: Real, wavelength: Real, cosines: Waves, sines: Waves = ()) -> Array:
     """Return the depth over which the line of early unloading runs, over R (5.31).
 
     One cosine has 2 r a_am^((1-k)/2), which (5.33) should print.
 
-    Examples
-    --------
     >>> r = envelopes.waviness_strength(0.2, 0.01, 0.02)
     >>> bool(abs(drop(0.2, 0.3, 0.01, [-0.02]) / (2 * r * 0.3**0.4) - 1) < 1e-13)
     True

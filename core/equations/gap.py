@@ -18,41 +18,22 @@ import numpy as np
 from scipy.special import roots_legendre
 
 from gradhesion.core.equations import _abel, general, hertz, profile
-from gradhesion.core.equations._arguments import (
-    Amplitude,
-    Cosines,
-    Depth,
-    Gradient,
-    Outside,
-    PositiveRadius,
-    Power,
-    Sines,
-    Wavelength,
-    documented,
-)
+from gradhesion.core.equations._arguments import Real, Waves, documented
 from gradhesion.core.equations._domain import Array, exponent_of, not_negative, point_by_point, positive, power_of
 
 _NODES: Final = 24
 _LEGENDRE: Final = roots_legendre(_NODES)
 
 
-@documented
+@documented()
 def gap(
-    k: Gradient,
-    distance: Outside,
-    radius: PositiveRadius,
-    depth: Depth,
-    wavelength: Wavelength,
-    amplitude: Amplitude,
-    exponent: Power = 2.0,
+    k: Real, distance: Real, radius: Real, depth: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0
 ) -> Array:
     """Return gap/R at a distance r from the axis, around contact over a disc of radius a at a depth delta (2.2).
 
     It is negative where the surfaces would overlap. Accurate to 1e-12 of the largest delta_H between a and r
     (tests/core/equations/test_gap.py).
 
-    Examples
-    --------
     A profile that rises everywhere, and yet no contact over one disc:
 
     >>> from gradhesion.core.equations import jkr
@@ -70,20 +51,12 @@ def gap(
     )
 
 
-@documented
+@documented()
 def surface(
-    k: Gradient,
-    distance: Outside,
-    radius: PositiveRadius,
-    depth: Depth,
-    wavelength: Wavelength,
-    amplitude: Amplitude,
-    exponent: Power = 2.0,
+    k: Real, distance: Real, radius: Real, depth: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0
 ) -> Array:
     """Return u_z/R, how far the surface of the half-space is pressed in at a distance r >= a (3.5), (4.10).
 
-    Examples
-    --------
     Around a flat disc on a homogeneous half-space the depth falls as (2/pi) asin(a/r). Here a paraboloid is pulled out
     by 1 from its Hertzian depth, and the difference is that of a flat disc:
 
@@ -95,21 +68,19 @@ def surface(
     return opening + np.asarray(depth, dtype=float) - profile.height(distance, wavelength, amplitude, exponent)
 
 
-@documented
+@documented()
 def series_gap(
-    k: Gradient,
-    distance: Outside,
-    radius: PositiveRadius,
-    depth: Depth,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
-    exponent: Power = 2.0,
+    k: Real,
+    distance: Real,
+    radius: Real,
+    depth: Real,
+    wavelength: Real,
+    cosines: Waves,
+    sines: Waves = (),
+    exponent: Real = 2.0,
 ) -> Array:
     """Return gap/R around a punch whose waviness is a Fourier series (2.2).
 
-    Examples
-    --------
     >>> one, series = gap(0.3, 0.25, 0.2, 0.01, 0.1, 0.02), series_gap(0.3, 0.25, 0.2, 0.01, 0.1, [-0.02])
     >>> bool(abs(one - series) < 1e-14)
     True
@@ -125,21 +96,19 @@ def series_gap(
     return point_by_point(at, exponent_of(k), positive(distance), positive(radius), depth, positive(wavelength), power)
 
 
-@documented
+@documented()
 def series_surface(
-    k: Gradient,
-    distance: Outside,
-    radius: PositiveRadius,
-    depth: Depth,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
-    exponent: Power = 2.0,
+    k: Real,
+    distance: Real,
+    radius: Real,
+    depth: Real,
+    wavelength: Real,
+    cosines: Waves,
+    sines: Waves = (),
+    exponent: Real = 2.0,
 ) -> Array:
     """Return u_z/R, how far the surface is pressed in outside a punch whose waviness is a Fourier series (4.3), (4.10).
 
-    Examples
-    --------
     >>> float(series_surface(1.0, 0.25, 0.2, 0.03, 0.1, [-0.02], [0.01]).round(12))
     0.0
     """

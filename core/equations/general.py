@@ -10,23 +10,12 @@ cosines = [-A]. Lengths are in R, loads in 1.5 pi R dgamma, M in dgamma/R^(1+k).
 
 import math
 from collections.abc import Sequence
-from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gradhesion.core.equations import hertz, jkr
-from gradhesion.core.equations._arguments import (
-    Cosines,
-    Gradient,
-    Power,
-    Radius,
-    Sines,
-    Stiffness,
-    StiffnessOrInf,
-    Wavelength,
-    documented,
-)
+from gradhesion.core.equations._arguments import Real, Waves, documented
 from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive, power_of
 from gradhesion.core.equations.pair import cosine_integrals, sine_integrals
 
@@ -34,8 +23,6 @@ from gradhesion.core.equations.pair import cosine_integrals, sine_integrals
 def harmonics(cosines: Sequence[float], sines: Sequence[float] = ()) -> list[tuple[int, float, float]]:
     """Return (n, a_n, b_n) of every harmonic, the shorter list filled up with zeros.
 
-    Examples
-    --------
     >>> harmonics([-0.02], [0.0, 0.01])
     [(1, -0.02, 0.0), (2, 0.0, 0.01)]
     """
@@ -44,12 +31,10 @@ def harmonics(cosines: Sequence[float], sines: Sequence[float] = ()) -> list[tup
     return [(n, float(a_n), float(b_n)) for n, (a_n, b_n) in enumerate(pairs, start=1)]
 
 
-@documented
-def waviness(xi: Annotated[ArrayLike, "r/lambda, any."], cosines: Cosines, sines: Sines = ()) -> Array:
+@documented()
+def waviness(xi: Real, cosines: Waves, sines: Waves = ()) -> Array:
     """Return f2(xi), the waviness over its wavelength; f2(0) = 0.
 
-    Examples
-    --------
     >>> waviness([0.25, 0.5], [-0.02], [0.0, 0.01]).round(12).tolist()
     [0.02, 0.04]
     """
@@ -60,14 +45,12 @@ def waviness(xi: Annotated[ArrayLike, "r/lambda, any."], cosines: Cosines, sines
     return total
 
 
-@documented
+@documented()
 def hertz_indentation(
-    k: Gradient, radius: Radius, wavelength: Wavelength, cosines: Cosines, sines: Sines = (), exponent: Power = 2.0
+    k: Real, radius: Real, wavelength: Real, cosines: Waves, sines: Waves = (), exponent: Real = 2.0
 ) -> Array:
     """Return delta_H/R, the depth of contact over a disc without adhesion (3.9).
 
-    Examples
-    --------
     >>> float(hertz_indentation(1.0, 0.05, 0.1, [-0.02], [0.01]).round(12))
     0.00525
     """
@@ -75,20 +58,12 @@ def hertz_indentation(
     return hertz.power_indentation(k, radius, exponent) + not_negative(radius) * wave
 
 
-@documented
+@documented()
 def hertz_load(
-    k: Gradient,
-    stiffness: Stiffness,
-    radius: Radius,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
-    exponent: Power = 2.0,
+    k: Real, stiffness: Real, radius: Real, wavelength: Real, cosines: Waves, sines: Waves = (), exponent: Real = 2.0
 ) -> Array:
     """Return P_H/(1.5 pi R dgamma), the load of contact over a disc without adhesion (3.10).
 
-    Examples
-    --------
     >>> one = hertz_load(0.3, 500.0, 0.2, 0.1, [-0.02])
     >>> bool(abs(one / hertz.load(0.3, 500.0, 0.2, 0.1, 0.02) - 1) < 1e-12)
     True
@@ -99,20 +74,12 @@ def hertz_load(
     return hertz.disc_stiffness(k, stiffness, radius) * (smooth + not_negative(radius) * (first - second))
 
 
-@documented
+@documented()
 def indentation(
-    k: Gradient,
-    stiffness: StiffnessOrInf,
-    radius: Radius,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
-    exponent: Power = 2.0,
+    k: Real, stiffness: Real, radius: Real, wavelength: Real, cosines: Waves, sines: Waves = (), exponent: Real = 2.0
 ) -> Array:
     """Return the depth delta/R in adhesive equilibrium (4.8), (5.8), (5.12)-(5.14).
 
-    Examples
-    --------
     >>> float(indentation(0.0, 200.0 * np.pi, 0.25, 0.1, [-0.02]).round(6))
     0.021571
     """
@@ -120,20 +87,12 @@ def indentation(
     return hertzian - jkr.adhesive_depth(k, stiffness, radius)
 
 
-@documented
+@documented()
 def load(
-    k: Gradient,
-    stiffness: Stiffness,
-    radius: Radius,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
-    exponent: Power = 2.0,
+    k: Real, stiffness: Real, radius: Real, wavelength: Real, cosines: Waves, sines: Waves = (), exponent: Real = 2.0
 ) -> Array:
     """Return the load P/(1.5 pi R dgamma) in adhesive equilibrium (4.7), (5.9), (5.12)-(5.14).
 
-    Examples
-    --------
     A second harmonic with half the amplitude of its own wave is a wave of half the length:
 
     >>> one, other = load(0.3, 500.0, 0.2, 0.1, [0.0, -0.01]), load(0.3, 500.0, 0.2, 0.05, [-0.02])

@@ -12,17 +12,15 @@ import math
 
 from scipy.special import gamma
 
-from gradhesion.core.equations._arguments import Amplitude, Gradient, Power, Radius, Stiffness, Wavelength, documented
+from gradhesion.core.equations._arguments import Real, documented
 from gradhesion.core.equations._domain import LOAD_UNIT, Array, exponent_of, not_negative, positive, power_of
 from gradhesion.core.equations.pair import sine_integrals
 
 
-@documented
-def disc_stiffness(k: Gradient, stiffness: Stiffness, radius: Radius) -> Array:
+@documented()
+def disc_stiffness(k: Real, stiffness: Real, radius: Real) -> Array:
     """Return K a^(1+k), the load over the depth of a flat disc, in 1.5 pi R dgamma over R.
 
-    Examples
-    --------
     On a homogeneous half-space 2 E* a:
 
     >>> float(disc_stiffness(0.0, 500.0, 0.3) * 1.5 * math.pi)
@@ -32,12 +30,10 @@ def disc_stiffness(k: Gradient, stiffness: Stiffness, radius: Radius) -> Array:
     return 2.0 ** (2.0 - n) * positive(stiffness) / n * not_negative(radius) ** n / LOAD_UNIT
 
 
-@documented
-def power_indentation(k: Gradient, radius: Radius, exponent: Power = 2.0) -> Array:
+@documented()
+def power_indentation(k: Real, radius: Real, exponent: Real = 2.0) -> Array:
     """Return delta_H/R of the smooth part (5.5): G(m/2) G((1+k)/2)/(2 G((1+k+m)/2)) a^m.
 
-    Examples
-    --------
     A paraboloid has a^2/((1+k) R):
 
     >>> power_indentation([0.0, 0.5], 0.3).round(12).tolist()
@@ -47,12 +43,10 @@ def power_indentation(k: Gradient, radius: Radius, exponent: Power = 2.0) -> Arr
     return 0.5 * gamma(0.5 * m) * gamma(0.5 * n) / gamma(0.5 * (n + m)) * not_negative(radius) ** m
 
 
-@documented
-def power_moment(k: Gradient, radius: Radius, exponent: Power = 2.0) -> Array:
+@documented()
+def power_moment(k: Real, radius: Real, exponent: Real = 2.0) -> Array:
     """Return I/R^(2+k) of the smooth part (5.6): G(m/2) G((3+k)/2)/(2 G((3+k+m)/2)) a^(1+k+m).
 
-    Examples
-    --------
     A paraboloid has a^(3+k)/((3+k) R):
 
     >>> float(power_moment(0.0, 0.3).round(12))
@@ -63,12 +57,10 @@ def power_moment(k: Gradient, radius: Radius, exponent: Power = 2.0) -> Array:
     return factor * not_negative(radius) ** (n + m)
 
 
-@documented
-def wave_indentation(k: Gradient, radius: Radius, wavelength: Wavelength, amplitude: Amplitude) -> Array:
+@documented()
+def wave_indentation(k: Real, radius: Real, wavelength: Real, amplitude: Real) -> Array:
     """Return the part of delta_H/R that a cosine wave adds, 2 pi A a S0(2 pi a/lambda).
 
-    Examples
-    --------
     At k = 1 it is the wave itself, A lambda (1 - cos(2 pi a/lambda)):
 
     >>> float(wave_indentation(1.0, 0.05, 0.1, 0.02).round(12))
@@ -79,12 +71,10 @@ def wave_indentation(k: Gradient, radius: Radius, wavelength: Wavelength, amplit
     return 2.0 * math.pi * not_negative(amplitude) * a * s0
 
 
-@documented
-def wave_moment(k: Gradient, radius: Radius, wavelength: Wavelength, amplitude: Amplitude) -> Array:
+@documented()
+def wave_moment(k: Real, radius: Real, wavelength: Real, amplitude: Real) -> Array:
     """Return the part of I/R^(2+k) that a cosine wave adds, 2 pi A a^(2+k) S1(2 pi a/lambda).
 
-    Examples
-    --------
     >>> float(wave_moment(0.5, 0.07, 0.1, 0.02).round(9))
     5.8437e-05
     """
@@ -93,37 +83,24 @@ def wave_moment(k: Gradient, radius: Radius, wavelength: Wavelength, amplitude: 
     return 2.0 * math.pi * not_negative(amplitude) * a ** (2.0 + exponent_of(k)) * s1
 
 
-@documented
-def indentation(
-    k: Gradient, radius: Radius, wavelength: Wavelength, amplitude: Amplitude, exponent: Power = 2.0
-) -> Array:
+@documented()
+def indentation(k: Real, radius: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0) -> Array:
     """Return delta_H/R, the depth of contact over a disc without adhesion (3.9).
 
     Accurate to a few units in the last place of its largest term.
 
-    Examples
-    --------
     >>> indentation(0.5, [0.1, 0.2], 0.1, [[0.0], [0.02]]).round(6).tolist()
     [[0.006667, 0.026667], [0.005616, 0.025066]]
     """
     return power_indentation(k, radius, exponent) + wave_indentation(k, radius, wavelength, amplitude)
 
 
-@documented
-def load(
-    k: Gradient,
-    stiffness: Stiffness,
-    radius: Radius,
-    wavelength: Wavelength,
-    amplitude: Amplitude,
-    exponent: Power = 2.0,
-) -> Array:
+@documented()
+def load(k: Real, stiffness: Real, radius: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0) -> Array:
     """Return P_H/(1.5 pi R dgamma), the load of contact over a disc without adhesion (3.10).
 
     Zero at a = 0.
 
-    Examples
-    --------
     Hertz: 4 E* a^3/(3 R):
 
     >>> float((load(0.0, 500.0, 0.3, 0.1, 0.0) * 1.5 * math.pi).round(10))

@@ -13,28 +13,15 @@ import math
 import numpy as np
 
 from gradhesion.core.equations import hertz
-from gradhesion.core.equations._arguments import (
-    Amplitude,
-    Depth,
-    Gradient,
-    PositiveRadius,
-    Power,
-    Radius,
-    Stiffness,
-    StiffnessOrInf,
-    Wavelength,
-    documented,
-)
+from gradhesion.core.equations._arguments import Real, documented
 from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive, power_of
 from gradhesion.core.equations.pair import sine_integrals
 
 
-@documented
-def adhesive_depth(k: Gradient, stiffness: StiffnessOrInf, radius: Radius) -> Array:
+@documented()
+def adhesive_depth(k: Real, stiffness: Real, radius: Real) -> Array:
     """Return Delta/R, by which adhesion pulls the surface out at equilibrium.
 
-    Examples
-    --------
     On a homogeneous half-space sqrt(2 pi dgamma a/E*):
 
     >>> float(adhesive_depth(0.0, 200.0 * np.pi, 0.25))
@@ -45,20 +32,12 @@ def adhesive_depth(k: Gradient, stiffness: StiffnessOrInf, radius: Radius) -> Ar
     return np.sqrt(square)
 
 
-@documented
+@documented()
 def energy_release_rate(
-    k: Gradient,
-    stiffness: Stiffness,
-    radius: PositiveRadius,
-    depth: Depth,
-    wavelength: Wavelength,
-    amplitude: Amplitude,
-    exponent: Power = 2.0,
+    k: Real, stiffness: Real, radius: Real, depth: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0
 ) -> Array:
     """Return G/dgamma at the edge of a disc of radius a when the punch is at any depth (4.4); 1 is equilibrium.
 
-    Examples
-    --------
     >>> depth = indentation(0.3, 500.0, 0.2, 0.1, 0.02)
     >>> float(energy_release_rate(0.3, 500.0, 0.2, depth, 0.1, 0.02).round(12))
     1.0
@@ -67,19 +46,12 @@ def energy_release_rate(
     return (opening / adhesive_depth(k, stiffness, positive(radius))) ** 2
 
 
-@documented
+@documented()
 def indentation(
-    k: Gradient,
-    stiffness: StiffnessOrInf,
-    radius: Radius,
-    wavelength: Wavelength,
-    amplitude: Amplitude,
-    exponent: Power = 2.0,
+    k: Real, stiffness: Real, radius: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0
 ) -> Array:
     """Return the depth delta/R in equilibrium (4.8).
 
-    Examples
-    --------
     >>> indentation(0.0, 200.0 * np.pi, 0.25, 0.1, [0.0, 0.02]).round(6).tolist()
     [0.0125, 0.021571]
     """
@@ -87,19 +59,10 @@ def indentation(
     return hertzian - adhesive_depth(k, stiffness, radius)
 
 
-@documented
-def load(
-    k: Gradient,
-    stiffness: Stiffness,
-    radius: Radius,
-    wavelength: Wavelength,
-    amplitude: Amplitude,
-    exponent: Power = 2.0,
-) -> Array:
+@documented()
+def load(k: Real, stiffness: Real, radius: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0) -> Array:
     """Return the load P/(1.5 pi R dgamma) in equilibrium (4.7); negative where it pulls.
 
-    Examples
-    --------
     The pull-off of Johnson, Kendall & Roberts, met at a^3 = 9 pi R^2 dgamma/(8 E*):
 
     >>> float(load(0.0, 500.0, (9 * np.pi / 4000) ** (1 / 3), 0.1, 0.0).round(12))
@@ -109,22 +72,14 @@ def load(
     return hertz.load(k, stiffness, radius, wavelength, amplitude, exponent) - pull
 
 
-@documented
+@documented()
 def load_at_depth(
-    k: Gradient,
-    stiffness: Stiffness,
-    radius: Radius,
-    depth: Depth,
-    wavelength: Wavelength,
-    amplitude: Amplitude,
-    exponent: Power = 2.0,
+    k: Real, stiffness: Real, radius: Real, depth: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0
 ) -> Array:
     """Return the load P/(1.5 pi R dgamma) on a disc of fixed radius at any depth, K [a^(1+k) delta - I].
 
       This is contact pinned at the rim of a finite punch, and the state between two equilibria during a jump.
 
-    Examples
-    --------
     >>> depth = indentation(0.3, 500.0, 0.2, 0.1, 0.02)
     >>> pinned, free = load_at_depth(0.3, 500.0, 0.2, depth, 0.1, 0.02), load(0.3, 500.0, 0.2, 0.1, 0.02)
     >>> bool(abs(pinned - free) < 1e-12)
@@ -135,22 +90,15 @@ def load_at_depth(
     return rest + hertz.disc_stiffness(k, stiffness, radius) * raised
 
 
-@documented
+@documented()
 def fold_number(
-    k: Gradient,
-    stiffness: StiffnessOrInf,
-    radius: PositiveRadius,
-    wavelength: Wavelength,
-    amplitude: Amplitude,
-    exponent: Power = 2.0,
+    k: Real, stiffness: Real, radius: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0
 ) -> Array:
     """Return q = a delta_H'(a)/Delta(a), which decides stability.
 
       Depth rises with the radius, and contact is stable under displacement control, where q > (1-k)/2; load rises, and
       contact is stable under load control, where q > (3+k)/2.
 
-    Examples
-    --------
     At the pull-off of Johnson, Kendall & Roberts:
 
     >>> float(fold_number(0.0, 500.0, (9 * np.pi / 4000) ** (1 / 3), 0.1, 0.0).round(12))

@@ -12,34 +12,21 @@ in zeta, so that it is not valid where the contact is no larger than a wave. Len
 
 import math
 from collections.abc import Sequence
-from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import gamma
 
 from gradhesion.core.equations import hertz, jkr
-from gradhesion.core.equations._arguments import (
-    Cosines,
-    Gradient,
-    PositiveRadius,
-    Power,
-    Sines,
-    Stiffness,
-    StiffnessOrInf,
-    Wavelength,
-    documented,
-)
+from gradhesion.core.equations._arguments import Real, Waves, documented
 from gradhesion.core.equations._domain import Array, exponent_of, positive
 from gradhesion.core.equations.general import harmonics
 
 
-@documented
-def zeta(k: Gradient, xi: Annotated[ArrayLike, "a/lambda, any."], cosines: Cosines, sines: Sines = ()) -> Array:
+@documented()
+def zeta(k: Real, xi: Real, cosines: Waves, sines: Waves = ()) -> Array:
     """Return the function of period 1 to which all waviness reduces (5.17).
 
-    Examples
-    --------
     >>> zeta([0.0, 1.0], 0.25, [-0.02]).round(6).tolist()
     [0.035449, 0.0]
     """
@@ -52,24 +39,22 @@ def zeta(k: Gradient, xi: Annotated[ArrayLike, "a/lambda, any."], cosines: Cosin
     return total
 
 
-@documented
+@documented(mean_height="Whether to add the mean height of the waves, -lambda sum a_n.")
 def indentation(
-    k: Gradient,
-    stiffness: StiffnessOrInf,
-    radius: PositiveRadius,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
+    k: Real,
+    stiffness: Real,
+    radius: Real,
+    wavelength: Real,
+    cosines: Waves,
+    sines: Waves = (),
     *,
-    exponent: Power = 2.0,
-    mean_height: Annotated[bool, "Whether to add the mean height of the waves, -lambda sum a_n."] = True,
+    exponent: Real = 2.0,
+    mean_height: bool = True,
 ) -> Array:
     """Return the depth delta/R in equilibrium for waves far shorter than the contact.
 
     Off by about lambda/a of its term in zeta (exact at k = 1).
 
-    Examples
-    --------
     >>> exact = jkr.indentation(0.3, 500.0, 0.5, 0.01, 0.02)
     >>> with_mean = indentation(0.3, 500.0, 0.5, 0.01, [-0.02])
     >>> printed = indentation(0.3, 500.0, 0.5, 0.01, [-0.02], mean_height=False)
@@ -81,23 +66,14 @@ def indentation(
     return smooth + mean + _wave(k, radius, wavelength, cosines, sines)
 
 
-@documented
+@documented()
 def load(
-    k: Gradient,
-    stiffness: Stiffness,
-    radius: PositiveRadius,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
-    *,
-    exponent: Power = 2.0,
+    k: Real, stiffness: Real, radius: Real, wavelength: Real, cosines: Waves, sines: Waves = (), *, exponent: Real = 2.0
 ) -> Array:
     """Return the load P/(1.5 pi R dgamma) in equilibrium for waves far shorter than the contact.
 
     Off by about lambda/a of its term in zeta.
 
-    Examples
-    --------
     >>> exact = jkr.load(0.3, 500.0, 0.5, 0.01, 0.02)
     >>> bool(abs(load(0.3, 500.0, 0.5, 0.01, [-0.02]) - exact) < 0.002 * abs(exact))
     True

@@ -16,37 +16,25 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gradhesion.core.equations import general, jkr
-from gradhesion.core.equations._arguments import (
-    Cosines,
-    Depth,
-    Gradient,
-    PositiveRadius,
-    Power,
-    Sines,
-    Stiffness,
-    Wavelength,
-    documented,
-)
+from gradhesion.core.equations._arguments import Real, Waves, documented
 from gradhesion.core.equations._domain import Array, exponent_of, positive
 
 
-@documented
+@documented()
 def stress_intensity(
-    k: Gradient,
-    stiffness: Stiffness,
-    radius: PositiveRadius,
-    depth: Depth,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
-    exponent: Power = 2.0,
+    k: Real,
+    stiffness: Real,
+    radius: Real,
+    depth: Real,
+    wavelength: Real,
+    cosines: Waves,
+    sines: Waves = (),
+    exponent: Real = 2.0,
 ) -> Array:
     """Return K_I R^((1+k)/2)/dgamma at the edge of a disc of radius a at any depth (4.5).
 
     In equilibrium -sqrt(2 M dgamma), whatever the punch.
 
-    Examples
-    --------
     >>> depth = general.indentation(0.3, 500.0, [0.1, 0.2], 0.1, [-0.02])
     >>> (stress_intensity(0.3, 500.0, [0.1, 0.2], depth, 0.1, [-0.02]) ** 2 / 1000.0).round(12).tolist()
     [1.0, 1.0]
@@ -57,21 +45,19 @@ def stress_intensity(
     return -front * opening * (2.0 * a) ** (0.5 * n - 1.0)
 
 
-@documented
+@documented()
 def energy_release_rate(
-    k: Gradient,
-    stiffness: Stiffness,
-    radius: PositiveRadius,
-    depth: Depth,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
-    exponent: Power = 2.0,
+    k: Real,
+    stiffness: Real,
+    radius: Real,
+    depth: Real,
+    wavelength: Real,
+    cosines: Waves,
+    sines: Waves = (),
+    exponent: Real = 2.0,
 ) -> Array:
     """Return G/dgamma at the edge of a disc of radius a at any depth (4.4), for any series; 1 is equilibrium.
 
-    Examples
-    --------
     Contact without adhesion has no crack:
 
     >>> depth = general.hertz_indentation(0.3, 0.2, 0.1, [-0.02])

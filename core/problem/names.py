@@ -46,6 +46,12 @@ REPORTS: Final = (
     "energy_gain",
 )
 """All other outputs on request, in the order of their rows."""
+GIVEN_UP: Final = {
+    "pull_off_force_error": "its accuracy is promised in docs/accuracy.md and checked by `gradhesion verify`",
+    "dissipated_energy_error": "its accuracy is promised in docs/accuracy.md and checked by `gradhesion verify`; "
+    "energy_residual is a measure of it in every scene",
+}
+"""Outputs of earlier versions, with what stands in their place."""
 SENSITIVITIES: Final = ("pull_off_force_sensitivity", "dissipated_energy_sensitivity")
 """How strongly a value depends on each parameter: along a last axis of parameters."""
 VALIDITY: Final = ("tabor_parameter", "wave_tabor_parameter", "wave_slope", "johnson_alpha")

@@ -9,7 +9,7 @@ import math
 from typing import NamedTuple
 
 from gradhesion.core.curve.folds import CLOSE, find_folds
-from gradhesion.core.curve.trace import LANDING
+from gradhesion.core.curve.trace import END, LANDING, START
 from gradhesion.core.curve.values import Curve, coordinate_of, load_curve, softness, state_at
 from gradhesion.core.cycle.disc import Disc, gap_is_open, loading_is_one_disc
 from gradhesion.core.cycle.path import load_to, unload_from, visited_within, walk_loading
@@ -64,6 +64,7 @@ from gradhesion.core.scenes.results import (
     PULL_OFF_RADIUS,
     REACH,
     RESIDUAL,
+    SATURATION,
     SHORT,
     SNAP,
     STATUS,
@@ -349,6 +350,18 @@ def _turns_of(task: Task, scenes: Floats, reduced: Floats, first: int, last: int
 
 
 @kernel
+def _last_fold(task: Task, pair: Pair, walked: Walked) -> float:
+    """Return the radius of the outermost fold of opening, 0 if there is none; the trace of loads is overwritten."""
+    if walked.count < 0 or pair.opening.g == 0.0:
+        return 0.0
+    trace = task.rooms.measured
+    count = find_folds(pair.opening, math.inf, task.rooms.slopes, trace)
+    if count <= 0:
+        return 0.0 if count == 0 else math.inf
+    return trace[START, count - 1] if trace[END, count - 1] == math.inf else trace[END, count - 1]
+
+
+@kernel
 def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Solve the scenes `first` to `last` - 1, all of one curve and valid; store their results, or SHORT as status."""
     rooms = task.rooms
@@ -368,6 +381,7 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
     if pair.pattern.rows.shape[1] == 0:
         pull = Curve(task.by_load, pull.B, pull.g, pull.by_depth, pull.by_load)
     lowest = lowest_load(pull, farthest, task.filling) if farthest > 0.0 else Lowest(0.0, 0.0, 0.0, 0.0, True)
+    last_fold = _last_fold(task, pair, walked) if task.wanted.saturation else 0.0
     rooms.limits[0], rooms.limits[1] = 0.0, -1.0
     for i in range(first, last):
         y = out[TURN, i]
@@ -388,6 +402,7 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
             _no_value(out, i, SHORT)
             continue
         out[STATUS, i] = bits | _put_pull_off(own, y, reduced, i, out)
+        out[SATURATION, i] = last_fold * reduced[LENGTH, i]
 
 
 @leaf

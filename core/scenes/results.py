@@ -12,8 +12,8 @@ from gradhesion.core.types import Floats, Integers
 
 # Rows of results, (rows, scenes): forces in 1.5 pi R dgamma, lengths in R, energies in R^2 dgamma.
 FORCE, PULL_OFF_RADIUS, ENERGY, LOADING, UNLOADING, LOADING_JUMPS, UNLOADING_JUMPS = range(7)
-DEEPEST, JUMP_OUT, TURN, FRONT, PINNED, SNAP, REACH, RESIDUAL, STATUS = range(7, 16)
-RESULT_ROWS: Final = 16
+DEEPEST, JUMP_OUT, TURN, FRONT, PINNED, SNAP, REACH, RESIDUAL, SATURATION, STATUS = range(7, 17)
+RESULT_ROWS: Final = 17
 NAMES: Final = (
     "pull_off_force",
     "pull_off_radius",
@@ -30,8 +30,11 @@ NAMES: Final = (
     "snap_in_force",
     "reach",
     "energy_residual",
+    "saturation_radius",
 )
 """Their names, in the order of the rows."""
+INTEGERS: Final = ("loading_jumps", "unloading_jumps")
+"""Results that are counts."""
 
 SHORT: Final = -1.0
 """In the place of a status: the table is too short."""
@@ -44,6 +47,7 @@ class Wanted(NamedTuple):
     depth: bool  # the depth at rims beyond the table
     contact: bool  # whether loading keeps the contact one disc
     residual: bool  # the loop integral
+    saturation: bool  # the radius beyond which there is no fold
 
 
 class Rooms(NamedTuple):

@@ -7,14 +7,16 @@ tables of their exponent. Which one it is depends on the scene alone.
 import math
 import threading
 from collections import OrderedDict
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gradhesion.core.cycle.disc import disc_of, profile_of
 from gradhesion.core.cycle.pull_off import ALL, Filling
-from gradhesion.core.edge.pattern import bins_of_wave, bounds_of
+from gradhesion.core.edge.pattern import bins_of_wave, bounds_of, rows_by_number
 from gradhesion.core.jit import kernel
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.processors import processors
@@ -26,6 +28,7 @@ from gradhesion.core.scenes.reduced import (
     PATTERN_WAVELENGTH,
     RIM_Y,
     WAVELENGTH,
+    WINDOW,
     K,
     Punch,
     depth_factor_of,
@@ -52,7 +55,9 @@ _MOST_BINS: Final = 130_000
 _KEPT_BINS: Final = 260_000
 """Bins of all long tables that are kept between calls."""
 _SCENES: Final = 1024
-"""Scenes of a task, at least: a millisecond or more."""
+"""Scenes of a part, at least: a millisecond or more."""
+_MOST_SCENES: Final = 32768
+"""And at most: some megabytes."""
 
 
 @kernel
@@ -261,6 +266,8 @@ def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes
         finer = _finer_bins(punch, scenes, least)
     basis = basis_of(punch.exponent, punch.waves, EXACT if form == EXACT else BY_DEPTH)
     reduced = reduced_of(punch, basis, scenes, most, steep)
+    if wanted.saturation:  # all folds are needed, wherever the rim is
+        reduced[NEED] = np.fmax(reduced[NEED], reduced[WINDOW])
     groups = (
         [(int(finer[0]), slice(None))]
         if (finer == finer[0]).all()
@@ -292,26 +299,71 @@ def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes
     return out
 
 
-def solve_all(punch: Punch, wanted: Wanted, form: int, scenes: Floats, threads: int | None) -> Floats:
-    """Return the results of scenes, (RESULT_ROWS, scenes); `scenes` are parameters, (PARAMETER_ROWS, scenes)."""
-    k, count = scenes[K], scenes.shape[1]
-    order = None
-    if count > 1 and not (k[1:] >= k[:-1]).all():
-        order = np.argsort(k, kind="stable")
-        scenes = scenes[:, order]
-    profile = profile_of(punch.waves)
-    parts = 1 if count < 2 * _SCENES else min(threads or processors(), count // _SCENES)
-    if parts < 2:
-        out = _solve_task(punch, wanted, form, profile, scenes)
-    else:
-        cuts = np.linspace(0, count, 4 * parts + 1).astype(int)
-        pieces = [np.ascontiguousarray(scenes[:, a:b]) for a, b in zip(cuts[:-1], cuts[1:], strict=True)]
-        with ThreadPoolExecutor(parts) as pool:
-            out = np.concatenate(
-                list(pool.map(lambda piece: _solve_task(punch, wanted, form, profile, piece), pieces)), axis=1
-            )
-    if order is None:
-        return out
-    sorted_back = np.empty_like(out)
-    sorted_back[:, order] = out
-    return sorted_back
+class Request(NamedTuple):
+    """What a call asks for: the parameters of its scenes, and what all of them share, as `Punch` has it.
+
+    arrays      an array for each row of parameters (reduced.py), all broadcastable
+    pattern     the harmonics of the pattern of toughness, rows (n, cos, sin)
+    """
+
+    arrays: list[Floats]
+    exponent: float
+    waves: Floats
+    control: int
+    turn: int
+    pattern: Floats
+    of_work: bool
+
+
+def punch_of(request: Request) -> Punch:
+    """Return what the scenes of a request share."""
+    rows = rows_by_number(request.pattern)
+    return Punch(request.exponent, request.waves, request.control, request.turn, rows, request.of_work)
+
+
+def columns_of(request: Request) -> tuple[list[Floats], int]:
+    """Return each row of parameters, of one item or one a scene, and the number of scenes."""
+    shape = np.broadcast_shapes(*(array.shape for array in request.arrays))
+    columns = [a.reshape(1) if a.size == 1 else np.broadcast_to(a, shape).reshape(-1) for a in request.arrays]
+    return columns, math.prod(shape)
+
+
+def scenes_of(columns: list[Floats], first: int, last: int) -> Floats:
+    """Return the parameters of the scenes `first` to `last` - 1, (PARAMETER_ROWS, scenes)."""
+    scenes = np.empty((len(columns), last - first))
+    for row, column in enumerate(columns):
+        scenes[row] = column if column.size == 1 else column[first:last]
+    return scenes
+
+
+def run_parts(count: int, work: Callable[[int, int], None], threads: int | None) -> None:
+    """Do the work on parts of `count` scenes, from a first one to a last one, on threads that each take the next part."""
+    workers = 1 if count < 2 * _SCENES else min(threads or processors(), -(-count // _SCENES))
+    size = max(_SCENES, min(_MOST_SCENES, -(-count // (4 * workers)))) if workers > 1 else _MOST_SCENES
+    parts = [(first, min(first + size, count)) for first in range(0, count, size)]
+    if workers < 2:
+        for part in parts:
+            work(*part)
+        return
+    with ThreadPoolExecutor(workers) as pool:
+        list(pool.map(lambda part: work(*part), parts))
+
+
+def solve_all(
+    request: Request, wanted: Wanted, form: int, rows: list[int], threads: int | None
+) -> tuple[Floats, NDArray[np.int16]]:
+    """Return the chosen rows of results, (rows, scenes), and the status of all scenes."""
+    punch, profile = punch_of(request), profile_of(request.waves)
+    columns, count = columns_of(request)
+    out, status = np.empty((len(rows), count)), np.empty(count, dtype=np.int16)
+
+    def work(first: int, last: int) -> None:
+        """Solve a part of the scenes, in the order of their exponents."""
+        scenes = scenes_of(columns, first, last)
+        order = np.argsort(scenes[K], kind="stable")
+        found = np.empty((RESULT_ROWS, last - first))
+        found[:, order] = _solve_task(punch, wanted, form, profile, scenes[:, order])
+        out[:, first:last], status[first:last] = found[rows], found[STATUS]
+
+    run_parts(count, work, threads)
+    return out, status

@@ -13,7 +13,7 @@ from click.testing import Result
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.core import FAILED, FLAGS, solve
-from gradhesion.core.variables.jump_in_radius import jump_in_radius_of_envelope
+from gradhesion.core.closed.similarity import jump_in_radius_of_envelope
 
 Call = Callable[..., Result]
 

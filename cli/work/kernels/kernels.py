@@ -42,7 +42,7 @@ PAUSE: Final = 0.2
 """Seconds between two looks at what another process compiles."""
 
 _AMPLITUDES: Final = ("A", "chi", "amplitude")
-"""The parameters that give the height of waves (core/variables/reduced.py)."""
+"""The parameters that give the height of waves (core/closed/reduced.py)."""
 _WITH_SMOOTH: Final = frozenset({"force", "energy", "reports"})
 """The kinds of work whose smooth scenes, if they are many, have kernels of their own."""
 _one_of_us: Final = threading.Lock()

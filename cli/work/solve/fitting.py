@@ -9,6 +9,7 @@ from gradhesion.cli.study.fit.loop_file import LoopFile
 from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.core import kind_of_map
 from gradhesion.core.closed.applicability import validity
+from gradhesion.core.closed.reduced import parameters_from
 from gradhesion.core.loops.fit import fit_loop
 from gradhesion.core.loops.fitted import FittedLoop, poor_from
 from gradhesion.core.loops.paths.model import Model
@@ -16,7 +17,6 @@ from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.loops.search.speed import EXPONENT
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, RANGE
 from gradhesion.core.problem.status import POOR_FIT
-from gradhesion.core.variables.reduced import parameters_from
 
 USUAL_RANGE: Final = 3e-10
 """The range of the attraction in m where a study has none: about the distance of atoms."""

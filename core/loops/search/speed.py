@@ -11,6 +11,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from gradhesion.core.closed.reduced import parameters_from
 from gradhesion.core.curves import draw_curves
 from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.path import LoopModel, LoopPath
@@ -18,7 +19,6 @@ from gradhesion.core.loops.search.starts import best_of, carried, coarse, roughl
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, SPEED
 from gradhesion.core.problem.rate import EXPONENTS, Rate
 from gradhesion.core.types import Floats
-from gradhesion.core.variables.reduced import parameters_from
 
 EXPONENT: Final = "exponent"
 """The name of the power of the speed, where it is searched."""

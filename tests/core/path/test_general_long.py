@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 
 from gradhesion.core import Harmonic, Loading, Profile, solve
+from gradhesion.core.closed.similarity import amplitude_of_ratio
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.status import FAILED
-from gradhesion.core.variables.similarity import amplitude_of_ratio
 
 pytestmark = pytest.mark.slow
 

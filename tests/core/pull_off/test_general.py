@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from gradhesion.core import Harmonic, Profile, solve
+from gradhesion.core.closed.similarity import amplitude_of_ratio
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.status import PULL_OFF_AT_RIM
-from gradhesion.core.variables.similarity import amplitude_of_ratio
 from gradhesion.twin.general import Shape
 from tests.twin.far import pull_off_force
 

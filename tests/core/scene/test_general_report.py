@@ -8,9 +8,9 @@ import pytest
 
 from gradhesion.core import OUTPUTS, Harmonic, Loading, Profile, solve
 from gradhesion.core.arrays.general import solve_general
+from gradhesion.core.closed.similarity import amplitude_of_ratio
 from gradhesion.core.problem.names import REPORTS, RESULTS
 from gradhesion.core.problem.status import FAILED, PULL_OFF_AT_RIM
-from gradhesion.core.variables.similarity import amplitude_of_ratio
 from gradhesion.twin import stated
 from gradhesion.twin.path import cycle
 from gradhesion.twin.scene import curve_of, waves_to_follow

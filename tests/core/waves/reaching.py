@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
+from gradhesion.core.closed.similarity import amplitude_of_ratio
 from gradhesion.core.problem.material import stiffness
-from gradhesion.core.variables.similarity import amplitude_of_ratio
 
 
 def reaching(material: Mapping[str, Any], ratio: Any, waves: Any) -> dict[str, Any]:

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from gradhesion.core import solve
+from gradhesion.core.closed.similarity import amplitude_of_ratio, similarity_length
 from gradhesion.core.problem.material import stiffness
-from gradhesion.core.variables.similarity import amplitude_of_ratio, similarity_length
 
 EPS = float(np.finfo(float).eps)
 GOOD = (0.37, 0.21, 610.0, 0.043, 0.019)

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from gradhesion.core import solve
+from gradhesion.core.closed.similarity import jump_in_radius_of_envelope
 from gradhesion.core.problem.material import stiffness
-from gradhesion.core.variables.jump_in_radius import jump_in_radius_of_envelope
 
 EPS = float(np.finfo(float).eps)
 GOOD = (0.37, 0.21, 610.0, 0.043, 0.019, 0.031)

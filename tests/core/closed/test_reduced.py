@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from gradhesion.core import PARAMETERS
-from gradhesion.core.variables.jump_in_radius import jump_in_radius_of_envelope
-from gradhesion.core.variables.reduced import WAYS, parameters_from, scales_in_si, sources_of
-from gradhesion.core.variables.similarity import amplitude_of_ratio, similarity_length
+from gradhesion.core.closed.reduced import WAYS, parameters_from, scales_in_si, sources_of
+from gradhesion.core.closed.similarity import amplitude_of_ratio, jump_in_radius_of_envelope, similarity_length
 
 EPS = float(np.finfo(float).eps)
 PLAIN: dict[str, Any] = dict(zip(PARAMETERS, (0.37, 0.21, 610.0, 0.043, 0.019, 0.031, 1.7), strict=True))

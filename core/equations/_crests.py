@@ -12,7 +12,8 @@ from functools import lru_cache
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
+
+from gradhesion.core.equations._domain import Array
 
 _SAMPLES: Final = 32
 """Of each wave of the shortest harmonic: a maximum lies within 1/64 of a wave of a sample that no neighbour exceeds."""
@@ -40,7 +41,7 @@ def swings(k: float, rows: Rows) -> tuple[float, float]:
     count = _SAMPLES * int(numbers.max())
     shift = 0.25 * math.pi * (1.0 + k)
 
-    def derivative(x: NDArray[np.float64], order: int) -> NDArray[np.float64]:
+    def derivative(x: Array, order: int) -> Array:
         # x is exact in units of 1/count, and what is left over in turns beside it
         turns = (numbers * x[0]) % count / count + numbers * x[1]
         phase = 2.0 * math.pi * turns - shift + 0.5 * math.pi * order
@@ -61,3 +62,12 @@ def swings(k: float, rows: Rows) -> tuple[float, float]:
             x = np.stack([x[0], np.clip(x[1] + step, -1.0 / count, 1.0 / count)])
         found.append(max(0.0, *(sign * np.concatenate([derivative(x, 0), derivative(samples, 0)])).tolist()))
     return found[0], found[1]
+
+
+def swings_of(k: Array, rows: Rows) -> tuple[Array, Array]:
+    """Return the same for every exponent of an array, NaN outside [0, 1]."""
+    up, down = np.full(k.shape, np.nan), np.full(k.shape, np.nan)
+    for exponent in np.unique(k[(k >= 0.0) & (k <= 1.0)]):
+        place = k == exponent
+        up[place], down[place] = swings(float(exponent), rows)
+    return up, down

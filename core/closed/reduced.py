@@ -1,28 +1,9 @@
 """Scenes given in other variables than those of `solve`: in reduced ones, or in SI units.
 
-Each of the parameters of `solve` may be left out where others determine it:
-
-    modulus         R, E_star, work_of_adhesion     E* R/dgamma
-                    R, E, work_of_adhesion          with E* = E/(1 - nu^2)
-    c0_over_R       c0, R
-    lambda_over_R   lambda_over_L                   times L/R of variables/similarity.py
-                    wavelength, R
-    A               chi                             r/s of variables/similarity.py
-                    amplitude                       over the wavelength
-    a_max_over_R    a_max_over_L                    times L/R
-                    a_max_over_a2                   times a_2/R of variables/jump_in_radius.py
-                    a_max, R
-    machine_stiffness    spring_constant, E_star, R
-    indentation_max_over_R    indentation_max, R
-    load_max        preload, R, work_of_adhesion    P/(1.5 pi R dgamma)
-    closing_ratio   work_of_adhesion_closing, work_of_adhesion
-    toughness_wavelength_over_R    toughness_wavelength, R
-    speed_over_reference    speed, reference_speed
-    adhesion_range_over_R    adhesion_range, R
-
-a_2 is that of loading, at the work of closing; all else in reduced variables is at work_of_adhesion, that of opening.
-R, c0, wavelength, amplitude, a_max, indentation_max, toughness_wavelength and adhesion_range are in m, E_star and E in
-Pa, work_of_adhesion and that of closing in J/m^2, spring_constant in N/m, preload in N, speeds in m/s.
+R, c0, wavelength, amplitude, a_max, indentation_max, toughness_wavelength and adhesion_range are in m, E_star and E =
+E_star (1 - nu^2) in Pa, work_of_adhesion and that of closing in J/m^2, spring_constant in N/m, preload in N, speeds in
+m/s. lambda_over_L, chi, a_max_over_L and a_max_over_a2 are the variables of closed/similarity.py: a_2 is that of
+loading, at the work of closing; all others are at work_of_adhesion, that of opening.
 """
 
 import math
@@ -32,55 +13,54 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gradhesion.core.closed.similarity import amplitude_of_ratio, jump_in_radius_of_envelope, similarity_length
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, RANGE, SPEED, TURNS
-from gradhesion.core.variables.jump_in_radius import jump_in_radius_of_envelope
-from gradhesion.core.variables.similarity import amplitude_of_ratio, similarity_length
 
 _Array = NDArray[np.float64]
 _MATERIAL: Final = PARAMETERS[:4]
 _MACHINE: Final = "machine_stiffness"
 
-WAYS: Final[dict[str, dict[str, tuple[str, ...]]]] = {
-    "E_star": {"E": ("nu",)},
-    "modulus": {"E_star": ("R", "work_of_adhesion")},
-    "c0_over_R": {"c0": ("R",)},
-    "lambda_over_R": {"lambda_over_L": _MATERIAL, "wavelength": ("R",)},
-    "A": {"chi": PARAMETERS[:5], "amplitude": ("R", "lambda_over_R")},
-    "a_max_over_R": {"a_max_over_L": _MATERIAL, "a_max_over_a2": PARAMETERS[:6], "a_max": ("R",)},
-    _MACHINE: {"spring_constant": ("E_star", "R")},
-    "indentation_max_over_R": {"indentation_max": ("R",)},
-    "load_max": {"preload": ("R", "work_of_adhesion")},
-    CLOSING: {"work_of_adhesion_closing": ("work_of_adhesion",)},
-    PATTERN[0]: {"toughness_wavelength": ("R",)},
-    SPEED: {"speed": ("reference_speed",)},
-    RANGE: {"adhesion_range": ("R",)},
+
+def _over(value: _Array, unit: _Array) -> _Array:
+    """Return a quantity in a unit."""
+    return value / unit
+
+
+def _of_length(ratio: _Array, *material: _Array) -> _Array:
+    """Return what is given over L."""
+    return ratio * similarity_length(*material)
+
+
+_RULES: Final[dict[str, dict[str, tuple[tuple[str, ...], Callable[..., Any]]]]] = {
+    "E_star": {"E": (("nu",), lambda E, nu: E / ((1.0 - nu) * (1.0 + nu)))},
+    "modulus": {"E_star": (("R", "work_of_adhesion"), lambda E_star, R, work: E_star * R / work)},
+    "c0_over_R": {"c0": (("R",), _over)},
+    "lambda_over_R": {"lambda_over_L": (_MATERIAL, _of_length), "wavelength": (("R",), _over)},
+    "A": {
+        "chi": (PARAMETERS[:5], lambda chi, k, nu, modulus, c0, ratio: amplitude_of_ratio(k, nu, modulus, c0, ratio, chi)),
+        "amplitude": (("R", "lambda_over_R"), lambda amplitude, R, ratio: amplitude / R / ratio),
+    },
+    "a_max_over_R": {
+        "a_max_over_L": (_MATERIAL, _of_length),
+        "a_max_over_a2": (PARAMETERS[:6], lambda ratio, *others: ratio * jump_in_radius_of_envelope(*others)),
+        "a_max": (("R",), _over),
+    },
+    _MACHINE: {"spring_constant": (("E_star", "R"), lambda spring, E_star, R: spring / (E_star * R))},
+    "indentation_max_over_R": {"indentation_max": (("R",), _over)},
+    "load_max": {"preload": (("R", "work_of_adhesion"), lambda load, R, work: load / (1.5 * math.pi * R * work))},
+    CLOSING: {"work_of_adhesion_closing": (("work_of_adhesion",), _over)},
+    PATTERN[0]: {"toughness_wavelength": (("R",), _over)},
+    SPEED: {"speed": (("reference_speed",), _over)},
+    RANGE: {"adhesion_range": (("R",), _over)},
 }
+"""For each parameter the variables that can give it; what else that needs, and how it follows."""
+WAYS: Final = {name: {way: needed for way, (needed, _) in ways.items()} for name, ways in _RULES.items()}
 """Variables that can give a parameter, and what else that needs; in the order in which they follow from another."""
 
 _IN_WAYS: Final = {name for ways in WAYS.values() for way, needed in ways.items() for name in (way, *needed)}
 """Inputs from which parameters follow: left out of the result, unless they are wanted themselves."""
 _OPTIONAL: Final = (_MACHINE, *TURNS, CLOSING, *PATTERN, SPEED, RANGE)
 """Parameters that not every scene has."""
-
-_FOLLOWS: Final[dict[str, Callable[..., Any]]] = {
-    "E": lambda E, nu: E / ((1.0 - nu) * (1.0 + nu)),
-    "E_star": lambda E_star, R, work_of_adhesion: E_star * R / work_of_adhesion,
-    "c0": lambda c0, R: c0 / R,
-    "lambda_over_L": lambda ratio, *material: ratio * similarity_length(*material),
-    "wavelength": lambda wavelength, R: wavelength / R,
-    "chi": lambda chi, k, nu, modulus, c0, wavelength: amplitude_of_ratio(k, nu, modulus, c0, wavelength, chi),
-    "amplitude": lambda amplitude, R, lambda_over_R: amplitude / R / lambda_over_R,
-    "a_max_over_L": lambda ratio, *material: ratio * similarity_length(*material),
-    "a_max_over_a2": lambda ratio, *others: ratio * jump_in_radius_of_envelope(*others),
-    "a_max": lambda a_max, R: a_max / R,
-    "adhesion_range": lambda adhesion_range, R: adhesion_range / R,
-    "spring_constant": lambda spring_constant, E_star, R: spring_constant / (E_star * R),
-    "indentation_max": lambda indentation_max, R: indentation_max / R,
-    "toughness_wavelength": lambda wavelength, R: wavelength / R,
-    "speed": lambda speed, reference_speed: speed / reference_speed,
-    "work_of_adhesion_closing": lambda closing, opening: closing / opening,
-    "preload": lambda preload, R, work_of_adhesion: preload / (1.5 * math.pi * R * work_of_adhesion),
-}
 
 
 def parameters_from(given: Mapping[str, ArrayLike]) -> dict[str, _Array]:
@@ -123,7 +103,7 @@ def parameters_from(given: Mapping[str, ArrayLike]) -> dict[str, _Array]:
             with np.errstate(all="ignore"):  # what overflows has no value
                 if way == "a_max_over_a2" and closing:
                     others[needed.index("modulus")] = known["modulus"] / known[CLOSING]
-                known[parameter] = np.asarray(_FOLLOWS[way](known[way], *others))
+                known[parameter] = np.asarray(_RULES[parameter][way][1](known[way], *others))
     return {name: known[name] for name in (*wanted, *(name for name in given if name not in _IN_WAYS | {*wanted}))}
 
 
