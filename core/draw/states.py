@@ -12,7 +12,7 @@ from typing import Final
 
 import numpy as np
 
-from gradhesion.core.curves import draw_curves
+from gradhesion.core.draw.draw import draw_curves
 from gradhesion.core.equations import gap, general, pressure
 from gradhesion.core.equations._arguments import Array
 from gradhesion.core.problem.control import Loading

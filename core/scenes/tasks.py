@@ -253,9 +253,11 @@ def _finer_bins(punch: Punch, scenes: Floats, least: Floats) -> Integers:
         return 2 ** np.clip(np.nan_to_num(np.ceil(np.log2(ratio))), 0, 12).astype(np.int64)
 
 
-def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes: Floats) -> Floats:
-    """Return the results of scenes in the order of their exponents, of one thread."""
-    out = np.full((RESULT_ROWS, scenes.shape[1]), np.nan)
+def prepared(punch: Punch, form: int, scenes: Floats) -> tuple[Floats, Integers]:
+    """Return the reduced numbers of scenes, (REDUCED_ROWS, scenes), and by how much their bins are to be narrower.
+
+    The latter are of one item, or one a scene.
+    """
     most, steep = np.ones(scenes.shape[1]), np.zeros(scenes.shape[1])
     finer = np.ones(1, dtype=np.int64)
     if punch.rows.shape[1] > 0:
@@ -265,7 +267,13 @@ def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes
         most = np.where(allowed, most, np.nan)
         finer = _finer_bins(punch, scenes, least)
     basis = basis_of(punch.exponent, punch.waves, EXACT if form == EXACT else BY_DEPTH)
-    reduced = reduced_of(punch, basis, scenes, most, steep)
+    return reduced_of(punch, basis, scenes, most, steep), finer
+
+
+def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes: Floats) -> Floats:
+    """Return the results of scenes in the order of their exponents, of one thread."""
+    out = np.full((RESULT_ROWS, scenes.shape[1]), np.nan)
+    reduced, finer = prepared(punch, form, scenes)
     if wanted.saturation:  # all folds are needed, wherever the rim is
         reduced[NEED] = np.fmax(reduced[NEED], reduced[WINDOW])
     groups = (
