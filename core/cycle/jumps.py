@@ -75,10 +75,10 @@ def list_unloading_jumps(
 
 @kernel
 def frozen_loss(curve: Curve, source: Source, jumps: Floats, first: int, last: int) -> float:
-    """Store and return what the jumps `first` to `last` - 1 would lose on a curve between their radii, in 2 pi l^2 dgamma.
+    """Store what the jumps `first` to `last` - 1 would lose on a curve between their radii; return the sum.
 
-    All radii but a rim are stationary: the first derivatives of this are those of the loss. The jump-out of a dead load,
-    which has no bounded energy, loses nothing here.
+    In 2 pi l^2 dgamma. All radii but a rim are stationary, so that the first derivatives of this are those of the loss.
+    The jump-out of a dead load, which has no bounded energy, loses nothing here.
     """
     total = 0.0
     for n in range(first, last):

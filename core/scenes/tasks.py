@@ -313,15 +313,11 @@ def _finer_bins(punch: Punch, scenes: Floats, least: Floats) -> Integers:
         return 2 ** np.clip(np.nan_to_num(np.ceil(np.log2(ratio))), 0, 12).astype(np.int64)
 
 
-def in_groups(
-    punch: Punch, form: int, scenes: Floats, rows: int, near: Group, far: Group, *, whole: bool = False
-) -> Floats:
-    """Return the results of scenes in the order of their exponents, (rows, scenes), those of STATUS among them.
+def prepared(punch: Punch, form: int, scenes: Floats) -> tuple[Floats, Integers]:
+    """Return the reduced numbers of scenes, (REDUCED_ROWS, scenes), and by how much their bins are to be narrower.
 
-    `near` solves scenes of one fineness of bins, `far` those of one exponent that it leaves as SHORT; each takes the
-    fineness, scenes, their reduced numbers, and room for results. `whole`: all folds are needed, wherever the rim is.
+    The latter are of one item, or one a scene.
     """
-    out = np.full((rows, scenes.shape[1]), np.nan)
     most, steep = np.ones(scenes.shape[1]), np.zeros(scenes.shape[1])
     finer = np.ones(1, dtype=np.int64)
     if punch.rows.shape[1] > 0:
@@ -331,7 +327,19 @@ def in_groups(
         most = np.where(allowed, most, np.nan)
         finer = _finer_bins(punch, scenes, least)
     basis = basis_of(punch.exponent, punch.waves, EXACT if form == EXACT else BY_DEPTH)
-    reduced = reduced_of(punch, basis, scenes, most, steep)
+    return reduced_of(punch, basis, scenes, most, steep), finer
+
+
+def in_groups(
+    punch: Punch, form: int, scenes: Floats, rows: int, near: Group, far: Group, *, whole: bool = False
+) -> Floats:
+    """Return the results of scenes in the order of their exponents, (rows, scenes), those of STATUS among them.
+
+    `near` solves scenes of one fineness of bins, `far` those of one exponent that it leaves as SHORT; each takes the
+    fineness, scenes, their reduced numbers, and room for results. `whole`: all folds are needed, wherever the rim is.
+    """
+    out = np.full((rows, scenes.shape[1]), np.nan)
+    reduced, finer = prepared(punch, form, scenes)
     if whole:
         reduced[NEED] = np.fmax(reduced[NEED], reduced[WINDOW])
 
