@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from gradhesion.core.compiler.jit import watch_compilation
     from gradhesion.core.compiler.marks import compiled_before
     from gradhesion.core.compiler.sources import SOURCES
-    from gradhesion.core.curves import draw_curves
+    from gradhesion.core.draw.draw import draw_curves
     from gradhesion.core.kinds import (
         APART,
         CPU_SECONDS,
@@ -103,7 +103,7 @@ _HOMES: Final = {
     "compiler.jit": "watch_compilation",
     "compiler.cache": "CACHE_FOLDER place",
     "compiler.marks": "compiled_before",
-    "curves": "draw_curves",
+    "draw.draw": "draw_curves",
     "kinds": "APART CPU_SECONDS KERNELS KINDS MANY_SMOOTH NEEDS "
     "kind_of_curves kind_of_map kind_of_sensitivities kind_of_turning kinds_of_long",
     "problem.control": "CONTROLS Loading",

@@ -11,7 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from gradhesion.core.curve.folds import CLOSE, find_folds
-from gradhesion.core.curve.trace import END, LANDING, START
+from gradhesion.core.curve.levels import polished
+from gradhesion.core.curve.trace import END, END_LEVEL, LANDING, START
 from gradhesion.core.curve.values import Curve, coordinate_of, softness, state_in
 from gradhesion.core.cycle.disc import Disc, gap_is_open, loading_is_one_disc
 from gradhesion.core.cycle.path import load_to, unload_from, visited_within, walk_loading
@@ -120,7 +121,7 @@ CLOSING_TRACE, OPENING_TRACE, MEASURED_TRACE = range(3)
 
 
 @kernel
-def _pattern_of(punch: Punch, scenes: Floats, reduced: Floats, i: int) -> Pattern:
+def pattern_of(punch: Punch, scenes: Floats, reduced: Floats, i: int) -> Pattern:
     """Return the pattern of toughness of scene i."""
     amplitude = scenes[PATTERN_AMPLITUDE, i]
     waves, most, steep = reduced[PATTERN_WAVES, i], reduced[MOST, i], reduced[STEEP, i]
@@ -128,7 +129,7 @@ def _pattern_of(punch: Punch, scenes: Floats, reduced: Floats, i: int) -> Patter
 
 
 @kernel
-def _curve_of(task: Task, pattern: Pattern, reduced: Floats, i: int, root: float, y_end: float, which: int) -> Curve:
+def curve_of(task: Task, pattern: Pattern, reduced: Floats, i: int, root: float, y_end: float, which: int) -> Curve:
     """Return a curve of scene i, sizes over `root`: of a table with its pattern, filled up to y_end into room `which`."""
     B, g = reduced[BY_POWER, i] / root, reduced[BY_WAVES, i] / root
     table = task.table
@@ -162,14 +163,20 @@ def _walk(task: Task, scenes: Floats, reduced: Floats, i: int, y_end: float) -> 
     rooms, turn = task.rooms, task.punch.turn
     ratio = reduced[CLOSING, i]
     filled = y_end if y_end < math.inf else reduced[WINDOW, i]
-    pattern = _pattern_of(task.punch, scenes, reduced, i)
-    closing = _curve_of(task, pattern, reduced, i, math.sqrt(ratio), filled, 0)
-    opening = closing if ratio == 1.0 else _curve_of(task, pattern, reduced, i, 1.0, filled, 1)
+    pattern = pattern_of(task.punch, scenes, reduced, i)
+    closing = curve_of(task, pattern, reduced, i, math.sqrt(ratio), filled, 0)
+    opening = closing if ratio == 1.0 else curve_of(task, pattern, reduced, i, 1.0, filled, 1)
     trace = rooms.traces[CLOSING_TRACE]
     count = find_folds(closing, y_end, trace)
     visits, measured = 0, -1
     if count >= 0:
         visits = walk_loading(closing, trace, count, rooms.columns[0])
+        if turn != AT_RIM:  # losses forgive the error of a landing, but not where a cycle turns
+            level = 0.0
+            for v in range(visits):
+                j = rooms.columns[0, v]
+                trace[LANDING, j] = polished(closing, trace[LANDING, j], level)
+                level = trace[END_LEVEL, j]
         own = measured_curve(closing, turn)
         if turn != AT_RIM and own.by_depth != closing.by_depth or (turn == AT_DEPTH and closing.by_load > 0.0):
             measured = find_folds(own, y_end, rooms.traces[MEASURED_TRACE])
@@ -321,7 +328,7 @@ def _put_cycle(task: Task, walked: Walked, opened: int, y: float, reduced: Float
 
 
 @kernel
-def _turns_of(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> Walked:
+def turns_of(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> Walked:
     """Store where scenes of one curve turn, in TURN, as a reduced radius; return their curve of closing as walked.
 
     The curve is traced as far as some scene is sure to turn, and farther where a jump has passed its target.
@@ -356,11 +363,12 @@ def _last_fold(task: Task, walked: Walked) -> float:
 
 
 @kernel
-def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
-    """Solve the scenes `first` to `last` - 1, all of one curve and valid; store their results, or SHORT as status."""
-    walked = _turns_of(task, scenes, reduced, first, last, out)
-    opening = walked.opening
-    end, farthest = end_of(opening.table), 0.0
+def open_curve(task: Task, walked: Walked, first: int, last: int, out: Floats) -> tuple[int, float]:
+    """Trace the curve of opening of scenes whose TURN is stored; return its branches and the farthest turn.
+
+    Those that turn beyond the table get SHORT as status and no TURN.
+    """
+    end, farthest = end_of(walked.opening.table), 0.0
     for i in range(first, last):
         beyond = task.punch.turn != AT_RIM and out[TURN, i] >= end and walked.count >= 0
         if math.isnan(out[TURN, i]) or beyond:
@@ -369,7 +377,16 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
             farthest = max(farthest, out[TURN, i])
     opened = walked.count
     if walked.ratio < 1.0 and walked.count >= 0 and farthest > 0.0:
-        opened = find_folds(opening, farthest, task.rooms.traces[OPENING_TRACE])
+        opened = find_folds(walked.opening, farthest, task.rooms.traces[OPENING_TRACE])
+    return opened, farthest
+
+
+@kernel
+def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
+    """Solve the scenes `first` to `last` - 1, all of one curve and valid; store their results, or SHORT as status."""
+    walked = turns_of(task, scenes, reduced, first, last, out)
+    opening = walked.opening
+    opened, farthest = open_curve(task, walked, first, last, out)
     table = task.by_load if walked.pattern.rows.shape[1] == 0 else opening.table
     pull = Curve(table, opening.B, opening.g, 0.0, 1.0)
     lowest = Lowest(0.0, 0.0, 0.0, 0.0, True)
@@ -409,20 +426,23 @@ def _may_be_solved(task: Task, scenes: Floats, reduced: Floats, i: int, out: Flo
 
 
 @kernel
+def curve_end(task: Task, scenes: Floats, reduced: Floats, start: int, last: int, out: Floats) -> int:
+    """Return the end of the scenes from `start` on that share its curve; `start` if it cannot be solved, which is stored."""
+    end = start
+    while end < last and same_curve(scenes, reduced, start, end) and _may_be_solved(task, scenes, reduced, end, out):
+        end += 1
+    return end
+
+
+@kernel
 def solve_cycles(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Solve the scenes `first` to `last` - 1 of one exponent."""
     start = first
     while start < last:
-        end = start + 1
-        if _may_be_solved(task, scenes, reduced, start, out):
-            while (
-                end < last
-                and same_curve(scenes, reduced, start, end)
-                and _may_be_solved(task, scenes, reduced, end, out)
-            ):
-                end += 1
+        end = curve_end(task, scenes, reduced, start, last, out)
+        if end > start:
             solve_curve(task, scenes, reduced, start, end, out)
-        start = end
+        start = max(end, start + 1)
 
 
 @kernel
