@@ -20,6 +20,7 @@ from gradhesion.core.curve.values import (
     bin_of,
     coordinate_of,
     depth_and_load,
+    level_at,
     radius_of,
     slope_at,
     slope_in,
@@ -143,7 +144,7 @@ def scan(curve: Curve, first: int, last: int, count: int, slopes: Floats, trace:
     B, g, k = curve.B, curve.g, curve.table.k
     base = 0.5 * (1.0 - k)
     highest = base + (1.0 + k if curve.by_load != 0.0 else 0.0)
-    ends = table.exponent - 1.0 >= base  # else the power loses against the waves, and folds need not end
+    ends = g == 0.0 or table.exponent - 1.0 >= base  # else the power loses against the waves: folds need not end
     before = slope_at(curve, first)
     older, start = before, first
     while start < last:
@@ -161,7 +162,9 @@ def scan(curve: Curve, first: int, last: int, count: int, slopes: Floats, trace:
         for j in range(size):
             i, after = start + j, slopes[j]
             half = nodes[HALF, i]
-            terms = B * nodes[SLOPE, i] + highest * nodes[E, i]
+            terms = B * nodes[SLOPE, i] + abs(g * nodes[V, i]) + base * nodes[E, i]
+            if curve.by_load != 0.0:
+                terms += level_at(curve, i) * nodes[KE, i]
             pieces, low, high, at_low, at_high, guess = 0, -1.0, 1.0, before * half, after * half, 0.0
             if (before > 0.0) != (after > 0.0):
                 pieces, guess = 1, _guess_of(older, before, after)

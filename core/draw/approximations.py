@@ -80,16 +80,17 @@ def draw_asymptotic(drawn: Drawn) -> dict[str, Floats] | None:
         return draw_smooth(drawn, "asymptotic")
     B, g = frame.reduced[[BY_POWER, BY_WAVES], 0].tolist()
     need = min(frame.reduced[WINDOW, 0], end)
-    made, by_load = (table_for(frame, form, need) for form in (BY_DEPTH, BY_LOAD))
-    if made is None or by_load is None:
-        return None
-    curves = Curve(made[0], B, g, 1.0, 0.0), Curve(by_load[0], B, g, 0.0, 1.0)
-    places = [extrema_of(curve, end) for curve in curves]
-    known = [found for found in places if found is not None]
-    if len(known) < len(places):
-        return None
-    line = line_of(curves[0], made[1], frame.units, *waves_of(frame))
-    return _named(drawn, _through(drawn, line, np.unique(np.concatenate(known))), "asymptotic")
+    while True:
+        made, by_load = (table_for(frame, form, need) for form in (BY_DEPTH, BY_LOAD))
+        if made is None or by_load is None:
+            return None
+        by_depth = Curve(made[0], B, g, 1.0, 0.0)
+        folds, extrema = (extrema_of(curve, end) for curve in (by_depth, Curve(by_load[0], B, g, 0.0, 1.0)))
+        if folds is not None and extrema is not None:
+            break
+        need = min(3.0 * need, end)
+    line = line_of(by_depth, made[1], frame.units, *waves_of(frame))
+    return _named(drawn, _through(drawn, line, np.union1d(folds, extrema)), "asymptotic")
 
 
 def _envelopes(frame: Frame) -> tuple[float, float, float]:
