@@ -193,7 +193,7 @@ def table_for(frame: Frame, form: int, y_end: float) -> tuple[Table, Source, flo
 
 
 def _side(frame: Frame, root: float, made: tuple[Table, Source, float], y_end: float) -> Side | None:
-    """Return the curve of a work of adhesion, over that of opening the square of `root`; None: the table is too short."""
+    """Return the curve of a work of adhesion, `root`^2 of that of opening; None: the table is too short."""
     table, source, crest = made
     B, g, by_depth, by_load = frame.reduced[[BY_POWER, BY_WAVES, BY_DEPTH, BY_LOAD], 0].tolist()
     B, g = B / root, g / root
