@@ -116,8 +116,8 @@ def draw_curves(
     ----------
     scene
         A number for each name of `PARAMETERS`, in the ranges of `solve`; a_max/R may be inf. Machine control also needs
-        `machine_stiffness`, S/(E* R) > 0; `closing_ratio` is optional: "equilibrium" and "smooth" belong to opening. With
-        one of `TURNS` path, jumps and the effective path turn where the cycle of `solve` does.
+        `machine_stiffness`, S/(E* R) > 0; `closing_ratio` is optional: "equilibrium" and "smooth" belong to opening.
+        With one of `TURNS` path, jumps and the effective path turn where the cycle of `solve` does.
     curves
         Names from `CURVES`: "equilibrium", the whole equilibrium curve, stable and unstable; "closing_equilibrium",
         that of closing; "path", the cycle of loading and unloading; "asymptotic", the curve for short waves
