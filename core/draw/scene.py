@@ -11,7 +11,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from gradhesion.core.curve.folds import CHUNK, find_folds
+from gradhesion.core.curve.folds import find_folds
 from gradhesion.core.curve.levels import polished
 from gradhesion.core.curve.trace import END, LANDING, START, room_for
 from gradhesion.core.curve.values import Curve
@@ -156,9 +156,9 @@ def frame_of(request: Request) -> Frame | None:
 
 
 @kernel
-def trace_curve(curve: Curve, y_end: float, slopes: Floats, trace: Floats) -> int:
+def trace_curve(curve: Curve, y_end: float, trace: Floats) -> int:
     """Fill the trace of a curve, the ends of its branches to rounding; return as `find_folds`."""
-    count = find_folds(curve, y_end, slopes, trace)
+    count = find_folds(curve, y_end, trace)
     for j in range(count):
         trace[START, j] = polished(curve, trace[START, j], math.nan)
         trace[END, j] = polished(curve, trace[END, j], math.nan)
@@ -168,7 +168,7 @@ def trace_curve(curve: Curve, y_end: float, slopes: Floats, trace: Floats) -> in
 def extrema_of(curve: Curve, y_end: float) -> Floats | None:
     """Return the radii at which what a curve prescribes is extremal, in order; None if its table is too short."""
     trace = room_for(curve.table.bins)
-    count = trace_curve(curve, y_end, np.empty(CHUNK), trace)
+    count = trace_curve(curve, y_end, trace)
     if count < 0:
         return None
     ends = np.sort(trace[[START, END], :count].ravel())
@@ -202,7 +202,7 @@ def _side(frame: Frame, root: float, made: tuple[Table, Source, float], y_end: f
         table, g = patterned_table(table, crest, g, pattern, min(y_end, end_of.py_func(table)), *room), 1.0
     curve = Curve(table, B, g, by_depth, by_load)
     trace, visited = room_for(table.bins), np.empty(table.bins + 8, dtype=np.int64)
-    count = trace_curve(curve, y_end, np.empty(CHUNK), trace)
+    count = trace_curve(curve, y_end, trace)
     if count < 0:
         return None
     others = [(1.0, 0.0)] * (by_load != 0.0) + [(0.0, 1.0)] * (by_depth != 0.0)
