@@ -327,7 +327,7 @@ def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes
                 )
                 out[:, index] = found
     if wanted.depth:
-        far_rims(punch, basis.width, form, scenes, reduced, out)
+        far_rims(punch, width_of(punch.waves), form, scenes, reduced, out)
     return out
 
 
