@@ -22,6 +22,7 @@ from gradhesion.core.curve.values import (
     bin_of,
     coordinate_of,
     depth_and_load,
+    level_at,
     radius_of,
     slope_at,
     slope_in,
@@ -190,7 +191,7 @@ def scan(curve: Curve, first: int, last: int, count: int, trace: Floats) -> tupl
     B, g, k = curve.B, curve.g, curve.table.k
     base = 0.5 * (1.0 - k)
     highest = base + (1.0 + k if curve.by_load != 0.0 else 0.0)
-    ends = table.exponent - 1.0 >= base  # else the power loses against the waves, and folds need not end
+    ends = g == 0.0 or table.exponent - 1.0 >= base  # else the power loses against the waves: folds need not end
     before = slope_at(curve, first)
     older, start = before, first
     slopes = np.zeros(CHUNK)
@@ -210,7 +211,9 @@ def scan(curve: Curve, first: int, last: int, count: int, trace: Floats) -> tupl
         for j in range(size):
             i, after = start + j, slopes[j]
             half = nodes[HALF, i]
-            terms = B * nodes[SLOPE, i] + highest * nodes[E, i]
+            terms = B * nodes[SLOPE, i] + abs(g * nodes[V, i]) + base * nodes[E, i]
+            if curve.by_load != 0.0:
+                terms += level_at(curve, i) * nodes[KE, i]
             places[0], places[1], values[0], values[1], pieces = -1.0, 1.0, before * half, after * half, 1
             if (before > 0.0) != (after > 0.0):
                 if abs(after - before) < 4.0 * swing_in(curve, i):  # D may turn twice on its way

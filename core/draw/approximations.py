@@ -7,9 +7,9 @@ In the units of the scene, with y = 2 pi a/lambda and c = (1-k)/2, a punch witho
 smooth       pull 1, height 0
 envelopes    pull 1 - chi_+ on loading and 1 + chi_- on unloading (closed/envelope.py), their height the mean of the
              waves; closing at another work of adhesion takes its root for the first 1
-effective    the path along them, without the single waves, (5.28)-(5.35):
-             jump-in at the depth 0, counted from the mean surface; loading along its envelope; early unloading at the
-             radius of the turn, where the load is linear in the depth; unloading along its envelope; jump-out at its fold
+effective    the path along them, without the single waves, (5.28)-(5.35): jump-in at the depth 0, counted from the mean
+             surface; loading along its envelope; early unloading at the radius of the turn, where the load is linear in
+             the depth; unloading along its envelope; jump-out at its fold
 """
 
 from typing import Any, Final
@@ -80,16 +80,17 @@ def draw_asymptotic(drawn: Drawn) -> dict[str, Floats] | None:
         return draw_smooth(drawn, "asymptotic")
     B, g = frame.reduced[[BY_POWER, BY_WAVES], 0].tolist()
     need = min(frame.reduced[WINDOW, 0], end)
-    made, by_load = (table_for(frame, form, need) for form in (BY_DEPTH, BY_LOAD))
-    if made is None or by_load is None:
-        return None
-    curves = Curve(made[0], B, g, 1.0, 0.0), Curve(by_load[0], B, g, 0.0, 1.0)
-    places = [extrema_of(curve, end) for curve in curves]
-    known = [found for found in places if found is not None]
-    if len(known) < len(places):
-        return None
-    line = line_of(curves[0], made[1], frame.units, *waves_of(frame))
-    return _named(drawn, _through(drawn, line, np.unique(np.concatenate(known))), "asymptotic")
+    while True:
+        made, by_load = (table_for(frame, form, need) for form in (BY_DEPTH, BY_LOAD))
+        if made is None or by_load is None:
+            return None
+        by_depth = Curve(made[0], B, g, 1.0, 0.0)
+        folds, extrema = (extrema_of(curve, end) for curve in (by_depth, Curve(by_load[0], B, g, 0.0, 1.0)))
+        if folds is not None and extrema is not None:
+            break
+        need = min(3.0 * need, end)
+    line = line_of(by_depth, made[1], frame.units, *waves_of(frame))
+    return _named(drawn, _through(drawn, line, np.union1d(folds, extrema)), "asymptotic")
 
 
 def _envelopes(frame: Frame) -> tuple[float, float, float]:
@@ -121,12 +122,12 @@ def draw_envelope(drawn: Drawn) -> dict[str, Floats]:
 def draw_effective(drawn: Drawn, *, turned: bool) -> dict[str, NDArray[Any]]:
     """Return the effective path of a cycle; `effective_jump` is 1 at a point that is reached by a jump.
 
-    Loading starts without contact at depth 0, touches the mean surface and jumps in there, to the a_2 of (5.34). For chi_+
-    >= 1 there is no radius a_2: contact grows from a point, without a jump. A rim within a_2 is reached by the jump-in,
-    and unloading starts from there along the line (5.32). At k = 1 contact ends by shrinking to a point. An unbounded
-    punch that is not `turned` is loaded up to 2 a_2, or to the pull-off radius of its unloading envelope if that is
-    larger. The sum of P d(delta) over its lines is the energy of the solver of envelopes with the rim at the turn,
-    chords apart.
+    Loading starts without contact at depth 0, touches the mean surface and jumps in there, to the a_2 of (5.34). For
+    chi_+ >= 1 there is no radius a_2: contact grows from a point, without a jump. A rim within a_2 is reached by the
+    jump-in, and unloading starts from there along the line (5.32). At k = 1 contact ends by shrinking to a point. An
+    unbounded punch that is not `turned` is loaded up to 2 a_2, or to the pull-off radius of its unloading envelope if
+    that is larger. The sum of P d(delta) over its lines is the energy of the solver of envelopes with the rim at the
+    turn, chords apart.
     """
     frame, m, k = drawn.frame, drawn.frame.punch.exponent, drawn.frame.k
     rise, fall, height = _envelopes(frame)

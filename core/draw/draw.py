@@ -116,9 +116,8 @@ def draw_curves(
     ----------
     scene
         A number for each name of `PARAMETERS`, in the ranges of `solve`; a_max/R may be inf. Machine control also needs
-        `machine_stiffness`, S/(E* R) > 0; `closing_ratio` is optional: loading is that of closing then, and "equilibrium"
-        and "smooth" belong to opening. With one of `TURNS` path, jumps and the effective path turn where the cycle of
-        `solve` does.
+        `machine_stiffness`, S/(E* R) > 0; `closing_ratio` is optional: "equilibrium" and "smooth" belong to opening.
+        With one of `TURNS` path, jumps and the effective path turn where the cycle of `solve` does.
     curves
         Names from `CURVES`: "equilibrium", the whole equilibrium curve, stable and unstable; "closing_equilibrium",
         that of closing; "path", the cycle of loading and unloading; "asymptotic", the curve for short waves
@@ -153,9 +152,9 @@ def draw_curves(
     Notes
     -----
     Stable means stable under the given control. A jump is a straight line at the prescribed depth, load, or
-    delta + P/S; a contact that is pinned at the turn is one too. Under load control the path ends at the last fold, with
-    radius 0 at its depth and load, since the punch then moves off freely; the energy of that jump is unbounded, and
-    the jump is not listed.
+    delta + P/S; a contact that is pinned at the turn is one too. Under load control the path ends at the last fold,
+    with radius 0 at its depth and load, since the punch then moves off freely; the energy of that jump is unbounded,
+    and the jump is not listed.
 
     Curves reach from zero contact to the rim; those of an unbounded punch as far as scene.py says. Folds of depth,
     extrema of load, jumps, start and rim are points of their own, exact to rounding. Between them chords stay within

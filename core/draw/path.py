@@ -113,24 +113,19 @@ def _put_along(side: Side, corners: list[_Corner], y: float, branch: float) -> N
 
 
 def _put_jump(frame: Frame, side: Side, corners: list[_Corner], y: float, branch: float) -> None:
-    """Jump from the last corner to a radius on a branch, or out of contact: to radius and branch 0."""
-    _, depth, load = corners[-1][:3]
-    by_depth, by_load = frame.reduced[[BY_DEPTH, BY_LOAD], 0]
-    if y > 0.0:
-        _, own_depth, own_load = side.line.points(np.array([y]))[:, 0].tolist()
-        depth, load = depth if by_load == 0.0 else own_depth, load if by_depth == 0.0 else own_load
-    elif by_depth > 0.0:
-        depth, load = _level_of(frame, corners[-1]) * frame.units[1] / by_depth, 0.0
-    corners.append((y, depth, load, 0.0, branch, 1.0))
+    """Jump from the last corner to a radius, 0 out of contact.
 
-
-def _put_flat(frame: Frame, side: Side, corners: list[_Corner], y: float, branch: float) -> None:
-    """Jump from the last corner to the radius at which the cycle turns, where the contact is a flat punch then."""
-    _, depth, load = side.line.points(np.array([y]))[:, 0].tolist()
-    flat = float(y ** (1.0 + frame.k) * frame.units[2] / frame.units[1])
-    push = _level_of(frame, corners[-1]) - _level_of(frame, (y, depth, load))
-    push /= _level_of(frame, (y, 1.0, flat))
-    corners.append((y, depth + push, load + flat * push, 0.0, branch, 1.0))
+    Contact there is a flat punch, pushed off equilibrium until it has what is prescribed: by nothing on a branch.
+    """
+    before = corners[-1]
+    y, depth, load = side.line.points(np.array([y]))[:, 0].tolist()
+    stiffness = y ** (1.0 + frame.k) * frame.units[2] / frame.units[1]
+    softness = _level_of(frame, (y, 1.0, stiffness))
+    if softness > 0.0:
+        push = (_level_of(frame, before) - _level_of(frame, (y, depth, load))) / softness
+        corners.append((y, depth + push, load + stiffness * push, 0.0, branch, 1.0))
+    else:  # a dead load that lets go
+        corners.append((y, *before[DEPTH:JOINED], 0.0, branch, 1.0))
 
 
 def find_corners(drawn: Drawn, closing: Side, opening: Side, *, grows: bool) -> Corners:
@@ -145,18 +140,14 @@ def find_corners(drawn: Drawn, closing: Side, opening: Side, *, grows: bool) -> 
     for left, landed, to in ways[:loading]:
         if left > 0.0:
             _put_along(closing, up, left, branch)
-        if to >= 0.0:
-            branch = to + 1.0
-            _put_jump(frame, closing, up, landed, branch)
-        else:
-            branch = 1.0 + np.count_nonzero(closing.trace[START, : closing.count] <= turn)
-            _put_flat(frame, closing, up, landed, branch)
-            pinned = True
+        branch = to + 1.0
+        if to < 0.0:  # flat against the rim: on none of the branches within it
+            branch, pinned = 1.0 + np.count_nonzero(closing.trace[START, : closing.count] <= turn), True
+        _put_jump(frame, closing, up, landed, branch)
     _put_along(closing, up, turn, branch)
 
     down: list[_Corner] = [(*opening.line.points(np.array([turn]))[:, 0].tolist(), 0.0, branch, 0.0)]
-    starts, ends = opening.trace[START, : opening.count], opening.trace[END, : opening.count]
-    branch = float(np.searchsorted(starts, turn, "right"))
+    branch = float(np.searchsorted(opening.trace[START, : opening.count], turn, "right"))
     for left, landed, to in ways[loading:]:
         if left != turn:
             _put_along(opening, down, left, branch)
@@ -173,8 +164,8 @@ def draw_path(drawn: Drawn, closing: Side, opening: Side, *, grows: bool) -> dic
     """Return the path of a cycle: from depth zero without contact up to the turn, and back until contact ends.
 
     The line from the point before is a jump, or unloading, if a point is marked so. Unloading begins pinned where the
-    equilibrium of opening at the turn is not as deep as loading comes there. The path of an unbounded punch turns at the
-    end of the drawn range. The sum of P d(delta) over its lines is the energy of a cycle but for the chords.
+    equilibrium of opening at the turn is not as deep as loading comes there. The path of an unbounded punch turns at
+    the end of the drawn range. The sum of P d(delta) over its lines is the energy of a cycle but for the chords.
     """
     corners = find_corners(drawn, closing, opening, grows=grows)
     scales = spans_of(np.concatenate([corners.up[:3], corners.down[:3]], axis=1))

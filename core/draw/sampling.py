@@ -55,8 +55,8 @@ def _fill_states(curve: Curve, source: Source, points: Floats) -> None:
 def line_of(curve: Curve, source: Source, units: Floats, half_wave: float, crest: float) -> Line:
     """Return a curve of equilibrium as a line.
 
-    `units` are those of radius and depth in R, and of load, (3,); `crest` bounds its waves of depth over y^((1-k)/2), in
-    the unit of depth.
+    `units` are those of radius and depth in R, and of load, (3,); `crest` bounds its waves of depth over y^((1-k)/2),
+    in the unit of depth.
     """
     k = curve.table.k
 

@@ -11,15 +11,14 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from gradhesion.core.curve.folds import CHUNK, find_folds
+from gradhesion.core.curve.folds import find_folds
 from gradhesion.core.curve.levels import polished
 from gradhesion.core.curve.trace import END, LANDING, START, room_for
 from gradhesion.core.curve.values import Curve
 from gradhesion.core.cycle.path import walk_loading
 from gradhesion.core.draw.sampling import Line, line_of
-from gradhesion.core.edge.pattern import patterned_table
+from gradhesion.core.edge.pattern import Pattern, patterned_table
 from gradhesion.core.jit import kernel
-from gradhesion.core.scenes.cycles import pattern_of
 from gradhesion.core.scenes.reduced import (
     BY_DEPTH,
     BY_LOAD,
@@ -30,10 +29,12 @@ from gradhesion.core.scenes.reduced import (
     LENGTH,
     LOAD,
     MOST,
+    PATTERN_AMPLITUDE,
     PATTERN_WAVES,
     PULL,
     RIM,
     RIM_Y,
+    STEEP,
     UNIT_OF_FORCE,
     WINDOW,
     K,
@@ -43,7 +44,7 @@ from gradhesion.core.scenes.reduced import (
 )
 from gradhesion.core.scenes.tasks import Request, columns_of, long_table, prepared, punch_of, scenes_of
 from gradhesion.core.table.basis import room_of
-from gradhesion.core.table.filling import width_of
+from gradhesion.core.table.filling import source_of, width_of
 from gradhesion.core.table.layout import EXACT, LANES, Source, Table, end_of
 from gradhesion.core.types import Floats, Integers
 
@@ -156,9 +157,9 @@ def frame_of(request: Request) -> Frame | None:
 
 
 @kernel
-def trace_curve(curve: Curve, y_end: float, slopes: Floats, trace: Floats) -> int:
+def trace_curve(curve: Curve, y_end: float, trace: Floats) -> int:
     """Fill the trace of a curve, the ends of its branches to rounding; return as `find_folds`."""
-    count = find_folds(curve, y_end, slopes, trace)
+    count = find_folds(curve, y_end, trace)
     for j in range(count):
         trace[START, j] = polished(curve, trace[START, j], math.nan)
         trace[END, j] = polished(curve, trace[END, j], math.nan)
@@ -168,7 +169,7 @@ def trace_curve(curve: Curve, y_end: float, slopes: Floats, trace: Floats) -> in
 def extrema_of(curve: Curve, y_end: float) -> Floats | None:
     """Return the radii at which what a curve prescribes is extremal, in order; None if its table is too short."""
     trace = room_for(curve.table.bins)
-    count = trace_curve(curve, y_end, np.empty(CHUNK), trace)
+    count = trace_curve(curve, y_end, trace)
     if count < 0:
         return None
     ends = np.sort(trace[[START, END], :count].ravel())
@@ -186,23 +187,28 @@ def waves_of(frame: Frame) -> tuple[float, float]:
 
 
 def table_for(frame: Frame, form: int, y_end: float) -> tuple[Table, Source, float] | None:
-    """Return the table of a scene up to y_end, as `long_table`; None where that has too many bins."""
-    if not y_end <= _MOST_BINS * width_of(frame.punch.waves, frame.finer):
+    """Return the table of a scene up to y_end, its source, and the crest of its -U'; None where it has too many bins."""
+    punch, width = frame.punch, width_of(frame.punch.waves, frame.finer)
+    if not y_end <= _MOST_BINS * width:
         return None
-    return long_table(frame.punch, frame.k, form, frame.finer, y_end)
+    table, crest = long_table(punch, frame.k, form, frame.finer, y_end)
+    return table, source_of(frame.k, punch.exponent, punch.waves, width, 0.0, form), crest
 
 
 def _side(frame: Frame, root: float, made: tuple[Table, Source, float], y_end: float) -> Side | None:
-    """Return the curve of a work of adhesion, over that of opening the square of `root`; None: the table is too short."""
+    """Return the curve of a work of adhesion, `root`^2 of that of opening; None: the table is too short."""
     table, source, crest = made
     B, g, by_depth, by_load = frame.reduced[[BY_POWER, BY_WAVES, BY_DEPTH, BY_LOAD], 0].tolist()
     B, g = B / root, g / root
     if frame.is_patterned:
-        pattern, room = pattern_of(frame.punch, frame.scenes, frame.reduced, 0), room_of(table.bins, LANES + 1)
-        table, g = patterned_table(table, crest, g, pattern, min(y_end, end_of.py_func(table)), *room), 1.0
+        numbers = frame.reduced[PATTERN_WAVES, 0], frame.scenes[PATTERN_AMPLITUDE, 0]
+        bounds = frame.reduced[MOST, 0], frame.reduced[STEEP, 0]
+        pattern = Pattern(frame.punch.rows, *numbers, frame.punch.of_work, *bounds)
+        end, room = min(y_end, end_of.py_func(table)), room_of(table.bins, LANES + 1)
+        table, g = patterned_table(table, crest, g, pattern, end, *room), 1.0
     curve = Curve(table, B, g, by_depth, by_load)
     trace, visited = room_for(table.bins), np.empty(table.bins + 8, dtype=np.int64)
-    count = trace_curve(curve, y_end, np.empty(CHUNK), trace)
+    count = trace_curve(curve, y_end, trace)
     if count < 0:
         return None
     others = [(1.0, 0.0)] * (by_load != 0.0) + [(0.0, 1.0)] * (by_depth != 0.0)

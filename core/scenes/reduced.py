@@ -134,8 +134,10 @@ def fill_reach(punch: Punch, i: int, crest: float, steepest: float, mean: float,
     reduced[PULL, i] = (front * of_load) ** (1.0 / (m - eta)) * 1.2 + 20.0
     steep, power = g * steepest + reduced[STEEP, i], m - 1.0 - eta
     window = math.inf
-    if power > 0.0:
-        window = (steep / (B * m)) ** (1.0 / power) * 1.15 + 60.0 if steep > 0.0 else 0.0
+    if steep == 0.0:
+        window = 0.0
+    elif power > 0.0:
+        window = (steep / (B * m)) ** (1.0 / power) * 1.15 + 60.0
     elif power == 0.0 and steep < B * m:
         window = 60.0
     reduced[WINDOW, i] = max(smooth, window)
