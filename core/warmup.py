@@ -94,6 +94,8 @@ USUAL: Final[dict[str, Callable[[], object]]] = {
     "unbounded punch": _of_maps(SCENE | {"a_max_over_R": math.inf}, OUTPUTS),
     "envelope": _of_maps(SCENE, OUTPUTS, solver="envelope"),
     "curves": _of_curves(SCENE, tuple(CURVES)),
+    "curves of a smooth punch": _of_curves(SCENE | {"A": 0.0}, tuple(CURVES)),
+    "curves of an unbounded punch": _of_curves(SCENE | {"a_max_over_R": math.inf}, tuple(CURVES)),
 }
 """What maps and curves of a paraboloid with one cosine wave compile."""
 EVERYTHING: Final[dict[str, Callable[[], object]]] = USUAL | {
@@ -108,15 +110,15 @@ EVERYTHING: Final[dict[str, Callable[[], object]]] = USUAL | {
     "sensitivities of many waves": _of_maps(MANY_WAVES, SENSITIVITIES),
     "asymptotic": _of_maps(SCENE, OUTPUTS, solver="asymptotic"),
     "series": _of_maps(SCENE, OUTPUTS, profile=SERIES),
+    "series, many waves": _of_maps(MANY_WAVES, OUTPUTS, profile=SERIES),
+    "series, sensitivities": _of_maps(MANY_WAVES, SENSITIVITIES, profile=SERIES),
     "force of a series": _of_maps(SCENE, _FORCE, profile=SERIES),
     "envelope of a series": _of_maps(SCENE, OUTPUTS, profile=SERIES, solver="envelope"),
     "curves of a series": _of_curves(SCENE, tuple(CURVES), profile=SERIES),
     "load control": _of_maps(SCENE, OUTPUTS, loading=BY_LOAD),
     "machine": _of_maps(MACHINE, (*OUTPUTS, *REPORTS), loading=BY_MACHINE),
     "machine, turned": _of_maps(MACHINE | DEEP, OUTPUTS, loading=BY_MACHINE),
-    "machine, many waves": _of_maps(MANY_WAVES | MACHINE, OUTPUTS, loading=BY_MACHINE),
     "machine, sensitivities": _of_maps(MACHINE, SENSITIVITIES, loading=BY_MACHINE),
-    "machine, sensitivities of many waves": _of_maps(MANY_WAVES | MACHINE, SENSITIVITIES, loading=BY_MACHINE),
     "curves of a machine": _of_curves(MACHINE, _OF_BOTH_CONTROLS, loading=BY_MACHINE),
     "pattern": _of_maps(PATTERN, (*OUTPUTS, *REPORTS), toughness=TOUGHNESS),
     "pattern, turned": _of_maps(PATTERN | DEEP, OUTPUTS, toughness=TOUGHNESS),

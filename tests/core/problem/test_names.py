@@ -8,7 +8,7 @@ import pytest
 import gradhesion.core
 from gradhesion.core.problem.names import CURVES, OUTPUTS, PULL_OFF, REPORTS, SOLVERS
 
-LIGHT = {"CONTROLS", "CURVES", "DOUBTFUL", "FAILED", "FLAGS", "OUTPUTS", "PARAMETERS", "REPORTS", "SOLVERS", "SOURCES"}
+LIGHT = {"CONTROLS", "CURVES", "DOUBTFUL", "FAILED", "FLAGS", "OUTPUTS", "PARAMETERS", "REPORTS", "SOLVERS"}
 LIGHT |= {"Harmonic", "Loading", "Profile", "doubts_about"}
 
 
