@@ -107,7 +107,7 @@ def test_an_import_never_fails(given: bool, tmp_path: Path) -> None:
     environment = {**os.environ, **dict.fromkeys(names, blocked)}
     code = (
         "import tempfile, os; tempfile._candidate_tempdir_list = lambda: []\n"
-        "from gradhesion.core import place, solve\n"
+        "from gradhesion.core.compiler.cache import place\nfrom gradhesion.core import solve\n"
         "from gradhesion.core.problem.material import theta\n"
         "print(place().folder, float(theta(0.0, 0.3).round(12)))"
     )
@@ -191,7 +191,7 @@ def test_a_cache_that_is_read_only_beside_an_installation_that_is_not(tmp_path: 
     environment = {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"}
     environment |= {"XDG_CACHE_HOME": str(home), "TMPDIR": str(temporary)}
     code = (
-        "from gradhesion.core import place\nfrom gradhesion.core.problem.material import theta\n"
+        "from gradhesion.core.compiler.cache import place\nfrom gradhesion.core.problem.material import theta\n"
         "print(float(theta(0.0, 0.3).round(12)), place().why, sep='\\n')"
     )
     script = f'mount -t tmpfs -o ro none {home} && exec {sys.executable} -c "{code}"'

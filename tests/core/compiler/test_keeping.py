@@ -91,7 +91,7 @@ def test_constants_that_python_needs_are_kept() -> None:
 PROCESS = """
 import json, sys
 from pathlib import Path
-from gradhesion.core import watch_compilation
+from gradhesion.core.compiler.jit import watch_compilation
 from gradhesion.core.compiler import jit
 from gradhesion.core.problem.material import stiffness
 names = []

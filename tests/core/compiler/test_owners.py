@@ -107,7 +107,7 @@ def test_a_system_without_user_ids(kept: Path, monkeypatch: pytest.MonkeyPatch) 
 
 
 SOLVE = """
-from gradhesion.core import place
+from gradhesion.core.compiler.cache import place
 from gradhesion.core.problem.material import theta
 print(float(theta(0.0, 0.3).round(12)), place().folder, place().why, sep="\\n")
 """
