@@ -204,7 +204,7 @@ def near_cycles(
     out: Floats,
 ) -> None:
     """Solve the cycles of scenes in the order of their exponents; those that reach beyond the basis are left as SHORT."""
-    first = 0
+    first = np.int64(0)  # a plain 0 would be a type of its own, for which callees are compiled once more
     while first < scenes.shape[1]:
         last = end_of_exponent(scenes, first)
         task = near_task(punch, wanted, basis, by_load, profile, near, scenes, reduced, first, last)
@@ -282,7 +282,6 @@ def far_forces(task: Task, scenes: Floats, reduced: Floats, first: int, last: in
 
 def _lowest(nodes: Floats, crest: float) -> float:
     """Return a bound below (U - U1)/(y E): that of the leading term, or 2 % more than the values near the centre."""
-
     near = nodes[:, GEOMETRIC - 20 : GEOMETRIC + 512]
     return min(crest, 1.02 * float(((near[U] - near[U1]) / (near[E] * near[Y])).min()))
 
