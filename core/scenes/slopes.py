@@ -101,8 +101,8 @@ from gradhesion.core.table.basis import NODES, Basis, basis_of, empty_table, fil
 from gradhesion.core.table.layout import EXACT, Table, Y, end_of, span_of
 from gradhesion.core.types import Floats, Integers
 
-# Rows of derivatives: d ln(value)/d ln of the reduced numbers B, g, by_load, waves and amplitude of the pattern, of k (by
-# k itself, at fixed others), and of the radius of the rim, the target and the ratio.
+# Rows of derivatives: d ln(value)/d ln of the reduced numbers B, g, by_load, waves and amplitude of the pattern, k (by
+# itself, at fixed others), radius of the rim, target and ratio.
 OF_POWER, OF_WAVES, OF_MACHINE, OF_PATTERN_WAVES, OF_PATTERN, OF_EXPONENT, OF_RIM, OF_TARGET, OF_RATIO = range(9)
 ROWS: Final = 9
 FORCE, ENERGY = RESULT_ROWS, RESULT_ROWS + ROWS
@@ -184,14 +184,20 @@ class Pair(NamedTuple):
 
 
 @kernel
-def _neighbour(task: Task, near: Near, table: Table, y_end: float) -> Pair:
-    """Return the curves, on a table, of the scene and the numbers that `near` holds."""
-    made = Task(task.punch, task.wanted, table, table, task.crest, task.disc, near.rooms, task.reach)
-    pattern, ratio = pattern_of(task.punch, near.scene, near.numbers, 0), near.numbers[CLOSING_ROW, 0]
-    closing = curve_of(made, pattern, near.numbers, 0, math.sqrt(ratio), y_end, 0)
+def _neighbour(
+    punch: Punch, crest: float, rooms: Rooms, scene: Floats, numbers: Floats, table: Table, y_end: float
+) -> Pair:
+    """Return the curves of one scene on a table; tables with a pattern are filled up to y_end, into `rooms`."""
+    pattern, ratio, nodes, polys = (
+        pattern_of(punch, scene, numbers, 0),
+        numbers[CLOSING_ROW, 0],
+        rooms.nodes,
+        rooms.polys,
+    )
+    closing = curve_of(table, crest, pattern, numbers, 0, math.sqrt(ratio), y_end, nodes[0], polys[0])
     opening = closing
     if ratio != 1.0:
-        opening = curve_of(made, pattern, near.numbers, 0, 1.0, y_end, 1)
+        opening = curve_of(table, crest, pattern, numbers, 0, 1.0, y_end, nodes[1], polys[1])
     return Pair(closing, opening, pattern, ratio)
 
 
@@ -274,7 +280,8 @@ def _fill_by(task: Task, near: Near, pattern: Pattern, frozen: Frozen, y_end: fl
                 table = near.tables[j]
             else:
                 numbers[number, 0] = value * (1.0 + step * _PLACES[j])
-            _observe(_neighbour(task, near, table, y_end), frozen, weight / step, near.by[row])
+            pair = _neighbour(task.punch, task.crest, near.rooms, near.scene, near.numbers, table, y_end)
+            _observe(pair, frozen, weight / step, near.by[row])
         numbers[number, 0] = value
 
 
@@ -420,18 +427,28 @@ def _far(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Flo
     solve_far(punch, _WANTED, EXACT, finer, profile, scenes, reduced, out, _MOST_BINS, solve)
 
 
-def _chained(
-    punch: Punch, scenes: Floats, length: Floats, by: Floats, *, of_force: bool
-) -> tuple[Floats, Floats, Floats]:
-    """Return derivatives of ln(value) by ln M, by ln lambda and, at fixed M, by k, from those by reduced numbers.
+def _by_exponent(k: Floats, nu: Floats, m: float) -> tuple[Floats, Floats, Floats]:
+    """Return d ln theta/dk, d ln theta/dnu and d ln(depth factor of r^m)/dk of scenes, alike ones in a row but once."""
+    start = np.flatnonzero(np.append(True, (k[1:] != k[:-1]) | (nu[1:] != nu[:-1])))
+    times, half = np.diff(np.append(start, k.size)), 0.5 * (1.0 + k[start])
+    slopes = (*theta_slopes(k[start], nu[start]), 0.5 * (psi(half) - psi(half + 0.5 * m)))
+    by_k, by_nu, factor = (np.repeat(slope, times) for slope in slopes)
+    return by_k, by_nu, factor
 
-    `length` is the unit l of length in R. The units of depth, load and energy are, with M = theta modulus c0^-k,
-    s = sqrt(2^(1+k) pi/M), K = 2^(1-k) M/(1+k) and eta = (1-k)/2,
+
+def _by_parameter(
+    punch: Punch, scenes: Floats, length: Floats, by: Floats, material: tuple[Floats, Floats, Floats], *, of_force: bool
+) -> dict[str, Floats]:
+    """Return the sensitivities of a value by parameter, (scenes,) each, from those to reduced numbers, (ROWS, scenes).
+
+    `length` is the unit l of length in R, `material` what `_by_exponent` returns. The units of depth, load and energy
+    are, with M = theta modulus c0^-k, s = sqrt(2^(1+k) pi/M), K = 2^(1-k) M/(1+k) and eta = (1-k)/2,
 
         s l^eta,    K s l^(1+k+eta),    l^2
     """
     k, m, half = scenes[K], punch.exponent, 0.5 * np.log(0.5 * length)
-    eta, factor = 0.5 * (1.0 - k), 0.5 * (psi(0.5 * (1.0 + k)) - psi(0.5 * (1.0 + k + m)))
+    eta, smooth = 0.5 * (1.0 - k), scenes[AMPLITUDE] == 0.0
+    theta_by_k, theta_by_nu, factor = material
 
     def unit(stiffness: float, power: ArrayLike, by_k: ArrayLike) -> Floats:
         """Return how a unit changes by ln M, ln l and k, (3, scenes)."""
@@ -442,21 +459,14 @@ def _chained(
     total = total + by[OF_POWER] * (unit(0.0, m, factor) - depth) + by[OF_WAVES] * (unit(0.0, 1.0, 0.0) - depth)
     total += by[OF_MACHINE] * (load - depth) - by[OF_TARGET] * (load if punch.turn == AT_A_LOAD else depth)
     total += unit(0.0, by[OF_PATTERN_WAVES] - by[OF_RIM], by[OF_EXPONENT])
-    return total[0], total[1], total[2]
-
-
-def _by_parameter(punch: Punch, scenes: Floats, length: Floats, by: Floats, *, of_force: bool) -> dict[str, Floats]:
-    """Return the sensitivities of scenes by the name of a parameter, (scenes,) each."""
-    k, amplitude = scenes[K], scenes[AMPLITUDE]
-    stiffness, wavelength, exponent = _chained(punch, scenes, length, by, of_force=of_force)
-    theta_by_k, theta_by_nu = theta_slopes(k, scenes[NU])
+    stiffness, wavelength, exponent = total
     found = {
         "k": exponent + stiffness * (theta_by_k - np.log(scenes[C0])),
         "nu": stiffness * theta_by_nu,
         "modulus": stiffness - by[OF_MACHINE],  # a machine's stiffness is over that of the half-space
         "c0_over_R": np.where(k == 0.0, 0.0, -k * stiffness),
-        "lambda_over_R": np.where(amplitude == 0.0, 0.0, wavelength),
-        "A": np.where(amplitude == 0.0, 0.0, by[OF_WAVES]),
+        "lambda_over_R": np.where(smooth, 0.0, wavelength),
+        "A": np.where(smooth, 0.0, by[OF_WAVES]),
         "a_max_over_R": np.where(np.isinf(scenes[RIM]), 0.0, by[OF_RIM]),
         "machine_stiffness": -by[OF_MACHINE],
         CLOSING: np.where(scenes[RATIO] == 0.0, 0.0, by[OF_RATIO]),
@@ -486,13 +496,14 @@ def sensitivities(
         order = np.argsort(scenes[K], kind="stable")
         scenes = scenes[:, order]
         out = in_groups(punch, EXACT, scenes, _ALL_ROWS, partial(_near, punch, profile), partial(_far, punch, profile))
-        for name in outputs:
-            of_force = name == SENSITIVITIES[0]
-            start = FORCE if of_force else ENERGY
-            with np.errstate(all="ignore"):  # what has no value has no sensitivity
-                slopes = _by_parameter(punch, scenes, out[UNIT], out[start : start + ROWS], of_force=of_force)
-            rows = np.array([slopes[name] for name in names])
-            found[name][first + order] = np.where(np.isfinite(rows), rows, np.nan).T
+        with np.errstate(all="ignore"):  # what has no value has no sensitivity
+            material = _by_exponent(scenes[K], scenes[NU], punch.exponent)
+            for output in outputs:
+                of_force = output == SENSITIVITIES[0]
+                by = out[FORCE : FORCE + ROWS] if of_force else out[ENERGY : ENERGY + ROWS]
+                slopes = _by_parameter(punch, scenes, out[UNIT], by, material, of_force=of_force)
+                rows = np.array([slopes[name] for name in names])
+                found[output][first + order] = np.where(np.isfinite(rows), rows, np.nan).T
 
     run_parts(count, work, threads)
     return {name: values.reshape(*shape, len(names)) for name, values in found.items()}
