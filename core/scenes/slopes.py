@@ -503,7 +503,8 @@ def sensitivities(
                 by = out[FORCE : FORCE + ROWS] if of_force else out[ENERGY : ENERGY + ROWS]
                 slopes = _by_parameter(punch, scenes, out[UNIT], by, material, of_force=of_force)
                 rows = np.array([slopes[name] for name in names])
-                found[output][first + order] = np.where(np.isfinite(rows), rows, np.nan).T
+                has_value = np.isfinite(by[OF_POWER])
+                found[output][first + order] = np.where(has_value & np.isfinite(rows), rows, np.nan).T
 
     run_parts(count, work, threads)
     return {name: values.reshape(*shape, len(names)) for name, values in found.items()}
