@@ -1,204 +1,301 @@
-"""One step of the edge: the lag over ln a by Radau's collocation, with the slowness of the edge as unknown if stiff.
+"""Steps of an edge along ln a, by Radau's collocation of order 11 in the lag of rho.
 
-    d lag/ds = f,   f = q0 rho - q_hat + drag pace u^(-1/n),   s = |ln a/a_0|
+    d lag/ds = level rho - push + drag u^(-1/n),   s = |ln a/a_0|
 
-is the same for opening (a falls) and closing (a grows). Near lag = 0 the last term is as steep as it can be. Newton's
-method is for the lags at the nodes; a lag is changed by way of its u^(-1/n) where that stays positive: slowly moving
-edges have a known slowness, that of the equilibrium curve, and quickly moving ones a known lag. The curve does not
-depend on the lag, so that it is evaluated once a node.
+is the same for opening (a falls) and for closing while Y rises (a grows); for rho = root + sense lag see edge.py. Near
+lag = 0 the last term is as steep as it can be. Newton's method is for the lags at the nodes; a lag is changed by way of
+its u^(-1/n) where that stays positive: slowly moving edges have a known slowness, that of the equilibrium curve, and
+quickly moving ones a known lag. What the edge meets does not depend on the lag, so that it is evaluated once a node.
 """
 
 import math
 from typing import Final, NamedTuple
 
 import numpy as np
+from numpy.polynomial import legendre
 
-from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.general import Basis, Series
-from gradhesion.core.numbers.circle import TWO_PI
-from gradhesion.core.rate.law import Law, lag_of, slowness
-from gradhesion.core.rate.place import Place, place_at
-from gradhesion.core.rate.radau import INTEGRALS, NODES, STAGES
+from gradhesion.core.jit import kernel
+from gradhesion.core.rate.edge import Edge, Place, depth_of, lag_of, load_of, place_at, slowness
 from gradhesion.core.types import Floats
 
-_MOST: Final = 16
-"""Newton's steps."""
+STAGES: Final = 6
+ORDER: Final = 2.0 * STAGES - 1.0
+_t: Final = np.append(np.sort(legendre.legroots([0.0] * (STAGES - 1) + [-1.0, 1.0]).real)[:-1], 1.0)
+_to_series: Final = np.linalg.inv(legendre.legvander(_t, STAGES - 1))
+NODES: Final = 0.5 + 0.5 * _t
+"""Parts of a step at which its values are, the last one its end (Hairer & Wanner, Solving ODEs II, IV.5)."""
+INTEGRALS: Final = np.ascontiguousarray(
+    0.5 * legendre.legval(_t, legendre.legint(np.eye(STAGES), lbnd=-1)).T @ _to_series
+)
+"""The value at node i is that at the start and h sum_j INTEGRALS[i, j] f_j; (STAGES, STAGES)."""
+TAIL: Final = np.ascontiguousarray(_to_series[-2:])
+"""Of values at the nodes, the last two coefficients of the Legendre series through them; (2, STAGES)."""
+_SPARED: Final = STAGES / (STAGES - 1.0)
+"""With r the size of those over that of the values, the error of a step is r^_SPARED times their size, or less."""
+_LOST: Final = 0.01
+_STIFF: Final = 10.0
+"""Where the edge relaxes within a step, collocation loses its higher order (order reduction): from about such a rate on
+by this part of the last coefficients. Both from experiment: without, 1e-11 of the force."""
+_KINK: Final = 8.0
+"""By how much the error may exceed the last coefficients near a kink: from experiment."""
+_TOLERANCE: Final = 1e-13
+"""Of rho, and of the energy over that of a contact of the largest radius, in a step."""
+_NEWTON: Final = 16
 _CLOSE: Final = 1e-7
 """A change whose square is below rounding."""
-_MUCH: Final = 0.9
-"""Largest relative drop of the slowness in one step of Newton's."""
 _EPS: Final = 2.0**-52
-
-
-class Start(NamedTuple):
-    """Where an edge starts, and the variable y of the step: s = scale y^power."""
-
-    x: float  # in wavelengths
-    sign: float  # -1 inwards, 1 outwards
-    scale: float
-    power: float
+_LONGEST: Final = 2.0
+"""Of a step, in ln a."""
+PART: Final = 0.25
+"""Longest step in parts of the shortest wave: a slow edge follows the curve between nodes, and could miss a fold."""
+_TRIALS: Final = 60
+DEPTH, RHO, TROUGH = range(3)
+"""What a step can be ended at: a depth; rho; a trough of the load."""
 
 
 class Room(NamedTuple):
-    """Numbers of the nodes of a step."""
+    """Numbers at the nodes of a step, and the track of an edge.
 
-    curve: Floats  # rows of `Place`, ds/dy, and how an edge relaxes over the step; shape (10, STAGES)
-    lags: Floats  # shape (STAGES,)
-    slow: Floats  # u^(-1/n)
-    rates: Floats  # d lag/dy
-    matrix: Floats  # shape (STAGES, STAGES + 2)
-    sizes: Floats  # the largest relaxation within the step, and the largest change of the lag by a term; shape (2,)
-    track: Floats  # where an edge has been: places in wavelengths and rho; shape (2, points), their number in [0, 0]
+    radii, lags, slow, rates   a, lag, u^(-1/n) and d lag/ds, (STAGES,)
+    places   rows of `Place`, (7, STAGES)
+    steep    how much a lag changes by itself over the step, (STAGES,)
+    work     2 pi a^2 rho^2, (STAGES,)
+    matrix   equations of Newton's method, (STAGES, STAGES + 1)
+    track    radii, depths and loads where the edge has been, (3, .), their number in [0, 0]; (3, 0) where nobody asks
+    """
 
-
-@kernel()
-def room_for_steps(points: int = 0) -> Room:
-    """Return room for the numbers of a step, and for a track of an edge if it has points."""
-    track = np.zeros((2, points))
-    rows, matrix = np.empty((10, STAGES)), np.empty((STAGES, STAGES + 2))
-    return Room(rows, np.empty(STAGES), np.empty(STAGES), np.empty(STAGES), matrix, np.empty(2), track)
-
-
-@kernel()
-def note(track: Floats, x: float, rho: float) -> None:
-    """Note that an edge is at x wavelengths, in a track that has room for it."""
-    if track.shape[1] > 0:
-        number = int(track[0, 0]) + 1
-        if number < track.shape[1]:
-            track[0, number], track[1, number], track[0, 0] = x, rho, number
+    radii: Floats
+    lags: Floats
+    slow: Floats
+    rates: Floats
+    places: Floats
+    steep: Floats
+    work: Floats
+    matrix: Floats
+    track: Floats
 
 
-@kernel()
-def note_nodes(law: Law, room: Room) -> None:
-    """Note the nodes of a step that has been made."""
-    if room.track.shape[1] > 0:
-        for i in range(STAGES):
-            note(room.track, room.curve[0, i] / TWO_PI, law.root + law.sense * room.lags[i])
+@kernel
+def room_with(track: Floats) -> Room:
+    """Return room for the numbers of steps, with a track."""
+    rows, matrix = np.empty((13, STAGES)), np.empty((STAGES, STAGES + 1))
+    return Room(rows[0], rows[1], rows[2], rows[3], rows[4:11], rows[11], rows[12], matrix, track)
 
 
-@kernel()
-def way(start: Start, y: float) -> tuple[float, float]:
-    """Return s and ds/dy."""
-    if start.power == 1.0:
-        return start.scale * y, start.scale
-    s = start.scale * y**start.power
-    return s, start.power * s / y if y > 0.0 else 0.0
-
-
-@kernel()
+@kernel
 def place_in(room: Room, i: int) -> Place:
-    """Return the curve at node i."""
-    c = room.curve
-    return Place(c[0, i], c[1, i], c[2, i], c[3, i], c[4, i], c[5, i], c[6, i], c[7, i])
+    """Return what there is at node i."""
+    p = room.places
+    return Place(p[0, i], p[1, i], p[2, i], p[3, i], p[4, i], p[5, i], p[6, i])
 
 
-@kernel()
-def _set_curve(basis: Basis, curve: Series, start: Start, y: float, h: float, room: Room) -> None:
-    """Evaluate the curve at the nodes."""
+@kernel
+def note(track: Floats, place: Place, a: float, rho: float) -> None:
+    """Note where an edge is, in a track that has room for it."""
+    if track.shape[1] > 0 and track[0, 0] < track.shape[1] - 1:
+        track[0, 0] += 1
+        number = int(track[0, 0])
+        track[0, number], track[1, number], track[2, number] = a, depth_of(place, rho), load_of(place, rho)
+
+
+@kernel
+def note_nodes(edge: Edge, room: Room) -> None:
+    """Note the nodes of a step that has been made."""
     for i in range(STAGES):
-        s, rate = way(start, y + h * NODES[i])
-        place = place_at(basis, curve, start.x * math.exp(start.sign * s))
-        for j in range(8):
-            room.curve[j, i] = place[j]
-        room.curve[8, i] = rate
+        note(room.track, place_in(room, i), room.radii[i], edge.root + edge.sense * room.lags[i])
 
 
-@kernel()
+@kernel
 def _solve(matrix: Floats) -> bool:
-    """Replace the last two columns by the solutions of the equations in the others; shape (n, n + 2)."""
+    """Replace the last column by the solution of the equations in the others, (n, n + 1); False if there is none."""
     n = matrix.shape[0]
     for i in range(n):
-        best = i
-        for j in range(i + 1, n):
-            if abs(matrix[j, i]) > abs(matrix[best, i]):
-                best = j
+        best = i + np.argmax(np.abs(matrix[i:, i]))
         if not abs(matrix[best, i]) > 0.0:
             return False
-        if best != i:
-            for j in range(i, n + 2):
-                matrix[i, j], matrix[best, j] = matrix[best, j], matrix[i, j]
-        inverse = 1.0 / matrix[i, i]
+        for column in range(i, n + 1):
+            matrix[i, column], matrix[best, column] = matrix[best, column], matrix[i, column]
         for j in range(i + 1, n):
-            factor = matrix[j, i] * inverse
-            for column in range(i + 1, n + 2):
+            factor = matrix[j, i] / matrix[i, i]
+            for column in range(i + 1, n + 1):
                 matrix[j, column] -= factor * matrix[i, column]
     for i in range(n - 1, -1, -1):
-        first, second = matrix[i, n], matrix[i, n + 1]
         for j in range(i + 1, n):
-            first -= matrix[i, j] * matrix[j, n]
-            second -= matrix[i, j] * matrix[j, n + 1]
-        matrix[i, n], matrix[i, n + 1] = first / matrix[i, i], second / matrix[i, i]
+            matrix[i, n] -= matrix[i, j] * matrix[j, n]
+        matrix[i, n] /= matrix[i, i]
     return True
 
 
-@kernel()
-def _set_equations(law: Law, lag: float, h: float, room: Room) -> None:
-    """Set the equations of a step of Newton's method from the lags at the nodes, and of how a change of lag grows."""
-    c, lags, slow, rates, matrix, sizes, _ = room
-    sizes[:] = 0.0
+@kernel
+def _set_equations(edge: Edge, lag: float, h: float, room: Room) -> float:
+    """Set the equations of a step of Newton's method from the lags at the nodes; return the size of the terms."""
+    size = 0.0
     for j in range(STAGES):
-        force = law.pace * c[7, j]
-        value, slope = slowness(law, lags[j])
-        rates[j] = c[8, j] * (c[6, j] * (law.root + law.sense * lags[j]) - c[5, j] + force * value)
-        slow[j] = value
-        steep = h * c[8, j] * (c[6, j] * law.sense + force * slope * value)
-        c[9, j] = steep
-        sizes[0] = max(sizes[0], -steep)
-        sizes[1] = max(sizes[1], h * c[8, j] * (abs(c[5, j]) + force * value))
-        for i in range(STAGES):
-            matrix[i, j] = -INTEGRALS[i, j] * steep
-        matrix[j, STAGES + 1] = 1.0
+        place = place_in(room, j)
+        value, slope = slowness(edge, room.lags[j])
+        force = place.drag * value
+        room.slow[j] = value
+        room.rates[j] = place.level * (edge.root + edge.sense * room.lags[j]) - place.push + force
+        room.steep[j] = h * (place.level * edge.sense + force * slope)
+        size = max(size, h * (abs(place.push) + force))
     for i in range(STAGES):
         total = 0.0
         for j in range(STAGES):
-            total += INTEGRALS[i, j] * rates[j]
-        matrix[i, STAGES] = lag + h * total - lags[i]
-        matrix[i, i] += 1.0
+            total += INTEGRALS[i, j] * room.rates[j]
+            room.matrix[i, j] = -INTEGRALS[i, j] * room.steep[j]
+        room.matrix[i, i] += 1.0
+        room.matrix[i, STAGES] = lag + h * total - room.lags[i]
+    return size
 
 
-@kernel()
-def advance(
-    basis: Basis, curve: Series, law: Law, start: Start, state: tuple[float, float], h: float, room: Room
-) -> bool:
-    """Solve a step of length h from the state (y, lag); `room` then has the values at the nodes.
+@kernel
+def advance(edge: Edge, a: float, lag: float, h: float, room: Room) -> bool:
+    """Make a step of the length |h| in ln a from the state (a, lag > 0), inwards if h < 0; `room` then has its nodes.
 
     Return whether Newton's method converged.
     """
-    y, lag = state
-    _set_curve(basis, curve, start, y, h, room)
-    c, lags, slow, _, matrix, sizes, _ = room
-    if lag > 0.0:
-        lags[:] = lag
-    else:
-        _guess_first(law, start, y, h, room)
-    for _ in range(_MOST):
-        _set_equations(law, lag, h, room)
-        if not _solve(matrix):
+    for i in range(STAGES):
+        room.radii[i] = a * math.exp(h * NODES[i])
+        place = place_at(edge, room.radii[i])
+        for row in range(7):
+            room.places[row, i] = place[row]
+        room.lags[i] = lag
+    for _ in range(_NEWTON):
+        size = _set_equations(edge, lag, abs(h), room)
+        if not _solve(room.matrix):
             return False
         done = True
         for i in range(STAGES):
-            change = matrix[i, STAGES]
+            change, old = room.matrix[i, STAGES], room.lags[i]
             if not abs(change) < math.inf:
                 return False
-            _, slope = slowness(law, lags[i])
+            _, slope = slowness(edge, old)
             part = slope * change  # of the slowness
-            rounding = 4.0 * _EPS * (1.0 + lags[i] + sizes[1])
-            if max(abs(part), abs(change)) > _CLOSE and abs(change) * (1.0 + abs(c[9, i])) > rounding:
+            rounding = 4.0 * _EPS * (1.0 + old + size)
+            if max(abs(part), abs(change)) > _CLOSE and abs(change) * (1.0 + abs(room.steep[i])) > rounding:
                 done = False
-            if slow[i] > 0.0 and part > -_MUCH:
-                slow[i] *= 1.0 + part
-                lags[i] = lag_of(law, slow[i])
+            if room.slow[i] > 0.0 and part > -0.9:
+                room.slow[i] *= 1.0 + part
+                room.lags[i] = lag_of(edge, room.slow[i])
             else:
-                lags[i] = max(lags[i] + change, 0.5 * lags[i])
+                room.lags[i] = max(old + change, 0.5 * old)
         if done:
             return True
     return False
 
 
-@kernel()
-def _guess_first(law: Law, start: Start, y: float, h: float, room: Room) -> None:
-    """Guess the lags of a step from lag = 0, by their leading term."""
-    n = law.exponent
-    for i in range(STAGES):
-        s, _ = way(start, y + h * NODES[i])
-        room.lags[i] = ((1.0 + n) / n * law.pace * room.curve[7, i] * 2.0 ** (-1.0 / n) * s) ** (n / (1.0 + n))
+@kernel
+def spared(values: Floats, loss: float) -> float:
+    """Return the error of an integral over a step by the last two coefficients of its values, (STAGES,).
+
+    Where they are t and the values T it is about t (t/T)^1.2, and `loss` t more.
+    """
+    first = second = most = 0.0
+    for j in range(STAGES):
+        first, second = first + TAIL[1, j] * values[j], second + TAIL[0, j] * values[j]
+        most = max(most, abs(values[j]))
+    tail = max(abs(first), 0.1 * abs(second))
+    return tail * ((tail / most) ** _SPARED + loss) if tail > 0.0 else 0.0
+
+
+@kernel
+def work_in(edge: Edge, h: float, room: Room) -> float:
+    """Return int 2 pi a^2 rho^2 ds over a step of length h; `room.work` then has its integrand."""
+    total = 0.0
+    for j in range(STAGES):
+        room.work[j] = 2.0 * math.pi * (room.radii[j] * (edge.root + edge.sense * room.lags[j])) ** 2
+        total += abs(h) * INTEGRALS[STAGES - 1, j] * room.work[j]
+    return total
+
+
+@kernel
+def kink(edge: Edge, lags: Floats) -> float:
+    """Return how much of its last coefficients the error of a step has that comes near rho = 0, where the law has a kink."""
+    low, high = edge.root - np.max(lags), edge.root - np.min(lags)
+    return _KINK if edge.sense < 0.0 and 2.0 * low < high and high > 0.0 else 0.0
+
+
+@kernel
+def _error(edge: Edge, h: float, area: float, room: Room) -> float:
+    """Return the estimated error of a step: of rho, or of its work over 2 pi `area`."""
+    loss = _LOST * min(1.0, (max(0.0, -np.min(room.steep)) / _STIFF) ** (STAGES - 1)) + kink(edge, room.lags)
+    of_rho = spared(room.rates, loss) / (1.0 + room.lags[STAGES - 1])
+    return h * max(of_rho, spared(room.work, 0.0) / (2.0 * math.pi * area))
+
+
+@kernel
+def stride(
+    edge: Edge, a: float, lag: float, h: float, end: float, area: float, room: Room
+) -> tuple[float, float, float]:
+    """Make a step as long as its error allows, |h| at first, from the state (a, lag) towards the radius `end`.
+
+    Return its length (NaN if none is possible), one to try after it, and its work.
+    """
+    most = min(abs(math.log(end / a)), _LONGEST, PART * edge.shortest / a)
+    sign = 1.0 if end > a else -1.0
+    h = min(abs(h), most)
+    while h > 1e-40 * most:
+        error, work = math.inf, 0.0
+        if advance(edge, a, lag, sign * h, room):
+            work = work_in(edge, h, room)
+            error = _error(edge, h, area, room)
+        if error <= _TOLERANCE:
+            longer = min(4.0, 0.9 * (_TOLERANCE / max(error, _EPS * _TOLERANCE)) ** (1.0 / ORDER))
+            return sign * h, h * longer, work
+        h *= max(0.15, 0.9 * (_TOLERANCE / error) ** (1.0 / ORDER)) if error < math.inf else 0.15
+    return math.nan, 0.0, 0.0
+
+
+@kernel
+def measure(edge: Edge, place: Place, lag: float, slow: float, what: int) -> float:
+    """Return a quantity of `DEPTH`, `RHO` and `TROUGH` in a state; that of a trough falls to 0 there as a falls.
+
+    a dP/da = K a^(1+k) Delta [drag u^(-1/n) - need],   need = ((3+k)/2 - level) rho
+    """
+    rho = edge.root + edge.sense * lag
+    if what == DEPTH:
+        return depth_of(place, rho)
+    if what == RHO:
+        return rho
+    return math.log(place.drag * slow / ((0.5 * (3.0 + edge.functions.k) - place.level) * rho))
+
+
+@kernel
+def measure_in(edge: Edge, room: Room, i: int, what: int) -> float:
+    """Return the same at node i."""
+    return measure(edge, place_in(room, i), room.lags[i], room.slow[i], what)
+
+
+@kernel
+def step_until(
+    edge: Edge,
+    a: float,
+    lag: float,
+    lengths: tuple[float, float],
+    values: tuple[float, float],
+    what: int,
+    target: float,
+    room: Room,
+) -> float:
+    """Make the step from (a, lag) at whose end a quantity `what` meets a target; return its length, NaN if that fails.
+
+    At two `lengths` of a step the quantity has `values` on either side of it. The rule of false position (Illinois):
+    each try is a step of its own.
+    """
+    low, high = lengths
+    first, last = values[0] - target, values[1] - target
+    length, side = high, 0
+    for _ in range(_TRIALS):
+        length = (low * last - high * first) / (last - first)
+        if not min(low, high) < length < max(low, high):
+            length = 0.5 * (low + high)
+        if not advance(edge, a, lag, length, room):
+            return math.nan
+        value = measure_in(edge, room, STAGES - 1, what) - target
+        if value == 0.0 or not abs(high - low) > 2e-15 * abs(high):
+            break
+        if (value < 0.0) == (first < 0.0):
+            low, first, last, side = length, value, 0.5 * last if side < 0 else last, -1
+        else:
+            high, last, first, side = length, value, 0.5 * first if side > 0 else first, 1
+    return length
