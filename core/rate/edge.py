@@ -22,42 +22,26 @@ from gradhesion.core.types import Floats
 
 
 class Edge(NamedTuple):
-    """The edge of one contact.
+    """The edge of one contact."""
 
-    functions   S and C of the exponent k of its half-space
-    waves       harmonics of the punch, rows (n, cos, sin)
-    exponent    m, the power of the punch
-    size        delta_H of the power is size a^m
-    height      A lambda, 0 of a smooth punch
-    number      2 pi/lambda
-    shortest    the shortest wave, inf of a smooth punch
-    stretch     Delta is stretch a^((1-k)/2)
-    stiffness   K
-    spring      1/S of the machine, 0 where the depth is prescribed
-    speed       eps = V/v*
-    power       n of the law
-    root        rho in equilibrium
-    sense       1 where rho is above that (opening), -1 where it is below (closing)
-    """
-
-    functions: Functions
-    waves: Floats
-    exponent: float
-    size: float
-    height: float
-    number: float
-    shortest: float
-    stretch: float
-    stiffness: float
-    spring: float
-    speed: float
-    power: float
-    root: float
-    sense: float
+    functions: Functions  # S and C of the exponent k of its half-space
+    waves: Floats  # harmonics of the punch, rows (n, cos, sin)
+    exponent: float  # m, the power of the punch
+    size: float  # delta_H of the power is size a^m
+    height: float  # A lambda, 0 of a smooth punch
+    number: float  # 2 pi/lambda
+    shortest: float  # the shortest wave, inf of a smooth punch
+    stretch: float  # Delta is stretch a^((1-k)/2)
+    stiffness: float  # K
+    spring: float  # 1/S of the machine, 0 where the depth is prescribed
+    speed: float  # eps = V/v*
+    power: float  # n of the law
+    root: float  # rho in equilibrium
+    sense: float  # 1 where rho is above that (opening), -1 where it is below (closing)
 
 
 class Place(NamedTuple):
-    """What there is at a radius, as in the equations above."""
+    """What there is at a radius, and the slopes of it, times a, that a step needs."""
 
     depth: float  # depth_H
     load: float  # load_H
@@ -66,6 +50,9 @@ class Place(NamedTuple):
     push: float
     level: float
     drag: float
+    push_slope: float
+    level_slope: float
+    drag_slope: float  # of ln drag
 
 
 @kernel
@@ -73,32 +60,37 @@ def place_at(edge: Edge, a: float) -> Place:
     """Return what there is at a radius a > 0."""
     k, m, height = edge.functions.k, edge.exponent, edge.height
     depth = edge.size * a**m
-    rise, own = m * depth, m / (1.0 + k + m) * depth  # a delta_H', and load_H over K a^(1+k)
+    rise, bend, own = m * depth, m * m * depth, m / (1.0 + k + m) * depth  # (a d/da)^1, ^2 of depth_H; load_H/K a^(1+k)
     if height > 0.0:
         for h in range(len(edge.waves)):
             n, cos, sin = edge.waves[h]
             z = n * edge.number * a
             S0, C0, S1, C1 = pairs_at(edge.functions, z)
-            wave = height * z * (cos * S0 + sin * C0)
-            depth += wave
-            rise += wave + height * z * z * (cos * (1.0 - z * S1) - sin * z * C1) / (1.0 + k)
-            own += wave - height * z * (cos * S1 + sin * C1)
+            value, more = height * z * (cos * S0 + sin * C0), height * z * (cos * S1 + sin * C1)
+            slope = height * z * z * (cos * (1.0 - z * S1) - sin * z * C1) / (1.0 + k)
+            depth, own = depth + value, own + value - more
+            rise, bend = rise + value + slope, bend + value + 3.0 * slope + z * z * (more - value)
     adhesion, front = edge.stretch * a ** (0.5 * (1.0 - k)), edge.stiffness * a ** (1.0 + k)
     tau = edge.spring * front
-    level = (0.5 * (1.0 - k) + tau * 0.5 * (3.0 + k)) / (1.0 + tau)
-    return Place(depth, front * own, adhesion, front, rise / adhesion, level, edge.speed * a / ((1.0 + tau) * adhesion))
+    share, push = tau / (1.0 + tau), rise / adhesion
+    return Place(
+        depth=depth,
+        load=front * own,
+        adhesion=adhesion,
+        front=front,
+        push=push,
+        level=0.5 * (1.0 - k) + (1.0 + k) * share,
+        drag=edge.speed * a / ((1.0 + tau) * adhesion),
+        push_slope=bend / adhesion - 0.5 * (1.0 - k) * push,
+        level_slope=(1.0 + k) ** 2 * share * (1.0 - share),
+        drag_slope=0.5 * (1.0 + k) - (1.0 + k) * share,
+    )
 
 
 @kernel
-def depth_of(place: Place, rho: float) -> float:
-    """Return the depth."""
-    return place.depth - place.adhesion * rho
-
-
-@kernel
-def load_of(place: Place, rho: float) -> float:
-    """Return the load."""
-    return place.load - place.front * place.adhesion * rho
+def state_of(place: Place, rho: float) -> tuple[float, float]:
+    """Return depth and load."""
+    return place.depth - place.adhesion * rho, place.load - place.front * place.adhesion * rho
 
 
 @kernel

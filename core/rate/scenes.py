@@ -17,9 +17,8 @@ from gradhesion.core.problem.rate import MOST_WAVES, Rate
 from gradhesion.core.problem.shape import rows_of
 from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE, PULL_OFF_AT_RIM, TOLERANCE_NOT_MET, TOO_MANY_WAVES
 from gradhesion.core.processors import processors
-from gradhesion.core.rate.arc import come_to_rest
-from gradhesion.core.rate.edge import Edge, depth_of, place_at
-from gradhesion.core.rate.step import Room, room_with
+from gradhesion.core.rate.edge import Edge, place_at
+from gradhesion.core.rate.step import STAGES, Room
 from gradhesion.core.rate.ways import close_edge, open_edge
 from gradhesion.core.scenes.reduced import depth_factor_of
 from gradhesion.core.table.functions import functions_of
@@ -78,15 +77,12 @@ def _close(edge: Edge, rim: float, target: float, room: Room, out: Floats) -> in
         return NO_CONTACT
     if furthest < rim < math.inf and target == math.inf:
         return NO_VALUE | TOO_MANY_WAVES
-    turn = close_edge(edge, rim, target, furthest, room)
-    end = come_to_rest(edge, turn, rim, furthest, room) if turn.turned else turn
-    if not end.work < math.inf:
-        return NO_VALUE | (TOO_MANY_WAVES if end.a > furthest else 0)
-    place = place_at(edge, end.a)
-    out[0], out[2] = end.a, end.work
-    out[1] = depth_of(place_at(edge, turn.a), edge.root - turn.lag)
-    rho = edge.root - end.lag
-    out[3] = (1.0 - rho) * place.adhesion * (1.0 + edge.spring * place.front)
+    closed = close_edge(edge, rim, target, furthest, room)
+    if not closed.work < math.inf:
+        return NO_VALUE | (TOO_MANY_WAVES if closed.radius > furthest else 0)
+    place = place_at(edge, closed.radius)
+    out[0], out[1], out[2] = closed.radius, closed.depth, closed.work
+    out[3] = (1.0 - edge.root + closed.lag) * place.adhesion * (1.0 + edge.spring * place.front)
     return 0
 
 
@@ -131,7 +127,7 @@ def move_edges(
             root=1.0 if opens else math.sqrt(scenes[RATIO, i]),
             sense=1.0 if opens else -1.0,
         )
-        room = room_with(track)
+        room = Room(np.empty((6, STAGES)), np.empty((2 * STAGES, 2 * STAGES + 1)), track)
         if opens:
             status[i] = _open(edge, scenes[RIM, i], room, out[:, i])
         else:

@@ -1,11 +1,12 @@
-"""Steps of an edge along ln a, by Radau's collocation of order 11 in the lag of rho.
+"""Steps of an edge along the arc y of its curve (s, lag), s = |ln a/a_0|, by Radau's collocation of order 11.
 
-    d lag/ds = level rho - push + drag u^(-1/n),   s = |ln a/a_0|
+    ds/dy = w,  d lag/dy = w [drive force - need],  1/w = sqrt(1 + need^2) + force
+    need = push - level rho,   force = drag u^(-1/n)
 
-is the same for opening (a falls) and for closing while Y rises (a grows); for rho = root + sense lag see edge.py. Near
-lag = 0 the last term is as steep as it can be. Newton's method is for the lags at the nodes; a lag is changed by way of
-its u^(-1/n) where that stays positive: slowly moving edges have a known slowness, that of the equilibrium curve, and
-quickly moving ones a known lag. What the edge meets does not depend on the lag, so that it is evaluated once a node.
+for rho = root + sense lag see edge.py. Opening goes inwards and closing outwards, with drive 1; after the machine has
+turned drive is -1. Along y nothing is steep at lag = 0, where s changes as lag^(1 + 1/n). Newton's method is for s and
+the lag at the nodes of a step; a lag is changed by way of its u^(-1/n) where that stays positive: slowly moving edges
+have a known slowness, that of the equilibrium curve, and quickly moving ones a known lag.
 """
 
 import math
@@ -15,94 +16,51 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from gradhesion.core.jit import kernel
-from gradhesion.core.rate.edge import Edge, Place, depth_of, lag_of, load_of, place_at, slowness
+from gradhesion.core.rate.edge import Edge, lag_of, place_at, slowness, state_of
 from gradhesion.core.types import Floats
 
 STAGES: Final = 6
-ORDER: Final = 2.0 * STAGES - 1.0
+_ORDER: Final = 2.0 * STAGES - 1.0
 _t: Final = np.append(np.sort(legendre.legroots([0.0] * (STAGES - 1) + [-1.0, 1.0]).real)[:-1], 1.0)
 _to_series: Final = np.linalg.inv(legendre.legvander(_t, STAGES - 1))
 NODES: Final = 0.5 + 0.5 * _t
 """Parts of a step at which its values are, the last one its end (Hairer & Wanner, Solving ODEs II, IV.5)."""
-INTEGRALS: Final = np.ascontiguousarray(
-    0.5 * legendre.legval(_t, legendre.legint(np.eye(STAGES), lbnd=-1)).T @ _to_series
-)
-"""The value at node i is that at the start and h sum_j INTEGRALS[i, j] f_j; (STAGES, STAGES)."""
-TAIL: Final = np.ascontiguousarray(_to_series[-2:])
+_A: Final = np.ascontiguousarray(0.5 * legendre.legval(_t, legendre.legint(np.eye(STAGES), lbnd=-1)).T @ _to_series)
+"""The value at node i is that at the start and h sum_j _A[i, j] f_j; (STAGES, STAGES)."""
+_TAIL: Final = np.ascontiguousarray(_to_series[-2:])
 """Of values at the nodes, the last two coefficients of the Legendre series through them; (2, STAGES)."""
-_SPARED: Final = STAGES / (STAGES - 1.0)
-"""With r the size of those over that of the values, the error of a step is r^_SPARED times their size, or less."""
-_LOST: Final = 0.01
-_STIFF: Final = 10.0
-"""Where the edge relaxes within a step, collocation loses its higher order (order reduction): from about such a rate on
-by this part of the last coefficients. Both from experiment: without, 1e-11 of the force."""
-_KINK: Final = 8.0
-"""By how much the error may exceed the last coefficients near a kink: from experiment."""
 _TOLERANCE: Final = 1e-13
-"""Of rho, and of the energy over that of a contact of the largest radius, in a step."""
-_NEWTON: Final = 16
+"""Error of ln a, of rho, and of the energy over that of a contact of the largest radius, in a step."""
+_LOST, _KINK = 0.01, 8.0
+"""Parts of the last coefficients that are lost by order reduction, where the edge relaxes within a step; and at the kinks of
+the law, lag = 0 and rho = 0. From experiment: without, 1e-11 and 3e-9 of the force."""
 _CLOSE: Final = 1e-7
 """A change whose square is below rounding."""
 _EPS: Final = 2.0**-52
-_LONGEST: Final = 2.0
-"""Of a step, in ln a."""
-PART: Final = 0.25
-"""Longest step in parts of the shortest wave: a slow edge follows the curve between nodes, and could miss a fold."""
-_TRIALS: Final = 60
-DEPTH, RHO, TROUGH = range(3)
-"""What a step can be ended at: a depth; rho; a trough of the load."""
+_LONGEST, _PART = 2.0, 0.25
+"""Longest step in ln a, and in parts of the shortest wave: a slow edge follows the curve, and could miss a fold."""
+RADIUS, DEPTH, RHO, TROUGH = range(4)
+"""What a step can be ended at: ln a; a depth; rho; a trough of the load."""
+AWAY, LAG, SLOW, BY_AWAY, BY_LAG, WORK = range(6)
+"""Rows of nodes: s from the start of the step; the lag; u^(-1/n); ds/dy; d lag/dy; d work/dy, of int 2 pi a rho^2 da."""
 
 
 class Room(NamedTuple):
-    """Numbers at the nodes of a step, and the track of an edge.
+    """Numbers of a step, and the track of an edge."""
 
-    radii, lags, slow, rates   a, lag, u^(-1/n) and d lag/ds, (STAGES,)
-    places   rows of `Place`, (7, STAGES)
-    steep    how much a lag changes by itself over the step, (STAGES,)
-    work     2 pi a^2 rho^2, (STAGES,)
-    matrix   equations of Newton's method, (STAGES, STAGES + 1)
-    track    radii, depths and loads where the edge has been, (3, .), their number in [0, 0]; (3, 0) where nobody asks
-    """
-
-    radii: Floats
-    lags: Floats
-    slow: Floats
-    rates: Floats
-    places: Floats
-    steep: Floats
-    work: Floats
-    matrix: Floats
-    track: Floats
+    nodes: Floats  # (6, STAGES)
+    matrix: Floats  # equations of Newton's method, (2 STAGES, 2 STAGES + 1)
+    track: Floats  # radii, depths and loads, (3, .), their number in [0, 0]; (3, 0) where nobody asks
 
 
 @kernel
-def room_with(track: Floats) -> Room:
-    """Return room for the numbers of steps, with a track."""
-    rows, matrix = np.empty((13, STAGES)), np.empty((STAGES, STAGES + 1))
-    return Room(rows[0], rows[1], rows[2], rows[3], rows[4:11], rows[11], rows[12], matrix, track)
-
-
-@kernel
-def place_in(room: Room, i: int) -> Place:
-    """Return what there is at node i."""
-    p = room.places
-    return Place(p[0, i], p[1, i], p[2, i], p[3, i], p[4, i], p[5, i], p[6, i])
-
-
-@kernel
-def note(track: Floats, place: Place, a: float, rho: float) -> None:
+def note(edge: Edge, a: float, lag: float, track: Floats) -> None:
     """Note where an edge is, in a track that has room for it."""
     if track.shape[1] > 0 and track[0, 0] < track.shape[1] - 1:
         track[0, 0] += 1
         number = int(track[0, 0])
-        track[0, number], track[1, number], track[2, number] = a, depth_of(place, rho), load_of(place, rho)
-
-
-@kernel
-def note_nodes(edge: Edge, room: Room) -> None:
-    """Note the nodes of a step that has been made."""
-    for i in range(STAGES):
-        note(room.track, place_in(room, i), room.radii[i], edge.root + edge.sense * room.lags[i])
+        track[0, number] = a
+        track[1, number], track[2, number] = state_of(place_at(edge, a), edge.root + edge.sense * lag)
 
 
 @kernel
@@ -110,8 +68,11 @@ def _solve(matrix: Floats) -> bool:
     """Replace the last column by the solution of the equations in the others, (n, n + 1); False if there is none."""
     n = matrix.shape[0]
     for i in range(n):
-        best = i + np.argmax(np.abs(matrix[i:, i]))
-        if not abs(matrix[best, i]) > 0.0:
+        best = i
+        for j in range(i + 1, n):
+            if abs(matrix[j, i]) > abs(matrix[best, i]):
+                best = j
+        if not 0.0 < abs(matrix[best, i]) < math.inf:
             return False
         for column in range(i, n + 1):
             matrix[i, column], matrix[best, column] = matrix[best, column], matrix[i, column]
@@ -123,152 +84,146 @@ def _solve(matrix: Floats) -> bool:
         for j in range(i + 1, n):
             matrix[i, n] -= matrix[i, j] * matrix[j, n]
         matrix[i, n] /= matrix[i, i]
-    return True
+    return abs(matrix[0, n]) < math.inf
 
 
 @kernel
-def _set_equations(edge: Edge, lag: float, h: float, room: Room) -> float:
-    """Set the equations of a step of Newton's method from the lags at the nodes; return the size of the terms."""
-    size = 0.0
+def _set_equations(edge: Edge, drive: float, a: float, lag: float, h: float, room: Room) -> float:
+    """Set the equations of a step of Newton's method for the nodes; return how much the lag relaxes in the step."""
+    nodes, matrix, relaxed = room.nodes, room.matrix, 0.0
+    matrix[:] = 0.0
     for j in range(STAGES):
-        place = place_in(room, j)
-        value, slope = slowness(edge, room.lags[j])
-        force = place.drag * value
-        room.slow[j] = value
-        room.rates[j] = place.level * (edge.root + edge.sense * room.lags[j]) - place.push + force
-        room.steep[j] = h * (place.level * edge.sense + force * slope)
-        size = max(size, h * (abs(place.push) + force))
+        radius, own = a * math.exp(-edge.sense * nodes[AWAY, j]), nodes[LAG, j]
+        place, rho = place_at(edge, radius), edge.root + edge.sense * own
+        slow, slope = slowness(edge, own)
+        need, force = place.push - place.level * rho, place.drag * slow
+        size = math.sqrt(1.0 + need * need)
+        w = 1.0 / (size + force)
+        nodes[SLOW, j], nodes[BY_AWAY, j], nodes[BY_LAG, j] = slow, w, w * (drive * force - need)
+        nodes[WORK, j] = w * 2.0 * math.pi * (radius * rho) ** 2
+        for by_lag in range(2):  # slopes by s, and by the lag
+            of_need = -edge.sense * (place.level if by_lag else place.push_slope - place.level_slope * rho)
+            of_force = force * (slope if by_lag else -edge.sense * place.drag_slope)
+            of_w = -w * w * (need / size * of_need + of_force)
+            of_change = of_w * (drive * force - need) + w * (drive * of_force - of_need)
+            for i in range(STAGES):
+                matrix[i, j + by_lag * STAGES] = -h * _A[i, j] * of_w
+                matrix[i + STAGES, j + by_lag * STAGES] = -h * _A[i, j] * of_change
+            if by_lag:
+                relaxed = max(relaxed, -h * of_change)
     for i in range(STAGES):
-        total = 0.0
+        first, second = 0.0, lag
         for j in range(STAGES):
-            total += INTEGRALS[i, j] * room.rates[j]
-            room.matrix[i, j] = -INTEGRALS[i, j] * room.steep[j]
-        room.matrix[i, i] += 1.0
-        room.matrix[i, STAGES] = lag + h * total - room.lags[i]
-    return size
+            first, second = first + h * _A[i, j] * nodes[BY_AWAY, j], second + h * _A[i, j] * nodes[BY_LAG, j]
+        matrix[i, i], matrix[i + STAGES, i + STAGES] = matrix[i, i] + 1.0, matrix[i + STAGES, i + STAGES] + 1.0
+        matrix[i, 2 * STAGES], matrix[i + STAGES, 2 * STAGES] = first - nodes[AWAY, i], second - nodes[LAG, i]
+    return relaxed
 
 
 @kernel
-def advance(edge: Edge, a: float, lag: float, h: float, room: Room) -> bool:
-    """Make a step of the length |h| in ln a from the state (a, lag > 0), inwards if h < 0; `room` then has its nodes.
+def advance(edge: Edge, drive: float, a: float, lag: float, h: float, room: Room) -> float:
+    """Make a step of length h from the state (a, lag); `room` then has its nodes.
 
-    Return whether Newton's method converged.
+    Return how much the lag relaxes in the step, NaN if Newton's method did not converge.
     """
+    nodes = room.nodes
     for i in range(STAGES):
-        room.radii[i] = a * math.exp(h * NODES[i])
-        place = place_at(edge, room.radii[i])
-        for row in range(7):
-            room.places[row, i] = place[row]
-        room.lags[i] = lag
-    for _ in range(_NEWTON):
-        size = _set_equations(edge, lag, abs(h), room)
+        nodes[AWAY, i], nodes[LAG, i] = 0.0, lag if lag > 0.0 else h * NODES[i]
+    for _ in range(16):
+        relaxed = _set_equations(edge, drive, a, lag, h, room)
         if not _solve(room.matrix):
-            return False
+            return math.nan
         done = True
         for i in range(STAGES):
-            change, old = room.matrix[i, STAGES], room.lags[i]
-            if not abs(change) < math.inf:
-                return False
-            _, slope = slowness(edge, old)
-            part = slope * change  # of the slowness
-            rounding = 4.0 * _EPS * (1.0 + old + size)
-            if max(abs(part), abs(change)) > _CLOSE and abs(change) * (1.0 + abs(room.steep[i])) > rounding:
-                done = False
-            if room.slow[i] > 0.0 and part > -0.9:
-                room.slow[i] *= 1.0 + part
-                room.lags[i] = lag_of(edge, room.slow[i])
+            away, change, old = room.matrix[i, 2 * STAGES], room.matrix[i + STAGES, 2 * STAGES], nodes[LAG, i]
+            part = slowness(edge, old)[1] * change  # of the slowness
+            nodes[AWAY, i] += away
+            if nodes[SLOW, i] > 0.0 and part > -0.9:
+                nodes[LAG, i] = lag_of(edge, nodes[SLOW, i] * (1.0 + part))
             else:
-                room.lags[i] = max(old + change, 0.5 * old)
+                nodes[LAG, i] = max(old + change, 0.5 * old)
+            close = max(abs(part), abs(change)) < _CLOSE or abs(change) * (1.0 + relaxed) < 4.0 * _EPS * (1.0 + old)
+            done = done and close and abs(away) <= _CLOSE * abs(nodes[AWAY, i])
         if done:
-            return True
-    return False
+            _set_equations(edge, drive, a, lag, h, room)
+            return relaxed
+    return math.nan
 
 
 @kernel
-def spared(values: Floats, loss: float) -> float:
+def _spared(values: Floats, loss: float) -> float:
     """Return the error of an integral over a step by the last two coefficients of its values, (STAGES,).
 
     Where they are t and the values T it is about t (t/T)^1.2, and `loss` t more.
     """
     first = second = most = 0.0
     for j in range(STAGES):
-        first, second = first + TAIL[1, j] * values[j], second + TAIL[0, j] * values[j]
+        first, second = first + _TAIL[1, j] * values[j], second + _TAIL[0, j] * values[j]
         most = max(most, abs(values[j]))
     tail = max(abs(first), 0.1 * abs(second))
-    return tail * ((tail / most) ** _SPARED + loss) if tail > 0.0 else 0.0
+    return tail * ((tail / most) ** (STAGES / (STAGES - 1.0)) + loss) if tail > 0.0 else 0.0
 
 
 @kernel
-def work_in(edge: Edge, h: float, room: Room) -> float:
-    """Return int 2 pi a^2 rho^2 ds over a step of length h; `room.work` then has its integrand."""
+def work_in(h: float, room: Room) -> float:
+    """Return int 2 pi a rho^2 da over a step of length h."""
     total = 0.0
     for j in range(STAGES):
-        room.work[j] = 2.0 * math.pi * (room.radii[j] * (edge.root + edge.sense * room.lags[j])) ** 2
-        total += abs(h) * INTEGRALS[STAGES - 1, j] * room.work[j]
+        total += h * _A[STAGES - 1, j] * room.nodes[WORK, j]
     return total
 
 
 @kernel
-def kink(edge: Edge, lags: Floats) -> float:
-    """Return how much of its last coefficients the error of a step has that comes near rho = 0, where the law has a kink."""
-    low, high = edge.root - np.max(lags), edge.root - np.min(lags)
-    return _KINK if edge.sense < 0.0 and 2.0 * low < high and high > 0.0 else 0.0
+def stride(edge: Edge, drive: float, a: float, lag: float, h: float, area: float, room: Room) -> tuple[float, float]:
+    """Make a step as long as its error allows, h at first, from the state (a, lag); `area` is the largest a^2.
 
-
-@kernel
-def _error(edge: Edge, h: float, area: float, room: Room) -> float:
-    """Return the estimated error of a step: of rho, or of its work over 2 pi `area`."""
-    loss = _LOST * min(1.0, (max(0.0, -np.min(room.steep)) / _STIFF) ** (STAGES - 1)) + kink(edge, room.lags)
-    of_rho = spared(room.rates, loss) / (1.0 + room.lags[STAGES - 1])
-    return h * max(of_rho, spared(room.work, 0.0) / (2.0 * math.pi * area))
-
-
-@kernel
-def stride(
-    edge: Edge, a: float, lag: float, h: float, end: float, area: float, room: Room
-) -> tuple[float, float, float]:
-    """Make a step as long as its error allows, |h| at first, from the state (a, lag) towards the radius `end`.
-
-    Return its length (NaN if none is possible), one to try after it, and its work.
+    Return its length (NaN if none is possible), and one to try after it.
     """
-    most = min(abs(math.log(end / a)), _LONGEST, PART * edge.shortest / a)
-    sign = 1.0 if end > a else -1.0
-    h = min(abs(h), most)
-    while h > 1e-40 * most:
-        error, work = math.inf, 0.0
-        if advance(edge, a, lag, sign * h, room):
-            work = work_in(edge, h, room)
-            error = _error(edge, h, area, room)
+    nodes, longest = room.nodes, min(_LONGEST, _PART * edge.shortest / a)
+    for _ in range(200):
+        relaxed = advance(edge, drive, a, lag, h, room)
+        away, error = nodes[AWAY, STAGES - 1], math.inf
+        if away <= 1.2 * longest and not math.isnan(relaxed):
+            low, high = edge.root - np.max(nodes[LAG]), edge.root - np.min(nodes[LAG])
+            loss = _LOST * min(1.0, (0.1 * relaxed) ** (STAGES - 1))
+            loss += _KINK if lag == 0.0 or (edge.sense < 0.0 and 2.0 * low < high and high > 0.0) else 0.0
+            of_lag = _spared(nodes[BY_LAG], loss) / (1.0 + nodes[LAG, STAGES - 1])
+            of_work = _spared(nodes[WORK], 0.0) / (2.0 * math.pi * area)
+            error = h * max(of_lag, _spared(nodes[BY_AWAY], loss), of_work)
+        factor = 0.9 * (_TOLERANCE / max(error, _EPS * _TOLERANCE)) ** (1.0 / _ORDER)
         if error <= _TOLERANCE:
-            longer = min(4.0, 0.9 * (_TOLERANCE / max(error, _EPS * _TOLERANCE)) ** (1.0 / ORDER))
-            return sign * h, h * longer, work
-        h *= max(0.15, 0.9 * (_TOLERANCE / error) ** (1.0 / ORDER)) if error < math.inf else 0.15
-    return math.nan, 0.0, 0.0
+            return h, h * min(4.0, factor, longest / away)
+        h *= max(0.15, factor)
+    return math.nan, 0.0
 
 
 @kernel
-def measure(edge: Edge, place: Place, lag: float, slow: float, what: int) -> float:
-    """Return a quantity of `DEPTH`, `RHO` and `TROUGH` in a state; that of a trough falls to 0 there as a falls.
+def measure(edge: Edge, a: float, lag: float, slow: float, what: int) -> float:
+    """Return a quantity in a state: one of `RADIUS` to `TROUGH`. That of a trough falls to 0 there as a falls:
 
-    a dP/da = K a^(1+k) Delta [drag u^(-1/n) - need],   need = ((3+k)/2 - level) rho
+    a dP/da = K a^(1+k) Delta [force - ((3+k)/2 - level) rho]
     """
-    rho = edge.root + edge.sense * lag
+    place, rho = place_at(edge, a), edge.root + edge.sense * lag
+    if what == RADIUS:
+        return math.log(a)
     if what == DEPTH:
-        return depth_of(place, rho)
+        return state_of(place, rho)[0]
     if what == RHO:
         return rho
     return math.log(place.drag * slow / ((0.5 * (3.0 + edge.functions.k) - place.level) * rho))
 
 
 @kernel
-def measure_in(edge: Edge, room: Room, i: int, what: int) -> float:
-    """Return the same at node i."""
-    return measure(edge, place_in(room, i), room.lags[i], room.slow[i], what)
+def end_of_step(edge: Edge, a: float, room: Room) -> tuple[float, float, float]:
+    """Return radius, lag and slowness at the end of a step."""
+    nodes = room.nodes
+    return a * math.exp(-edge.sense * nodes[AWAY, -1]), nodes[LAG, -1], nodes[SLOW, -1]
 
 
 @kernel
 def step_until(
     edge: Edge,
+    drive: float,
     a: float,
     lag: float,
     lengths: tuple[float, float],
@@ -285,14 +240,15 @@ def step_until(
     low, high = lengths
     first, last = values[0] - target, values[1] - target
     length, side = high, 0
-    for _ in range(_TRIALS):
+    for _ in range(60):
         length = (low * last - high * first) / (last - first)
-        if not min(low, high) < length < max(low, high):
+        if not low < length < high:
             length = 0.5 * (low + high)
-        if not advance(edge, a, lag, length, room):
+        if math.isnan(advance(edge, drive, a, lag, length, room)):
             return math.nan
-        value = measure_in(edge, room, STAGES - 1, what) - target
-        if value == 0.0 or not abs(high - low) > 2e-15 * abs(high):
+        there, own, slow = end_of_step(edge, a, room)
+        value = measure(edge, there, own, slow, what) - target
+        if value == 0.0 or not high - low > 2e-15 * high:
             break
         if (value < 0.0) == (first < 0.0):
             low, first, last, side = length, value, 0.5 * last if side < 0 else last, -1
