@@ -3,6 +3,8 @@
 import math
 from typing import Final
 
+import numpy as np
+
 from gradhesion.core.curve.trace import (
     CLOSE_PAIR,
     END,
@@ -23,6 +25,7 @@ from gradhesion.core.curve.values import (
     radius_of,
     slope_at,
     slope_in,
+    slope_near,
 )
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.table.layout import BE, BP, BV, HALF, KE, QPOW, QUP, RLOW, RPOW, SLOPE, E, T, V, Y, end_of
@@ -74,9 +77,9 @@ def pair_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
 
     Return that, the place of the extremum and D there times the half width; (False, 0, inf) if there is none.
     """
-    _, D1, _, _ = slope_in(curve, i, -1.0)
+    _, D1, _, _ = slope_near(curve, i, -1.0)
     left = D1 * sign
-    _, D1, _, _ = slope_in(curve, i, 1.0)
+    _, D1, _, _ = slope_near(curve, i, 1.0)
     right = D1 * sign
     if left >= 0.0 or right <= 0.0:
         return False, 0.0, math.inf
@@ -84,7 +87,7 @@ def pair_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
     t = left / (left - right) * 2.0 - 1.0
     D = 0.0
     for _ in range(60):
-        D, D1, D2, _ = slope_in(curve, i, t)
+        D, D1, D2, _ = slope_near(curve, i, t)
         if D1 * sign > 0.0:
             high = t
         else:
@@ -96,6 +99,51 @@ def pair_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
             break
         t = ahead
     return D * sign <= 0.0, t, D if D != 0.0 else -sign * _TINY
+
+
+@kernel
+def _turn_of_slope(curve: Curve, i: int, low: float, high: float, sign: float) -> float:
+    """Return the place between two where sign D' turns from positive to negative, or the reverse, by bisection."""
+    _, D1, _, _ = slope_near(curve, i, low)
+    rises = D1 * sign > 0.0
+    for _ in range(40):
+        t = 0.5 * (low + high)
+        _, D1, _, _ = slope_near(curve, i, t)
+        if (D1 * sign > 0.0) == rises:
+            low = t
+        else:
+            high = t
+    return 0.5 * (low + high)
+
+
+@kernel
+def detour_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
+    """Look for three folds in bin i, over which sign D goes from below to above 0: whether it falls below 0 again.
+
+    Return that, and the places of the crest and of the trough between them. D' must be positive at both edges and
+    negative somewhere between: at the least of D', which is looked for where D'' turns.
+    """
+    _, left, left2, _ = slope_near(curve, i, -1.0)
+    _, right, right2, _ = slope_near(curve, i, 1.0)
+    if left * sign <= 0.0 or right * sign <= 0.0 or left2 * sign >= 0.0 or right2 * sign <= 0.0:
+        return False, 0.0, 0.0
+    low, high, middle = -1.0, 1.0, 0.0
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        _, D1, D2, _ = slope_near(curve, i, middle)
+        if D1 * sign < 0.0:
+            break
+        if D2 * sign < 0.0:
+            low = middle
+        else:
+            high = middle
+    if D1 * sign >= 0.0:
+        return False, 0.0, 0.0
+    crest = _turn_of_slope(curve, i, -1.0, middle, sign)
+    trough = _turn_of_slope(curve, i, middle, 1.0, sign)
+    top, _, _, _ = slope_near(curve, i, crest)
+    bottom, _, _, _ = slope_near(curve, i, trough)
+    return top * sign > 0.0 and bottom * sign < 0.0, crest, trough
 
 
 @leaf
@@ -133,11 +181,10 @@ def _guess_of(older: float, before: float, after: float) -> float:
 
 
 @kernel
-def scan(curve: Curve, first: int, last: int, count: int, slopes: Floats, trace: Floats) -> tuple[int, bool]:
+def scan(curve: Curve, first: int, last: int, count: int, trace: Floats) -> tuple[int, bool]:
     """Add the folds in the bins `first` to `last` - 1 to `count` branches.
 
-    `slopes` is room for CHUNK numbers. Return the number of branches (FULL: no room) and whether the bounds of the table
-    say that no fold follows.
+    Return the number of branches (FULL: no room) and whether the bounds of the table say that no fold follows.
     """
     table, nodes = curve.table, curve.table.nodes
     B, g, k = curve.B, curve.g, curve.table.k
@@ -146,6 +193,8 @@ def scan(curve: Curve, first: int, last: int, count: int, slopes: Floats, trace:
     ends = table.exponent - 1.0 >= base  # else the power loses against the waves, and folds need not end
     before = slope_at(curve, first)
     older, start = before, first
+    slopes = np.zeros(CHUNK)
+    places, values = np.zeros(4), np.zeros(4)  # the ends of the pieces of a bin on which D has one fold, and D there
     while start < last:
         if ends and B * nodes[RPOW, start] + g * nodes[RLOW, start] > highest / nodes[Y, start]:
             return count, True
@@ -162,22 +211,30 @@ def scan(curve: Curve, first: int, last: int, count: int, slopes: Floats, trace:
             i, after = start + j, slopes[j]
             half = nodes[HALF, i]
             terms = B * nodes[SLOPE, i] + highest * nodes[E, i]
-            pieces, low, high, at_low, at_high, guess = 0, -1.0, 1.0, before * half, after * half, 0.0
+            places[0], places[1], values[0], values[1], pieces = -1.0, 1.0, before * half, after * half, 1
             if (before > 0.0) != (after > 0.0):
-                pieces, guess = 1, _guess_of(older, before, after)
+                if abs(after - before) < 4.0 * swing_in(curve, i):  # D may turn twice on its way
+                    found, crest, trough = detour_in(curve, i, 1.0 if after > 0.0 else -1.0)
+                    if found:
+                        places[1], places[2], places[3], pieces = crest, trough, 1.0, 3
+                        values[1], values[2], values[3] = -values[0], values[0], after * half
             elif min(abs(before), abs(after)) < swing_in(curve, i):
-                found, high, at_high = pair_in(curve, i, 1.0 if after > 0.0 else -1.0)
+                found, t, extreme = pair_in(curve, i, 1.0 if after > 0.0 else -1.0)
                 pieces = 2 if found else 0
-                if abs(at_high) <= CLOSE * half * terms:
+                places[1], values[1], places[2], values[2] = t, extreme, 1.0, after * half
+                if abs(extreme) <= CLOSE * half * terms:
                     trace[CLOSE_PAIR, 0] = min(trace[CLOSE_PAIR, 0], nodes[Y, i])
+            else:
+                pieces = 0
             for piece in range(pieces):
                 if count >= trace.shape[1]:
                     return FULL, False
-                if pieces == 2:  # noqa: PLR2004
-                    guess = low + (high - low) * at_low / (at_low - at_high)
-                t, depth = zero_in(curve, i, low, high, guess, at_high > 0.0)
-                count = _add_fold(curve, i, t, depth, at_high > 0.0, trace, count)
-                low, high, at_low, at_high = high, 1.0, at_high, after * half
+                low, high, rising = places[piece], places[piece + 1], values[piece + 1] > 0.0
+                guess = _guess_of(older, before, after)
+                if pieces > 1:
+                    guess = low + (high - low) * values[piece] / (values[piece] - values[piece + 1])
+                t, depth = zero_in(curve, i, low, high, guess, rising)
+                count = _add_fold(curve, i, t, depth, rising, trace, count)
             if abs(after) <= CLOSE * terms and swing_in(curve, i) > 0.5 * abs(before):
                 trace[CLOSE_PAIR, 0] = min(trace[CLOSE_PAIR, 0], nodes[Y, i])
             older, before = before, after
@@ -211,10 +268,10 @@ def close_end(curve: Curve, last: int, count: int, trace: Floats) -> None:
 
 
 @kernel
-def find_folds(curve: Curve, y_end: float, slopes: Floats, trace: Floats) -> int:
+def find_folds(curve: Curve, y_end: float, trace: Floats) -> int:
     """Fill the trace with all branches that begin below a radius, and return their number, FULL or TOO_SHORT.
 
-    `slopes` is room for CHUNK numbers. The last branch is endless (END = inf) if no fold follows at all.
+    The last branch is endless (END = inf) if no fold follows at all.
     """
     table = curve.table
     first = first_bin(curve)
@@ -226,7 +283,7 @@ def find_folds(curve: Curve, y_end: float, slopes: Floats, trace: Floats) -> int
         trace[START_LEVEL, 0] = coordinate_of(curve, depth, 0.0)
         trace[END, 0], trace[END_LEVEL, 0], trace[UNLOADED, 0] = math.inf, math.inf, math.nan
         count = 1
-    count, ended = scan(curve, first, last, count, slopes, trace)
+    count, ended = scan(curve, first, last, count, trace)
     if ended or count < 0:
         return count
     if last == table.bins and y_end > end_of(table):

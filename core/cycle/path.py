@@ -26,9 +26,9 @@ from gradhesion.core.curve.trace import (
     UNLOADED,
     UNLOADING_JUMPS,
 )
-from gradhesion.core.curve.values import Curve, coordinate_of, softness, state_at
+from gradhesion.core.curve.values import Curve, coordinate_of, softness, state_in
 from gradhesion.core.jit import kernel, leaf
-from gradhesion.core.table.layout import Source, end_of
+from gradhesion.core.table.layout import end_of
 from gradhesion.core.types import Floats, Integers
 
 
@@ -169,14 +169,12 @@ def started_within(trace: Floats, count: int, rim: float) -> int:
 
 
 @kernel
-def load_to(
-    curve: Curve, source: Source, rim: float, trace: Floats, visited: Integers, visits: int, wants_depth: bool
-) -> Loaded:
-    """Return what loading up to a rim loses, and how deep it gets (if the rim is beyond the table, only if wanted)."""
+def load_to(curve: Curve, rim: float, trace: Floats, visited: Integers, visits: int) -> Loaded:
+    """Return what loading up to a rim loses, and how deep it gets: inf if the rim is beyond the table."""
     depth = load = level = math.inf
     inside = rim <= end_of(curve.table)  # else the rim is on the endless branch
-    if inside or (wants_depth and rim < math.inf):
-        depth, load = state_at(curve, source, rim)
+    if inside:
+        depth, load = state_in(curve, rim)
         level = coordinate_of(curve, depth, load)
     n = visited_within(trace, visited, visits, rim)
     if not inside and (n == 0 or trace[END, visited[n - 1]] < rim):
@@ -197,12 +195,12 @@ def load_to(
 
 
 @kernel
-def unload_from(curve: Curve, source: Source, rim: float, trace: Floats, count: int, stack: Integers) -> Unloaded:
+def unload_from(curve: Curve, rim: float, trace: Floats, count: int, stack: Integers) -> Unloaded:
     """Return what unloading from a rim loses, and where it ends."""
     j = started_within(trace, count, rim) - 1
     lost, jumps, last = 0.0, 0.0, 0.0
     if j < 0 or trace[END, j] < rim:
-        depth, load = state_at(curve, source, rim)
+        depth, load = state_in(curve, rim)
         j = inner_branch(trace, j, coordinate_of(curve, depth, load))
         lost, jumps, last = _leave(curve, State(rim, depth, load), j, trace), 1.0, depth
     if j >= 0:

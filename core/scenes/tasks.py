@@ -14,15 +14,20 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.core.curve.values import Curve, bin_of
 from gradhesion.core.cycle.disc import disc_of, profile_of
-from gradhesion.core.cycle.pull_off import ALL, Filling
+from gradhesion.core.cycle.pull_off import envelope_place, lowest_load
 from gradhesion.core.edge.pattern import bins_of_wave, bounds_of, rows_by_number
 from gradhesion.core.jit import kernel
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.processors import processors
-from gradhesion.core.scenes.cycles import Task, solve_cycles, solve_forces
+from gradhesion.core.scenes.cycles import Task, no_value, put_force, solve_cycles
 from gradhesion.core.scenes.reduced import (
     AT_RIM,
+    BY_POWER,
+    BY_WAVES,
+    CLOSING,
+    DEPTH,
     NEED,
     PATTERN_AMPLITUDE,
     PATTERN_WAVELENGTH,
@@ -32,9 +37,10 @@ from gradhesion.core.scenes.reduced import (
     K,
     Punch,
     depth_factor_of,
+    is_valid,
     reduced_of,
 )
-from gradhesion.core.scenes.results import RESULT_ROWS, SHORT, STATUS, Rooms, Wanted, rooms_for
+from gradhesion.core.scenes.results import DEEPEST, RESULT_ROWS, SHORT, STATUS, Rooms, Wanted, rooms_for
 from gradhesion.core.table.basis import (
     NODES,
     Basis,
@@ -43,10 +49,26 @@ from gradhesion.core.table.basis import (
     empty_table,
     fill_table,
     fill_weights,
+    mix_bins,
     room_of,
 )
-from gradhesion.core.table.filling import fill_bins, source_of, width_of, with_bounds
-from gradhesion.core.table.layout import BY_DEPTH, BY_LOAD, EXACT, FIRST, GEOMETRIC, PER_WAVE, Source, Table, end_of
+from gradhesion.core.table.filling import fill_bins, source_of, waves_at, width_of, with_bounds
+from gradhesion.core.table.layout import (
+    BY_LOAD,
+    EXACT,
+    FIRST,
+    GEOMETRIC,
+    LANES,
+    PER_WAVE,
+    ROWS,
+    U1,
+    E,
+    N,
+    Table,
+    U,
+    Y,
+    end_of,
+)
 from gradhesion.core.table.leading import crests_of
 from gradhesion.core.types import Floats, Integers
 
@@ -54,6 +76,10 @@ _MOST_BINS: Final = 130_000
 """Bins of a table, at most: 76 MB."""
 _KEPT_BINS: Final = 260_000
 """Bins of all long tables that are kept between calls."""
+_AROUND: Final = 6
+"""Bins around the lowest place of the envelope that are filled at once for a pull-off."""
+_LONGEST: Final = 30.0
+"""By which a table may be longer than what was asked for at first."""
 _SCENES: Final = 1024
 """Scenes of a part, at least: a millisecond or more."""
 _MOST_SCENES: Final = 32768
@@ -61,40 +87,39 @@ _MOST_SCENES: Final = 32768
 
 
 @kernel
-def source_for(punch: Punch, basis: Basis, k: float, needed: bool) -> Source:
-    """Return what is needed of an exponent at rims beyond a near table: its functions; of any exponent if it is not."""
-    no_waves = np.zeros((0, 3))
-    return source_of(k if needed else 0.5, punch.exponent, punch.waves if needed else no_waves, basis.width, 0.0, EXACT)
-
-
-@kernel
-def near_forces(
-    punch: Punch,
-    wanted: Wanted,
-    basis: Basis,
-    profile: Floats,
-    rooms: Rooms,
-    nodes: Floats,
-    polys: Floats,
-    scenes: Floats,
-    reduced: Floats,
-    out: Floats,
-) -> None:
-    """Solve the pull-off of scenes in the order of their exponents; bins are filled where the search arrives."""
-    weights, filled = np.zeros(NODES), np.zeros(2, np.int64)
-    source, disc = source_for(punch, basis, 0.5, False), disc_of(0.5, 2.0, 1.0, punch.waves, profile)
-    first = 0
-    while first < scenes.shape[1]:
-        k, last = scenes[K, first], first + 1
-        while last < scenes.shape[1] and scenes[K, last] == k:
-            last += 1
-        filled[:] = 0
-        fill_weights(basis.k, k, weights)
+def near_forces(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats, out: Floats) -> None:
+    """Solve the pull-off alone of scenes in the order of their exponents; bins are filled where the search arrives."""
+    most = basis.values.shape[0] - 1
+    nodes, polys = np.zeros((ROWS, most + 1)), np.zeros((most, LANES, N))
+    weights, k, first, last = np.zeros(NODES), math.nan, 0, 0
+    for i in range(scenes.shape[1]):
+        if not is_valid(punch, scenes, reduced, i):
+            no_value(out, i, NO_VALUE)
+            continue
+        if scenes[K, i] != k:
+            k, first, last = scenes[K, i], 0, 0
+            fill_weights(basis.k, k, weights)
         table = empty_table(basis, k, nodes, polys)
-        filling = Filling(basis, weights, filled)
-        task = Task(punch, wanted, table, table, 0.0, source, disc, filling, rooms, math.inf)
-        solve_forces(task, scenes, reduced, first, last, out)
-        first = last
+        curve, rim = Curve(table, reduced[BY_POWER, i], reduced[BY_WAVES, i], 0.0, 1.0), reduced[RIM_Y, i]
+        place = bin_of(table, min(envelope_place(curve), rim))
+        if rim <= end_of(table):
+            j = bin_of(table, rim)
+            mix_bins(basis, k, weights, j, j + 1, nodes, polys)
+        around = _AROUND
+        while True:
+            low, high = max(place - around, 0), min(place + around, most)
+            if first == last:
+                first = last = low
+            if low < first:
+                mix_bins(basis, k, weights, low, first, nodes, polys)
+            if high > last:
+                mix_bins(basis, k, weights, last, high, nodes, polys)
+            first, last = min(low, first), max(high, last)
+            lowest = lowest_load(curve, rim, first, last)
+            if lowest.known or (low == 0 and high == most):
+                break
+            around *= 3
+        put_force(lowest, reduced, i, out)
 
 
 @kernel
@@ -105,10 +130,6 @@ def near_cycles(
     by_load: Basis,
     profile: Floats,
     rooms: Rooms,
-    nodes: Floats,
-    polys: Floats,
-    load_nodes: Floats,
-    load_polys: Floats,
     scenes: Floats,
     reduced: Floats,
     out: Floats,
@@ -117,69 +138,65 @@ def near_cycles(
 
     `by_load` is the basis of the pull-off, which is that of the cycle but for the leading terms of short waves.
     """
-    weights, filled = np.zeros(NODES), np.array([ALL, ALL])
-    reach = basis.start + (basis.values.shape[0] - 3 - GEOMETRIC) * basis.width
-    first = 0
+    most = basis.values.shape[0] - 1
+    reach = basis.start + (most - 2 - GEOMETRIC) * basis.width
+    nodes, polys = np.zeros((ROWS, most + 1)), np.zeros((most, LANES, N))
+    other = most if by_load.form != basis.form else 0
+    load_nodes, load_polys = np.zeros((ROWS, other + 1)), np.zeros((other, LANES, N))
+    weights, first = np.zeros(NODES), 0
     while first < scenes.shape[1]:
-        k, last = scenes[K, first], first + 1
-        while last < scenes.shape[1] and scenes[K, last] == k:
+        k, last, far = scenes[K, first], first, 0.0
+        while last < scenes.shape[1] and (scenes[K, last] == k or last == first):
+            if reduced[NEED, last] <= reach:
+                far = max(far, reduced[NEED, last])
             last += 1
-        far, at_far_rim = 0.0, False
-        for i in range(first, last):
-            if reduced[NEED, i] <= reach:
-                far = max(far, reduced[NEED, i])
-                at_far_rim = at_far_rim or (wanted.depth and reduced[NEED, i] < reduced[RIM_Y, i] < math.inf)
         if not (far > 0.0 and 0.0 <= k <= 1.0):
             k = 0.5  # none can be solved here
-        bins = GEOMETRIC + max(16, int((far - basis.start) / basis.width) + 2)
-        table = fill_table(basis, k, weights, min(bins, basis.values.shape[0] - 1), nodes, polys)
-        pull = table
-        if load_nodes.shape[1] > 1:
-            pull = fill_table(by_load, k, weights, table.bins, load_nodes, load_polys)
-        source = source_for(punch, basis, k, at_far_rim)
+        bins = min(GEOMETRIC + max(16, int((far - basis.start) / basis.width) + 2), most)
+        table = fill_table(basis, k, weights, bins, nodes, polys)
+        pull = fill_table(by_load, k, weights, bins, load_nodes, load_polys) if other > 0 else table
         node = between(basis, k)
         crest = 1.01 * max(basis.crest[node], basis.crest[node + 1])
         disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
-        task = Task(punch, wanted, table, pull, crest, source, disc, Filling(basis, weights, filled), rooms, reach)
-        solve_cycles(task, scenes, reduced, first, last, out)
+        solve_cycles(Task(punch, wanted, table, pull, crest, disc, rooms, reach), scenes, reduced, first, last, out)
         first = last
+
+
+@kernel
+def far_rims(punch: Punch, width: float, form: int, scenes: Floats, reduced: Floats, out: Floats) -> None:
+    """Fill the depths at rims that are beyond the tables of their scenes, on the endless branch."""
+    source = source_of(0.5, punch.exponent, punch.waves, width, 0.0, form)
+    for i in range(scenes.shape[1]):
+        y = reduced[RIM_Y, i]
+        if out[DEEPEST, i] == math.inf and y < math.inf:
+            if source.k != scenes[K, i]:
+                source = source_of(scenes[K, i], punch.exponent, punch.waves, width, 0.0, form)
+            u, _ = waves_at(source, y)
+            flat = reduced[BY_POWER, i] * y**punch.exponent + reduced[BY_WAVES, i] * u
+            stretch = math.sqrt(reduced[CLOSING, i]) * y ** (0.5 * (1.0 - scenes[K, i]))
+            out[DEEPEST, i] = (flat - stretch) * reduced[DEPTH, i]
 
 
 def _solve_near(
     punch: Punch, wanted: Wanted, form: int, finer: int, profile: Floats, scenes: Floats, reduced: Floats, out: Floats
 ) -> None:
     """Solve near scenes of one fineness of bins."""
-    basis = basis_of(punch.exponent, punch.waves, EXACT if form == EXACT else BY_DEPTH, finer)
-    patterned = punch.rows.shape[1] > 0
-    bins = basis.values.shape[0] - 1
-    plain = punch.turn == AT_RIM and not patterned
-    if not wanted.cycle and plain:
-        pull = basis if form == EXACT else basis_of(punch.exponent, punch.waves, BY_LOAD, finer)
-        near_forces(punch, wanted, pull, profile, rooms_for(1, patterned=False), *room_of(bins), scenes, reduced, out)
-        return
+    basis = basis_of(punch.exponent, punch.waves, form, finer)
     by_load = basis if form == EXACT else basis_of(punch.exponent, punch.waves, BY_LOAD, finer)
-    second = room_of(0 if form == EXACT else bins)
-    near_cycles(
-        punch,
-        wanted,
-        basis,
-        by_load,
-        profile,
-        rooms_for(bins, patterned),
-        *room_of(bins),
-        *second,
-        scenes,
-        reduced,
-        out,
-    )
+    patterned = punch.rows.shape[1] > 0
+    if not wanted.cycle and punch.turn == AT_RIM and not patterned:
+        near_forces(punch, by_load, scenes, reduced, out)
+        return
+    rooms = rooms_for(basis.values.shape[0] - 1, patterned)
+    near_cycles(punch, wanted, basis, by_load, profile, rooms, scenes, reduced, out)
 
 
-_tables: OrderedDict[tuple[object, ...], tuple[Table, Source, float]] = OrderedDict()
+_tables: OrderedDict[tuple[object, ...], tuple[Table, float]] = OrderedDict()
 _lock = threading.Lock()
 
 
-def long_table(punch: Punch, k: float, form: int, finer: int, y_end: float) -> tuple[Table, Source, float]:
-    """Return a table of one exponent to y_end or beyond, what its bins are filled from, and the crest of -U'.
+def long_table(punch: Punch, k: float, form: int, finer: int, y_end: float) -> tuple[Table, float]:
+    """Return a table of one exponent to y_end or beyond, and the crest of -U'.
 
     One of the last few, if it is long enough.
     """
@@ -198,15 +215,22 @@ def long_table(punch: Punch, k: float, form: int, finer: int, y_end: float) -> t
         share = (1.0 + k) / (1.0 + k + punch.exponent)
         empty = Table(k, punch.exponent, share, source.start, width, lowest, 0.0, GEOMETRIC, bins, nodes, polys)
         _tables.pop(key, None)
-        _tables[key] = with_bounds(empty, crest, bins), source, crest
-        while len(_tables) > 1 and sum(table.bins for table, _, _ in _tables.values()) > _KEPT_BINS:
+        _tables[key] = with_bounds(empty, crest, bins), crest
+        while len(_tables) > 1 and sum(table.bins for table, _ in _tables.values()) > _KEPT_BINS:
             _tables.popitem(last=False)
         return _tables[key]
 
 
+@kernel
+def far_forces(punch: Punch, table: Table, scenes: Floats, reduced: Floats, out: Floats) -> None:
+    """Solve the pull-off alone of scenes of one exponent on a table of its own."""
+    for i in range(scenes.shape[1]):
+        curve = Curve(table, reduced[BY_POWER, i], reduced[BY_WAVES, i], 0.0, 1.0)
+        put_force(lowest_load(curve, reduced[RIM_Y, i], 0, table.bins), reduced, i, out)
+
+
 def _lowest(nodes: Floats, crest: float) -> float:
     """Return a bound below (U - U1)/(y E): that of the leading term, or 2 % more than the values near the centre."""
-    from gradhesion.core.table.layout import U1, E, U, Y  # noqa: PLC0415
 
     near = nodes[:, GEOMETRIC - 20 : GEOMETRIC + 512]
     return min(crest, 1.02 * float(((near[U] - near[U1]) / (near[E] * near[Y])).min()))
@@ -217,28 +241,26 @@ def _solve_far(
 ) -> None:
     """Solve scenes of one exponent that reach beyond near tables, on tables that are tripled where they prove too short."""
     k, most = float(scenes[K, 0]), (_MOST_BINS - GEOMETRIC) * width_of(punch.waves, finer)
-    filling_basis = basis_of(punch.exponent, punch.waves, EXACT if form == EXACT else BY_DEPTH, finer)
-    filling = Filling(filling_basis, np.zeros(NODES), np.array([ALL, ALL]))
     left, factor = np.arange(scenes.shape[1]), 1.0
     while left.size:
         need = np.minimum(reduced[NEED, left] * factor, reduced[RIM_Y, left] * 1.01)
         possible = need[need <= most]
-        if not possible.size and factor > 1.0:
-            break
         y_end = float(possible.max()) if possible.size else most
-        table, source, crest = long_table(punch, k, EXACT if form == EXACT else BY_DEPTH, finer, min(y_end, most))
-        pull = table if form == EXACT else long_table(punch, k, BY_LOAD, finer, min(y_end, most))[0]
+        table, crest = long_table(punch, k, form, finer, y_end)
+        pull = table if form == EXACT else long_table(punch, k, BY_LOAD, finer, y_end)[0]
         disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
         rooms = rooms_for(table.bins, punch.rows.shape[1] > 0)
-        task = Task(punch, wanted, table, pull, crest, source, disc, filling, rooms, math.inf)
         chosen, own = np.ascontiguousarray(scenes[:, left]), np.ascontiguousarray(reduced[:, left])
         found = np.empty((RESULT_ROWS, left.size))
-        solve = solve_cycles if wanted.cycle or punch.turn != AT_RIM or punch.rows.shape[1] else solve_forces
-        solve(task, chosen, own, 0, left.size, found)
+        if wanted.cycle or punch.turn != AT_RIM or punch.rows.shape[1]:
+            task = Task(punch, wanted, table, pull, crest, disc, rooms, math.inf)
+            solve_cycles(task, chosen, own, 0, left.size, found)
+        else:
+            far_forces(punch, pull, chosen, own, found)
         out[:, left] = found
         left = left[found[STATUS] == SHORT]
         factor *= 3.0
-        if factor > 30.0 or y_end >= most:
+        if factor > _LONGEST or y_end >= most:
             break
     out[STATUS, left] = NO_VALUE | TOO_MANY_WAVES
 
@@ -264,7 +286,7 @@ def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes
         allowed = (least > 0.0) if punch.of_work else (least >= -1e-14)
         most = np.where(allowed, most, np.nan)
         finer = _finer_bins(punch, scenes, least)
-    basis = basis_of(punch.exponent, punch.waves, EXACT if form == EXACT else BY_DEPTH)
+    basis = basis_of(punch.exponent, punch.waves, form)
     reduced = reduced_of(punch, basis, scenes, most, steep)
     if wanted.saturation:  # all folds are needed, wherever the rim is
         reduced[NEED] = np.fmax(reduced[NEED], reduced[WINDOW])
@@ -296,6 +318,8 @@ def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes
                     found,
                 )
                 out[:, index] = found
+    if wanted.depth:
+        far_rims(punch, basis.width, form, scenes, reduced, out)
     return out
 
 

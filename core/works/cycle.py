@@ -106,7 +106,7 @@ def _without_adhesion(found: Results, ratio: NDArray[np.float64], jumps: NDArray
 def _opened(
     scenes: Mapping[str, ArrayLike], radius: NDArray[np.float64], wanted: Sequence[str], how: How, turn: str | None
 ) -> Results:
-    """Return the results of opening from radii a_t/R; without contact forces, energies and counts are 0."""
+    """Return the results of opening from radii a_t/R; without contact forces, energies, counts and flags are 0."""
     limits = np.asarray(scenes["a_max_over_R"], dtype=float)
     if turn is None:
         return solve(scenes, wanted, **_known(how))
@@ -116,6 +116,7 @@ def _opened(
     for name in (name for name in wanted if away.any() and name not in _OF_THE_PUNCH):
         empty = np.nan if name in _RADII else 0
         found[name] = np.where(away, empty, found[name]).astype(found[name].dtype)
+    found["status"] = np.where(away, 0, found["status"]).astype(found["status"].dtype)
     return found
 
 
@@ -130,12 +131,8 @@ def _of_two_curves(
     names: Sequence[str],
     how: How,
     turn: str | None,
-    one: Results | None,
 ) -> Results:
-    """Return the cycles that load on one curve and unload on the other; values at ratio 1 are those to rounding.
-
-    `one` are the cycles of the opening curve alone, if they are known.
-    """
+    """Return the cycles that load on one curve and unload on the other; values at ratio 1 are those to rounding."""
     loading = [name for name in (*_OF_LOADING, *_OF_BOTH[1:]) if name in names]
     opening = [name for name in names if name not in (*_OF_LOADING, *_FROM_BOTH, "turning_radius")] + [
         name for name in _OF_BOTH[1:] if name in names
@@ -146,7 +143,7 @@ def _of_two_curves(
         closed = _solve_in_front(closing_parameters(scenes, ratio), ratio, [*loading, "turning_radius"], _known(how))
         _without_adhesion(closed, ratio, starts_downwards(scenes, how))
     radius = closed.get("turning_radius", np.asarray(scenes["a_max_over_R"], dtype=float))
-    opened = _opened(scenes, radius, opening, how, turn) if one is None or turn else one
+    opened = _opened(scenes, radius, opening, how, turn)
     held = np.maximum(ratio, LEAST)
     found = {name: values for name, values in (closed | opened).items() if name not in _OF_BOTH}
     found["turning_radius"] = radius
@@ -207,7 +204,7 @@ def solve_two_works(parameters: Mapping[str, ArrayLike], outputs: Sequence[str],
     one = solve(scenes, names, **_known(how)) if even.any() else None
     found: Results = one or {}
     if not even.all():
-        found = _of_two_curves(scenes, ratio, names, how, turn, one)
+        found = _of_two_curves(scenes, ratio, names, how, turn)
     if one is not None and not even.all():
         found = {name: np.where(even, values, found[name]).astype(values.dtype) for name, values in one.items()}
     found = {name: np.broadcast_to(values, shape) for name, values in found.items()}

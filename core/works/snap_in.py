@@ -5,7 +5,7 @@ where the contact is pinned: P = K [a^(1+k) depth - I(a)] (docs/theory.md, secti
 """
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,12 +22,16 @@ from gradhesion.core.sweep import How, solve
 from gradhesion.core.types import Floats
 from gradhesion.core.works.cycle import LEAST, closing_parameters
 
+_LANDED: Final = 1e-6
+"""The coordinate where a jump at the coordinate 0 ends, over its terms, is below this: it is 0 but for rounding."""
+
 
 @kernel()
 def fill_pulls(basis: Basis, curves: GeneralCurves, out: Floats) -> None:
     """Put the pulls at the coordinate 0 of contacts up to the rims of curves into `out`, of shape (curves, rims).
 
-    They are in 1.5 pi R dgamma. The rims are radii of contact.
+    They are in 1.5 pi R dgamma. The rims are radii of contact. NaN where the jump from the coordinate 0 through a
+    machine does not end there: on the curve the coordinate is above 0.
     """
     for i in curves.numbers:
         made = curve_at(basis, curves, i)
@@ -36,6 +40,9 @@ def fill_pulls(basis: Basis, curves: GeneralCurves, out: Floats) -> None:
         for rim in range(rims.size):
             _, _, front, depth, load = state(waves, curve, rims[rim] / made.wavelength)
             level = curve.alpha * depth + curve.beta * load
+            size = abs(curve.alpha * depth) + abs(curve.beta * load)
+            if curve.beta > 0.0 and level > _LANDED * size:
+                continue
             load -= front * level / (curve.alpha + curve.beta * front)
             out[i, rim] = -force_unit(basis.table.k, made.length, made.depth) * load
 

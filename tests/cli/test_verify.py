@@ -68,6 +68,28 @@ def test_one_changed_value_is_found_and_named_first(output: str, gradhesion: Cal
     assert result.stderr.startswith(f"{dataset_file}: ")
 
 
+def test_loading_on_the_opening_curve_beside_a_ratio_of_1_is_found(
+    gradhesion: Call, data: dict[str, Any], write_study: Callable[[str], Path], tmp_path: Path
+) -> None:
+    """Version 0.3.0 wrote the loading of ratio 1 at every ratio: such a dataset is found, and a new one is not."""
+    from gradhesion.cli.study.reading import study_from
+
+    parameters = data["parameters"] | {"A": 0.03, "a_max_over_R": 0.5, "closing_ratio": [0.5, 1.0]}
+    outputs = ["dissipated_energy", "delta_max", "loading_jumps"]
+    path = tmp_path / "out.nc"
+    study = write_study(study_from(data | {"outputs": outputs, "parameters": parameters}).text)
+    assert gradhesion("run", study, "-o", path, "--quiet").exit_code == 0
+    assert gradhesion("verify", path, *ALL).exit_code == 0
+    with netCDF4.Dataset(path, "a") as file:
+        for name in ("delta_max", "loading_jumps"):
+            file[name][..., 0] = file[name][..., 1]
+    result = gradhesion("verify", path, *ALL)
+    assert result.exit_code == 3
+    wrong = [row for row in rows(result) if row[0] != "..." and float(row[3]) > 1.0]
+    assert {row[0] for row in wrong} == {"delta_max", "loading_jumps"}
+    assert all(" ".join(row).endswith("closing_ratio = 0.5") for row in wrong)
+
+
 def test_the_sample_is_that_of_its_seed(gradhesion: Call, dataset_file: Path) -> None:
     first, again, other = (
         gradhesion("verify", dataset_file, "--sample=3", f"--seed={seed}").stdout for seed in (5, 5, 6)

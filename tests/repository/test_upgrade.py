@@ -43,5 +43,6 @@ def test_the_changelog_begins_with_this_version_and_its_date() -> None:
     assert first[0] == version
     assert re.search(rf'^date-released: "{first[1]}"$', citation, re.MULTILINE)
     assert text.rstrip().endswith("the equations of the paper as functions of arrays."), "changes go under the newest"
-    parts = re.findall(r"^### (\w+)$", text.partition("## 0.1.0")[0], re.MULTILINE)
-    assert parts == ["Added", "Changed", "Fixed"] * text.partition("## 0.1.0")[0].count("\n## ")
+    later, _, _ = text[text.index(f"\n## {version} ") :].partition("## 0.1.0")
+    parts = re.findall(r"^### (\w+)$", later, re.MULTILINE)
+    assert parts == ["Added", "Changed", "Fixed"] * later.count("\n## ")
