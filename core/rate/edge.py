@@ -5,48 +5,43 @@ With rho = (delta_H - delta)/Delta the state at a radius is any rho; in equilibr
 
     opening  rho = 1 + lag             u = rho^2 - 1
     closing  rho = sqrt(Gamma) - lag   u = Gamma/rho^2 - 1
-    depth = depth_H - Delta rho,   load = load_H - K a^(1+k) Delta rho,   Y = depth + load/S
-    a d rho/da = push - level rho - drag u^(-1/n)
-    push = a delta_H'/Delta,   drag = eps a/((1+tau) Delta),   tau = K a^(1+k)/S
+    depth = depth_H - Delta rho,   load = load_H - T Delta rho,   Y = depth + by_load load
+    y d rho/dy = push - level rho - drag u^(-1/n)
+    push = y depth_H'/Delta,   drag = eps y/((1+tau) Delta),   tau = by_load T,   T = y^(1+k)
 
 v = v* u^(1/n) is the speed of the edge. Its slowness u^(-1/n) falls from infinity at lag = 0; where closing meets
-rho <= 0 it is 0: the edge follows at once. Lengths are in R, loads in R dgamma, energies in R^2 dgamma.
+rho <= 0 it is 0: the edge follows at once. Units are those of tables (table/layout.py), radii y = 2 pi a/lambda.
 """
 
 import math
 from typing import NamedTuple
 
+from gradhesion.core.curve.values import place_of
 from gradhesion.core.jit import kernel
-from gradhesion.core.table.functions import Functions, pairs_at
-from gradhesion.core.types import Floats
+from gradhesion.core.table.layout import HALF, PU, PU1, N, Table, Y
 
 
 class Edge(NamedTuple):
     """The edge of one contact."""
 
-    functions: Functions  # S and C of the exponent k of its half-space
-    waves: Floats  # harmonics of the punch, rows (n, cos, sin)
-    exponent: float  # m, the power of the punch
-    size: float  # delta_H of the power is size a^m
-    height: float  # A lambda, 0 of a smooth punch
-    number: float  # 2 pi/lambda
+    table: Table
+    B: float  # size of the power, B y^m
+    g: float  # size of the waves, g U
+    by_load: float  # weight of the load in what moves at the speed V, that of the depth being 1
     shortest: float  # the shortest wave, inf of a smooth punch
-    stretch: float  # Delta is stretch a^((1-k)/2)
-    stiffness: float  # K
-    spring: float  # 1/S of the machine, 0 where the depth is prescribed
-    speed: float  # eps = V/v*
+    speed: float  # eps = V/v* in the unit of depth over that of length
     power: float  # n of the law
     root: float  # rho in equilibrium
     sense: float  # 1 where rho is above that (opening), -1 where it is below (closing)
 
 
 class Place(NamedTuple):
-    """What there is at a radius, and the slopes of it, times a, that a step needs."""
+    """What there is at a radius, and slopes by ln y that a step needs."""
 
     depth: float  # depth_H
     load: float  # load_H
     adhesion: float  # Delta
-    front: float  # K a^(1+k)
+    front: float  # T
     push: float
     level: float
     drag: float
@@ -56,32 +51,35 @@ class Place(NamedTuple):
 
 
 @kernel
-def place_at(edge: Edge, a: float) -> Place:
-    """Return what there is at a radius a > 0."""
-    k, m, height = edge.functions.k, edge.exponent, edge.height
-    depth = edge.size * a**m
-    rise, bend, own = m * depth, m * m * depth, m / (1.0 + k + m) * depth  # (a d/da)^1, ^2 of depth_H; load_H/K a^(1+k)
-    if height > 0.0:
-        for h in range(len(edge.waves)):
-            n, cos, sin = edge.waves[h]
-            z = n * edge.number * a
-            S0, C0, S1, C1 = pairs_at(edge.functions, z)
-            value, more = height * z * (cos * S0 + sin * C0), height * z * (cos * S1 + sin * C1)
-            slope = height * z * z * (cos * (1.0 - z * S1) - sin * z * C1) / (1.0 + k)
-            depth, own = depth + value, own + value - more
-            rise, bend = rise + value + slope, bend + value + 3.0 * slope + z * z * (more - value)
-    adhesion, front = edge.stretch * a ** (0.5 * (1.0 - k)), edge.stiffness * a ** (1.0 + k)
-    tau = edge.spring * front
-    share, push = tau / (1.0 + tau), rise / adhesion
+def place_at(edge: Edge, y: float) -> Place:
+    """Return what there is at a radius y > 0 within the table; below it, U and U1 are straight."""
+    table, k, m = edge.table, edge.table.k, edge.table.exponent
+    stretch = y ** (-0.5 * (1.0 + k))
+    adhesion, front = y * stretch, 1.0 / (stretch * stretch)
+    power = edge.B * (y * y if m == 2.0 else y**m)
+    waves = waves1 = slope = bend = 0.0
+    if edge.g != 0.0:
+        first = table.nodes[Y, 0]
+        inner = max(y, first)
+        i, t = place_of(table, inner)
+        for n in range(N - 1, -1, -1):
+            bend = bend * t + slope
+            slope = slope * t + waves
+            waves = waves * t + table.polys[i, PU, n]
+            waves1 = waves1 * t + table.polys[i, PU1, n]
+        part, steep = edge.g * min(1.0, y / first), inner / table.nodes[HALF, i]
+        waves, waves1, slope, bend = part * waves, part * waves1, part * steep * slope, part * 2.0 * steep**2 * bend
+    tau = edge.by_load * front
+    share, push = tau / (1.0 + tau), (m * power + slope) / adhesion
     return Place(
-        depth=depth,
-        load=front * own,
+        depth=power + waves,
+        load=front * ((1.0 - table.share) * power + waves - waves1),
         adhesion=adhesion,
         front=front,
         push=push,
         level=0.5 * (1.0 - k) + (1.0 + k) * share,
-        drag=edge.speed * a / ((1.0 + tau) * adhesion),
-        push_slope=bend / adhesion - 0.5 * (1.0 - k) * push,
+        drag=edge.speed * y / ((1.0 + tau) * adhesion),
+        push_slope=(m * m * power + slope + bend) / adhesion - 0.5 * (1.0 - k) * push,
         level_slope=(1.0 + k) ** 2 * share * (1.0 - share),
         drag_slope=0.5 * (1.0 + k) - (1.0 + k) * share,
     )

@@ -1,10 +1,10 @@
-"""Steps of an edge along the arc y of its curve (s, lag), s = |ln a/a_0|, by Radau's collocation of order 11.
+"""Steps of an edge along the arc of its curve (s, lag), s = |ln y/y_0|, by Radau's collocation of order 11.
 
-    ds/dy = w,  d lag/dy = w [drive force - need],  1/w = sqrt(1 + need^2) + force
+    ds/dx = w,  d lag/dx = w [drive force - need],  1/w = sqrt(1 + need^2) + force
     need = push - level rho,   force = drag u^(-1/n)
 
 for rho = root + sense lag see edge.py. Opening goes inwards and closing outwards, with drive 1; after the machine has
-turned drive is -1. Along y nothing is steep at lag = 0, where s changes as lag^(1 + 1/n). Newton's method is for s and
+turned drive is -1. Along x nothing is steep at lag = 0, where s changes as lag^(1 + 1/n). Newton's method is for s and
 the lag at the nodes of a step; a lag is changed by way of its u^(-1/n) where that stays positive: slowly moving edges
 have a known slowness, that of the equilibrium curve, and quickly moving ones a known lag.
 """
@@ -27,10 +27,12 @@ NODES: Final = 0.5 + 0.5 * _t
 """Parts of a step at which its values are, the last one its end (Hairer & Wanner, Solving ODEs II, IV.5)."""
 _A: Final = np.ascontiguousarray(0.5 * legendre.legval(_t, legendre.legint(np.eye(STAGES), lbnd=-1)).T @ _to_series)
 """The value at node i is that at the start and h sum_j _A[i, j] f_j; (STAGES, STAGES)."""
+_SLOPES: Final = np.ascontiguousarray(np.linalg.inv(_A))
+"""The other way round: from changes of the value to h f_j."""
 _TAIL: Final = np.ascontiguousarray(_to_series[-2:])
 """Of values at the nodes, the last two coefficients of the Legendre series through them; (2, STAGES)."""
 _TOLERANCE: Final = 1e-13
-"""Error of ln a, of rho, and of the energy over that of a contact of the largest radius, in a step."""
+"""Error of ln y, of rho, and of the energy over that of a contact of the largest radius, in a step."""
 _LOST, _KINK = 0.01, 8.0
 """Parts of the last coefficients that are lost by order reduction, where the edge relaxes within a step; and at the kinks of
 the law, lag = 0 and rho = 0. From experiment: without, 1e-11 and 3e-9 of the force."""
@@ -38,11 +40,11 @@ _CLOSE: Final = 1e-7
 """A change whose square is below rounding."""
 _EPS: Final = 2.0**-52
 _LONGEST, _PART = 2.0, 0.25
-"""Longest step in ln a, and in parts of the shortest wave: a slow edge follows the curve, and could miss a fold."""
+"""Longest step in ln y, and in parts of the shortest wave: a slow edge follows the curve, and could miss a fold."""
 RADIUS, DEPTH, RHO, TROUGH = range(4)
-"""What a step can be ended at: ln a; a depth; rho; a trough of the load."""
+"""What a step can be ended at: ln y; a depth; rho; a trough of the load."""
 AWAY, LAG, SLOW, BY_AWAY, BY_LAG, WORK = range(6)
-"""Rows of nodes: s from the start of the step; the lag; u^(-1/n); ds/dy; d lag/dy; d work/dy, of int 2 pi a rho^2 da."""
+"""Rows of nodes: s from the start of the step; the lag; u^(-1/n); ds/dx; d lag/dx; d work/dx, the work being int y rho^2 dy."""
 
 
 class Room(NamedTuple):
@@ -54,13 +56,13 @@ class Room(NamedTuple):
 
 
 @kernel
-def note(edge: Edge, a: float, lag: float, track: Floats) -> None:
+def note(edge: Edge, y: float, lag: float, track: Floats) -> None:
     """Note where an edge is, in a track that has room for it."""
     if track.shape[1] > 0 and track[0, 0] < track.shape[1] - 1:
         track[0, 0] += 1
         number = int(track[0, 0])
-        track[0, number] = a
-        track[1, number], track[2, number] = state_of(place_at(edge, a), edge.root + edge.sense * lag)
+        track[0, number] = y
+        track[1, number], track[2, number] = state_of(place_at(edge, y), edge.root + edge.sense * lag)
 
 
 @kernel
@@ -88,19 +90,18 @@ def _solve(matrix: Floats) -> bool:
 
 
 @kernel
-def _set_equations(edge: Edge, drive: float, a: float, lag: float, h: float, room: Room) -> float:
+def _set_equations(edge: Edge, drive: float, y: float, lag: float, h: float, room: Room) -> float:
     """Set the equations of a step of Newton's method for the nodes; return how much the lag relaxes in the step."""
     nodes, matrix, relaxed = room.nodes, room.matrix, 0.0
     matrix[:] = 0.0
     for j in range(STAGES):
-        radius, own = a * math.exp(-edge.sense * nodes[AWAY, j]), nodes[LAG, j]
+        radius, own = y * math.exp(-edge.sense * nodes[AWAY, j]), nodes[LAG, j]
         place, rho = place_at(edge, radius), edge.root + edge.sense * own
         slow, slope = slowness(edge, own)
         need, force = place.push - place.level * rho, place.drag * slow
         size = math.sqrt(1.0 + need * need)
         w = 1.0 / (size + force)
         nodes[SLOW, j], nodes[BY_AWAY, j], nodes[BY_LAG, j] = slow, w, w * (drive * force - need)
-        nodes[WORK, j] = w * 2.0 * math.pi * (radius * rho) ** 2
         for by_lag in range(2):  # slopes by s, and by the lag
             of_need = -edge.sense * (place.level if by_lag else place.push_slope - place.level_slope * rho)
             of_force = force * (slope if by_lag else -edge.sense * place.drag_slope)
@@ -121,8 +122,8 @@ def _set_equations(edge: Edge, drive: float, a: float, lag: float, h: float, roo
 
 
 @kernel
-def advance(edge: Edge, drive: float, a: float, lag: float, h: float, room: Room) -> float:
-    """Make a step of length h from the state (a, lag); `room` then has its nodes.
+def advance(edge: Edge, drive: float, y: float, lag: float, h: float, room: Room) -> float:
+    """Make a step of length h from the state (y, lag); `room` then has its nodes.
 
     Return how much the lag relaxes in the step, NaN if Newton's method did not converge.
     """
@@ -130,7 +131,7 @@ def advance(edge: Edge, drive: float, a: float, lag: float, h: float, room: Room
     for i in range(STAGES):
         nodes[AWAY, i], nodes[LAG, i] = 0.0, lag if lag > 0.0 else h * NODES[i]
     for _ in range(16):
-        relaxed = _set_equations(edge, drive, a, lag, h, room)
+        relaxed = _set_equations(edge, drive, y, lag, h, room)
         if not _solve(room.matrix):
             return math.nan
         done = True
@@ -145,9 +146,23 @@ def advance(edge: Edge, drive: float, a: float, lag: float, h: float, room: Room
             close = max(abs(part), abs(change)) < _CLOSE or abs(change) * (1.0 + relaxed) < 4.0 * _EPS * (1.0 + old)
             done = done and close and abs(away) <= _CLOSE * abs(nodes[AWAY, i])
         if done:
-            _set_equations(edge, drive, a, lag, h, room)
+            _finish(edge, y, lag, h, nodes)
             return relaxed
     return math.nan
+
+
+@kernel
+def _finish(edge: Edge, y: float, lag: float, h: float, nodes: Floats) -> None:
+    """Set what follows from s and the lag at the nodes: slopes are those of the polynomials through them."""
+    for i in range(STAGES):
+        first = second = 0.0
+        for j in range(STAGES):
+            first += _SLOPES[i, j] * nodes[AWAY, j]
+            second += _SLOPES[i, j] * (nodes[LAG, j] - lag)
+        nodes[BY_AWAY, i], nodes[BY_LAG, i] = first / h, second / h
+        nodes[SLOW, i] = slowness(edge, nodes[LAG, i])[0]
+        rho = edge.root + edge.sense * nodes[LAG, i]
+        nodes[WORK, i] = nodes[BY_AWAY, i] * (y * math.exp(-edge.sense * nodes[AWAY, i]) * rho) ** 2
 
 
 @kernel
@@ -166,7 +181,7 @@ def _spared(values: Floats, loss: float) -> float:
 
 @kernel
 def work_in(h: float, room: Room) -> float:
-    """Return int 2 pi a rho^2 da over a step of length h."""
+    """Return int y rho^2 dy over a step of length h."""
     total = 0.0
     for j in range(STAGES):
         total += h * _A[STAGES - 1, j] * room.nodes[WORK, j]
@@ -174,21 +189,21 @@ def work_in(h: float, room: Room) -> float:
 
 
 @kernel
-def stride(edge: Edge, drive: float, a: float, lag: float, h: float, area: float, room: Room) -> tuple[float, float]:
-    """Make a step as long as its error allows, h at first, from the state (a, lag); `area` is the largest a^2.
+def stride(edge: Edge, drive: float, y: float, lag: float, h: float, area: float, room: Room) -> tuple[float, float]:
+    """Make a step as long as its error allows, h at first, from the state (y, lag); `area` is the largest y^2.
 
     Return its length (NaN if none is possible), and one to try after it.
     """
-    nodes, longest = room.nodes, min(_LONGEST, _PART * edge.shortest / a)
+    nodes, longest = room.nodes, min(_LONGEST, _PART * edge.shortest / y)
     for _ in range(200):
-        relaxed = advance(edge, drive, a, lag, h, room)
+        relaxed = advance(edge, drive, y, lag, h, room)
         away, error = nodes[AWAY, STAGES - 1], math.inf
         if away <= 1.2 * longest and not math.isnan(relaxed):
             low, high = edge.root - np.max(nodes[LAG]), edge.root - np.min(nodes[LAG])
             loss = _LOST * min(1.0, (0.1 * relaxed) ** (STAGES - 1))
             loss += _KINK if lag == 0.0 or (edge.sense < 0.0 and 2.0 * low < high and high > 0.0) else 0.0
             of_lag = _spared(nodes[BY_LAG], loss) / (1.0 + nodes[LAG, STAGES - 1])
-            of_work = _spared(nodes[WORK], 0.0) / (2.0 * math.pi * area)
+            of_work = _spared(nodes[WORK], 0.0) / area
             error = h * max(of_lag, _spared(nodes[BY_AWAY], loss), of_work)
         factor = 0.9 * (_TOLERANCE / max(error, _EPS * _TOLERANCE)) ** (1.0 / _ORDER)
         if error <= _TOLERANCE:
@@ -198,33 +213,33 @@ def stride(edge: Edge, drive: float, a: float, lag: float, h: float, area: float
 
 
 @kernel
-def measure(edge: Edge, a: float, lag: float, slow: float, what: int) -> float:
-    """Return a quantity in a state: one of `RADIUS` to `TROUGH`. That of a trough falls to 0 there as a falls:
+def measure(edge: Edge, y: float, lag: float, slow: float, what: int) -> float:
+    """Return a quantity in a state: one of `RADIUS` to `TROUGH`. That of a trough falls to 0 there as y falls:
 
-    a dP/da = K a^(1+k) Delta [force - ((3+k)/2 - level) rho]
+    y dP/dy = T Delta [force - ((3+k)/2 - level) rho]
     """
-    place, rho = place_at(edge, a), edge.root + edge.sense * lag
+    place, rho = place_at(edge, y), edge.root + edge.sense * lag
     if what == RADIUS:
-        return math.log(a)
+        return math.log(y)
     if what == DEPTH:
         return state_of(place, rho)[0]
     if what == RHO:
         return rho
-    return math.log(place.drag * slow / ((0.5 * (3.0 + edge.functions.k) - place.level) * rho))
+    return math.log(place.drag * slow / ((0.5 * (3.0 + edge.table.k) - place.level) * rho))
 
 
 @kernel
-def end_of_step(edge: Edge, a: float, room: Room) -> tuple[float, float, float]:
+def end_of_step(edge: Edge, y: float, room: Room) -> tuple[float, float, float]:
     """Return radius, lag and slowness at the end of a step."""
     nodes = room.nodes
-    return a * math.exp(-edge.sense * nodes[AWAY, -1]), nodes[LAG, -1], nodes[SLOW, -1]
+    return y * math.exp(-edge.sense * nodes[AWAY, -1]), nodes[LAG, -1], nodes[SLOW, -1]
 
 
 @kernel
 def step_until(
     edge: Edge,
     drive: float,
-    a: float,
+    y: float,
     lag: float,
     lengths: tuple[float, float],
     values: tuple[float, float],
@@ -232,7 +247,7 @@ def step_until(
     target: float,
     room: Room,
 ) -> float:
-    """Make the step from (a, lag) at whose end a quantity `what` meets a target; return its length, NaN if that fails.
+    """Make the step from (y, lag) at whose end a quantity `what` meets a target; return its length, NaN if that fails.
 
     At two `lengths` of a step the quantity has `values` on either side of it. The rule of false position (Illinois):
     each try is a step of its own.
@@ -244,9 +259,9 @@ def step_until(
         length = (low * last - high * first) / (last - first)
         if not low < length < high:
             length = 0.5 * (low + high)
-        if math.isnan(advance(edge, drive, a, lag, length, room)):
+        if math.isnan(advance(edge, drive, y, lag, length, room)):
             return math.nan
-        there, own, slow = end_of_step(edge, a, room)
+        there, own, slow = end_of_step(edge, y, room)
         value = measure(edge, there, own, slow, what) - target
         if value == 0.0 or not high - low > 2e-15 * high:
             break

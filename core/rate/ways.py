@@ -29,7 +29,7 @@ _END: Final = 1e-12
 _INNERMOST: Final = 1e-12
 """Where closing starts, over the shortest of wave, rim and the length of a smooth contact."""
 _LEFT: Final = 1e-13
-"""Remaining ln a that is left to the leading term where closing comes to rest."""
+"""Remaining ln y that is left to the leading term where closing comes to rest."""
 
 
 class Opened(NamedTuple):
@@ -38,7 +38,7 @@ class Opened(NamedTuple):
     load: float  # the lowest
     radius: float  # where that is
     speed: float  # of the edge there, in v*
-    work: float  # int 2 pi a rho^2 da of the whole way
+    work: float  # int y rho^2 dy of the whole way
     depth: float  # at separation
 
 
@@ -47,7 +47,7 @@ class Closed(NamedTuple):
 
     radius: float  # where the edge rests
     lag: float  # there
-    work: float  # int 2 pi a rho^2 da of the whole way
+    work: float  # int y rho^2 dy of the whole way
     depth: float  # when the machine turns, or the rim is met
 
 
@@ -57,16 +57,15 @@ class _Node(NamedTuple):
     length: float  # of the step up to there
     away: float  # s
     load: float
-    slope: float  # dP/ds
+    slope: float  # d load/ds
     turning: float  # positive while the load falls, 0 in a trough
 
 
 @kernel
-def _node(edge: Edge, a: float, length: float, away: float, lag: float, slow: float) -> _Node:
-    """Return the load in a state, at a distance `away` from a."""
-    a *= math.exp(-away)
-    place = place_at(edge, a)
-    need, force = (0.5 * (3.0 + edge.functions.k) - place.level) * (1.0 + lag), place.drag * slow
+def _node(edge: Edge, y: float, length: float, away: float, lag: float, slow: float) -> _Node:
+    """Return the load in a state, at a distance `away` from y."""
+    place = place_at(edge, y * math.exp(-away))
+    need, force = (0.5 * (3.0 + edge.table.k) - place.level) * (1.0 + lag), place.drag * slow
     load = state_of(place, 1.0 + lag)[1]
     return _Node(length, away, load, place.front * place.adhesion * (need - force), math.log(force / need))
 
@@ -83,43 +82,43 @@ def _bound(before: _Node, after: _Node) -> float:
 def open_edge(edge: Edge, start: float, room: Room) -> Opened:
     """Follow an edge inwards from the radius at which it rests to separation.
 
-    Near a = 0 the depth is constant, which gives the rest of the work.
+    Near y = 0 the depth is constant, which gives the rest of the work.
     """
     place = place_at(edge, start)
     h = 0.1 * min(0.1, lag_of(edge, (1.0 + abs(place.push - place.level)) / place.drag))
-    a, lag, slow, work = start, 0.0, math.inf, 0.0
+    y, lag, slow, work = start, 0.0, math.inf, 0.0
     low, radius, speed = math.inf, start, 0.0
     before = _Node(0.0, 0.0, state_of(place, 1.0)[1], -math.inf, math.inf)
-    note(edge, a, lag, room.track)
-    while a > _END * start:
-        length, h = stride(edge, 1.0, a, lag, h, start * start, room)
+    note(edge, y, lag, room.track)
+    while y > _END * start:
+        length, h = stride(edge, 1.0, y, lag, h, start * start, room)
         if math.isnan(length):
             return Opened(math.nan, math.nan, math.nan, math.nan, math.nan)
         first, last, floor = before, before, low
         for i in range(STAGES):
             nodes = room.nodes
-            node = _node(edge, a, length * NODES[i], nodes[AWAY, i], nodes[LAG, i], nodes[SLOW, i])
-            note(edge, a * math.exp(-nodes[AWAY, i]), nodes[LAG, i], room.track)
+            node = _node(edge, y, length * NODES[i], nodes[AWAY, i], nodes[LAG, i], nodes[SLOW, i])
+            note(edge, y * math.exp(-nodes[AWAY, i]), nodes[LAG, i], room.track)
             if before.turning > 0.0 >= node.turning:
                 bound = _bound(before, node)
                 if not bound >= floor:  # nor where two radii are one to rounding
                     first, last, floor = before, node, bound
             before = node
         before = _Node(0.0, 0.0, before.load, before.slope, before.turning)
-        next_a, next_lag, slow = end_of_step(edge, a, room)
+        next_a, next_lag, slow = end_of_step(edge, y, room)
         work += work_in(length, room)
         if last.length > first.length:
             ends, turnings = (first.length, last.length), (first.turning, last.turning)
-            step_until(edge, 1.0, a, lag, ends, turnings, TROUGH, 0.0, room)
-            where, own, slow_there = end_of_step(edge, a, room)
+            step_until(edge, 1.0, y, lag, ends, turnings, TROUGH, 0.0, room)
+            where, own, slow_there = end_of_step(edge, y, room)
             load = state_of(place_at(edge, where), 1.0 + own)[1]
             if not load >= low:
                 low, radius, speed = load, where, 1.0 / slow_there
-        a, lag = next_a, next_lag
-    n, k = edge.power, edge.functions.k
-    depth, load = state_of(place_at(edge, a), 1.0 + lag)
-    depth += edge.spring * load - edge.speed * a * slow * n / (n + 1.0 - k)
-    work += 2.0 * math.pi * (depth / edge.stretch) ** 2 * a ** (1.0 + k) / (1.0 + k)
+        y, lag = next_a, next_lag
+    n, k = edge.power, edge.table.k
+    depth, load = state_of(place_at(edge, y), 1.0 + lag)
+    depth += edge.by_load * load - edge.speed * y * slow * n / (n + 1.0 - k)
+    work += depth * depth * y ** (1.0 + k) / (1.0 + k)
     return Opened(low, radius, speed, work, depth)
 
 
@@ -130,41 +129,40 @@ def close_edge(edge: Edge, rim: float, target: float, furthest: float, room: Roo
     That is at the rim, where the machine turns as well if it has not, or where G = w_c after the machine has turned at
     the depth `target`. A contact starts where rho is next to 0: it follows the equilibrium of Y = 0, quickly at first.
     """
-    a = _INNERMOST * min(rim, edge.shortest, edge.stretch ** (2.0 / (3.0 + edge.functions.k)))
-    place = place_at(edge, a)
-    tau = edge.spring * place.front
-    lag = edge.root - (place.depth + edge.spring * place.load) / ((1.0 + tau) * place.adhesion)
+    y = _INNERMOST * min(rim, edge.shortest, edge.B ** (-1.0 / (edge.table.exponent - 0.5 * (1.0 - edge.table.k))))
+    place = place_at(edge, y)
+    lag = edge.root - (place.depth + edge.by_load * place.load) / ((1.0 + edge.by_load * place.front) * place.adhesion)
     depth, work, h = 0.0, 0.0, 1.0
     drive = 1.0 if target > 0.0 else -1.0
-    while a <= furthest:
-        place, slow = place_at(edge, a), slowness(edge, lag)[0]
+    while y <= furthest:
+        place, slow = place_at(edge, y), slowness(edge, lag)[0]
         need, force = place.push - place.level * (edge.root - lag), place.drag * slow
         left = lag / (need + force) * edge.power / (1.0 + edge.power)  # to lag = 0, by the leading term
-        if drive < 0.0 and 0.0 < left < _LEFT and force > need and a * (1.0 + left) < rim:
-            note(edge, a * (1.0 + left), 0.0, room.track)
-            return Closed(a * (1.0 + left), 0.0, work + 2.0 * math.pi * a * a * edge.root**2 * left, depth)
-        length, h = stride(edge, drive, a, lag, h, a * a, room)
-        next_a, next_lag, slow = end_of_step(edge, a, room)
+        if drive < 0.0 and 0.0 < left < _LEFT and force > need and y * (1.0 + left) < rim:
+            note(edge, y * (1.0 + left), 0.0, room.track)
+            return Closed(y * (1.0 + left), 0.0, work + (y * edge.root) ** 2 * left, depth)
+        length, h = stride(edge, drive, y, lag, h, y * y, room)
+        next_a, next_lag, slow = end_of_step(edge, y, room)
         reached = measure(edge, next_a, next_lag, slow, DEPTH)
         what, aim, values = RHO, 0.0, (edge.root - lag, edge.root - next_lag)  # a step ends at the kink of u^(-1/n)
         if next_a >= rim:
-            what, aim, values = RADIUS, math.log(rim), (math.log(a), math.log(next_a))
+            what, aim, values = RADIUS, math.log(rim), (math.log(y), math.log(next_a))
         if drive > 0.0 and reached >= target:
             what, aim, values = DEPTH, target, (depth, reached)
         if what != RHO or values[0] * values[1] < 0.0:
             whole = length
-            length = step_until(edge, drive, a, lag, (0.0, whole), values, what, aim, room)
+            length = step_until(edge, drive, y, lag, (0.0, whole), values, what, aim, room)
             h = max(whole - length, 1e-3 * whole)
-            next_a, next_lag, slow = end_of_step(edge, a, room)
+            next_a, next_lag, slow = end_of_step(edge, y, room)
             next_lag = edge.root if what == RHO else next_lag
         if math.isnan(length):
             break
         for i in range(STAGES):
-            note(edge, a * math.exp(room.nodes[AWAY, i]), room.nodes[LAG, i], room.track)
-        a, lag, work = next_a, next_lag, work + work_in(length, room)
-        depth = measure(edge, a, lag, slow, DEPTH) if drive > 0.0 else depth
+            note(edge, y * math.exp(room.nodes[AWAY, i]), room.nodes[LAG, i], room.track)
+        y, lag, work = next_a, next_lag, work + work_in(length, room)
+        depth = measure(edge, y, lag, slow, DEPTH) if drive > 0.0 else depth
         if what == RADIUS:
             return Closed(rim, lag, work, depth)
         if what == DEPTH:
             drive, h = -1.0, min(h, 0.1 * lag)
-    return Closed(a, math.nan, math.nan, math.nan)
+    return Closed(y, math.nan, math.nan, math.nan)
