@@ -176,11 +176,16 @@ def _moved(
         )
         out[:, index], status[index] = own, bits
 
-    with ThreadPoolExecutor(threads or processors()) as pool:
-        for k in np.unique(scenes[K][(scenes[K] >= 0.0) & (scenes[K] <= 1.0)]):
-            index = np.flatnonzero(scenes[K] == k)
-            parts = [index[first : first + _PART] for first in range(0, index.size, _PART)]
-            list(pool.map(work, [float(k)] * len(parts), [float(far[index].max())] * len(parts), parts))
+    tasks = []
+    for k in np.unique(scenes[K][(scenes[K] >= 0.0) & (scenes[K] <= 1.0)]).tolist():
+        index = np.flatnonzero(scenes[K] == k)
+        y_end = float(far[index].max())
+        tasks += [(k, y_end, index[first : first + _PART]) for first in range(0, index.size, _PART)]
+    if len(tasks) == 1:
+        work(*tasks[0])
+    else:
+        with ThreadPoolExecutor(threads or processors()) as pool:
+            list(pool.map(lambda task: work(*task), tasks))
     return {**dict(zip(names, out, strict=True)), "status": status.astype(np.int16)}
 
 

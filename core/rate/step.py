@@ -127,9 +127,14 @@ def advance(edge: Edge, drive: float, y: float, lag: float, h: float, room: Room
 
     Return how much the lag relaxes in the step, NaN if Newton's method did not converge.
     """
-    nodes = room.nodes
+    nodes, w, rate = room.nodes, 0.0, drive
+    if lag > 0.0:
+        place, rho = place_at(edge, y), edge.root + edge.sense * lag
+        need, force = place.push - place.level * rho, place.drag * slowness(edge, lag)[0]
+        w = 1.0 / (math.sqrt(1.0 + need * need) + force)
+        rate = w * (drive * force - need)
     for i in range(STAGES):
-        nodes[AWAY, i], nodes[LAG, i] = 0.0, lag if lag > 0.0 else h * NODES[i]
+        nodes[AWAY, i], nodes[LAG, i] = w * h * NODES[i], max(lag + rate * h * NODES[i], 0.5 * lag)
     for _ in range(16):
         relaxed = _set_equations(edge, drive, y, lag, h, room)
         if not _solve(room.matrix):
