@@ -16,11 +16,12 @@ from gradhesion.core.problem.names import CLOSING, CURVES, SPEED, TURNS
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE
-from gradhesion.core.rate.scenes import track_of
+from gradhesion.core.rate.scenes import move
 from gradhesion.core.sweep import solve
 
 _TYPES: Final = (np.float64, np.float64, np.float64, np.int32, np.int8, np.int8)
 """Those of the variables of a path."""
+_MOST_POINTS: Final = 2**18
 Curves: TypeAlias = dict[str, NDArray[Any]]
 
 
@@ -64,14 +65,19 @@ def draw_at_speed(
     status |= int(solved["status"])
     if status & (NO_VALUE | NO_CONTACT):
         return found | _without_contact(scene.get(TURNS[0], math.nan), known=not status & NO_VALUE), status
+    how, one = (
+        (rate, profile, loading, 1),
+        {name: np.full(1, value) for name, value in ({CLOSING: 1.0} | scene).items()},
+    )
     if rate.closing == "quasi-static":
         path, _ = draw_at_rest({CLOSING: 1.0, **rest}, ["path"])
-        own = path["path_unloading"] == 0
-        up = {name: path[name][own] for name in CURVES["path"]}
+        up = {name: path[name][path["path_unloading"] == 0] for name in CURVES["path"]}
     else:
-        states = track_of({CLOSING: 1.0, **scene}, rate, profile, loading, opens=False)
-        up = _path_of(np.concatenate([np.zeros((3, 1)), states], axis=1), unloading=False)
-    start = {**scene, "a_max_over_R": float(solved["turning_radius"])}
+        track = move(one, *how, opens=False, points=_MOST_POINTS)["track"]
+        up = _path_of(np.insert(track, 0, 0.0, axis=1), unloading=False)
+    track = move(one | {"a_max_over_R": solved["turning_radius"].reshape(1)}, *how, opens=True, points=_MOST_POINTS)[
+        "track"
+    ]
     last = [[0.0], [float(solved["delta_jump_out"])], [0.0]]
-    down = _path_of(np.append(track_of(start, rate, profile, loading, opens=True), last, axis=1), unloading=True)
+    down = _path_of(np.append(track, last, axis=1), unloading=True)
     return found | {name: np.concatenate([up[name], down[name]]) for name in up}, status

@@ -21,7 +21,7 @@ from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import CLOSING, EDGE, OUTPUTS, PULL_OFF, RATE, SPEED, TURNS
 from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_CONTACT, NO_VALUE, PULL_OFF_AT_RIM
-from gradhesion.core.rate.scenes import close_at_speed, open_at_speed
+from gradhesion.core.rate.scenes import move
 from gradhesion.core.sweep import solve
 
 KNOWN: Final = (*(name for name in OUTPUTS if not name.endswith("_jumps")), *EDGE, *RATE)
@@ -34,37 +34,31 @@ _KEPT: Final = NO_VALUE | NO_CONTACT | LOADING_NOT_ONE_DISC | CLOSE_TO_A_JUMP
 Results: TypeAlias = dict[str, NDArray[Any]]
 
 
-def _closed(scenes: Results, rate: Rate, known: Mapping[str, Any]) -> Results:
-    """Return the results of contacts that close by the same law, by the names of `_OF_CLOSING`, and `status`."""
-    made = close_at_speed(scenes, rate, known["profile"], known["loading"], known["threads"])
-    area, ratio = math.pi * made["turning_radius"] ** 2, scenes[CLOSING]
-    made["loading_energy"] = ratio * area - made.pop("closing_energy")
-    made["front_energy"] = (1.0 - ratio) * area
-    made["snap_in_force"] = np.full_like(area, math.nan)
-    return made
-
-
-def _cycles(scenes: Results, closed: Results, rate: Rate, known: Mapping[str, Any]) -> Results:
-    """Open contacts that have closed; return all results of their cycles, and `status`."""
-    radius, bits = closed["turning_radius"], closed["status"].astype(np.int16)
+def _cycles(scenes: Results, quiet: Results, rate: Rate, known: Mapping[str, Any]) -> Results:
+    """Return all results of the cycles of moving edges, and `status`; `quiet` are results of closing at rest."""
+    how, ratio = (rate, known["profile"], known["loading"], known["threads"]), scenes[CLOSING]
+    found = dict(quiet)
+    if rate.closing == "same":
+        found = move(scenes, *how, opens=False)
+        area = math.pi * found["turning_radius"] ** 2
+        found["loading_energy"], found["front_energy"] = ratio * area - found["closing_energy"], (1.0 - ratio) * area
+        found["snap_in_force"] = np.full_like(area, math.nan)
+    radius, bits = found["turning_radius"], found["status"].astype(np.int16) & _KEPT
     away = (bits & NO_CONTACT) != 0
-    start = scenes | {"a_max_over_R": np.where(away, 1.0, radius)}
-    found = open_at_speed(start, rate, known["profile"], known["loading"], known["threads"])
+    opened = move(scenes | {"a_max_over_R": np.where(away, 1.0, radius)}, *how, opens=True)
+    found |= opened | {"status": bits | np.where(away, 0, opened["status"])}
     found["unloading_energy"] = found["opening_energy"] - math.pi * radius * radius
-    status = (bits & _KEPT) | np.where(away, 0, found["status"])
-    found |= closed
     found["dissipated_energy"] = found["loading_energy"] + found["unloading_energy"] + found["front_energy"]
-    for name, values in found.items():
-        own = values if name == "delta_max" else np.where(away, _WITHOUT_CONTACT.get(name, 0.0), values)
-        found[name] = np.where(status & NO_VALUE, math.nan, own)
-    return found | {"status": status}
+    for name in {*found} - {"delta_max", "status"}:
+        found[name] = np.where(away, _WITHOUT_CONTACT.get(name, 0.0), found[name])
+    none = (found["status"] & NO_VALUE) != 0
+    return {name: values if name == "status" else np.where(none, math.nan, values) for name, values in found.items()}
 
 
 def _rate_coefficient(parameters: Mapping[str, Any], rate: Rate, slow: Results) -> NDArray[np.float64]:
     """Return the factor of (V/v*)^n in F/F_0 - 1 of a slow edge, from the pull-off of one at rest.
 
-    K a^(1+k) Delta/(2 F_0) (a/((1+k) Delta))^n with a the radius of the pull-off F_0; NaN where that is the turning
-    radius.
+    K a^(1+k) Delta/(2 F_0) (a/((1+k) Delta))^n, a being the radius of the pull-off F_0; NaN where that is the turning one.
     """
     k, M = parameters["k"], stiffness(*(parameters[name] for name in ("k", "nu", "modulus", "c0_over_R")))
     force, a = 1.5 * math.pi * slow["pull_off_force"], slow["pull_off_radius"]
@@ -88,7 +82,7 @@ def solve_at_speed(
         Names out of `KNOWN`: edge_speed_at_pull_off in v*, rate_coefficient the factor of (V/v*)^n in F/F_0 - 1 of a
         slow edge (NaN where the pull-off at rest is at the turning radius), and those of edges at rest.
     rate, known
-        The law; and the other arguments of `solve`, of which profile, loading and threads are read here.
+        The law; and the other arguments of `solve`.
 
     Returns
     -------
@@ -110,22 +104,19 @@ def solve_at_speed(
         )
     shape = np.broadcast_shapes(*(np.shape(value) for value in (speed, *given.values())))
     moves = np.broadcast_to(speed != 0.0, shape)
-    wanted = {name for name in outputs if name not in RATE} if not moves.all() else set()
-    wanted |= {*PULL_OFF} if RATE[1] in outputs else set()
-    wanted |= {*_OF_CLOSING} if held else set()
-    quiet: Results = {}
-    if wanted:
-        quiet = solve(given, [name for name in KNOWN if name in wanted], **{**known, "rate": None})
-        quiet = {name: np.broadcast_to(values, shape) for name, values in quiet.items()}
+    wanted = set() if moves.all() else {name for name in outputs if name not in RATE}
+    wanted |= ({*PULL_OFF} if RATE[1] in outputs else set()) | ({*_OF_CLOSING} if held else set())
+    quiet = solve(given, [name for name in KNOWN if name in wanted], **{**known, "rate": None})
+    quiet = {name: np.broadcast_to(values, shape) for name, values in quiet.items()}
     found: Results = {name: np.array(quiet.get(name, np.full(shape, math.nan))) for name in outputs}
-    found["status"] = np.array(quiet.get("status", np.zeros(shape)), dtype=np.int16)
+    found["status"] = quiet["status"].astype(np.int16)
     if RATE[0] in outputs:
         found[RATE[0]] = np.where(found["status"] & (NO_VALUE | NO_CONTACT), math.nan, 0.0)
     if moves.any():
         scenes = {name: np.broadcast_to(value, shape)[moves] for name, value in (given | {SPEED: speed}).items()}
-        closed = {name: values[moves] for name, values in quiet.items() if name in (*_OF_CLOSING, "status")}
-        cycles = _cycles(scenes, closed if held else _closed(scenes, rate, known), rate, known)
-        for name in (*(name for name in outputs if name != RATE[1]), "status"):
+        closed = {name: quiet[name][moves] for name in (*_OF_CLOSING, "status") if name in quiet}
+        cycles = _cycles(scenes, closed, rate, known)
+        for name in {*outputs, "status"} - {RATE[1]}:
             found[name][moves] = cycles[name]
     if RATE[1] in outputs:
         found[RATE[1]] = np.broadcast_to(_rate_coefficient(given, rate, quiet), shape)

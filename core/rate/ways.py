@@ -1,168 +1,112 @@
-"""The two ways of an edge: opening from a radius down to separation, and closing from zero contact until it rests."""
+"""The two ways of an edge: opening from a radius down to separation, and closing from zero contact until it rests.
+
+Both put their results into a column, in the units of tables, and NaN where the edge could not be followed.
+"""
 
 import math
-from typing import Final, NamedTuple
+from typing import Final
 
 from gradhesion.core.jit import kernel
-from gradhesion.core.rate.edge import Edge, lag_of, place_at, slowness, state_of
-from gradhesion.core.rate.step import (
-    AWAY,
-    DEPTH,
-    LAG,
-    NODES,
-    RADIUS,
-    RHO,
-    SLOW,
-    STAGES,
-    TROUGH,
-    Room,
-    end_of_step,
-    measure,
-    note,
-    step_until,
-    stride,
-    work_in,
-)
+from gradhesion.core.rate import step as steps
+from gradhesion.core.rate.edge import Edge, lag_of, place_at, state_of
+from gradhesion.core.rate.step import AWAY, LAG, SLOW, TROUGH, Room, end_of_step, measure, note, step_until, stride
+from gradhesion.core.types import Floats
 
-_END: Final = 1e-12
-"""How far inwards opening is followed, over its start: at most as much of the energy remains."""
-_INNERMOST: Final = 1e-12
-"""Where closing starts, over the shortest of wave, rim and the length of a smooth contact."""
+_ENDS: Final = 1e-12
+"""How far inwards opening is followed, over its start: at most as much of the energy remains. And where closing starts,
+over the shortest of wave, rim and the length of a smooth contact."""
 _LEFT: Final = 1e-13
 """Remaining ln y that is left to the leading term where closing comes to rest."""
 
 
-class Opened(NamedTuple):
-    """The results of opening; NaN where it could not be followed."""
-
-    load: float  # the lowest
-    radius: float  # where that is
-    speed: float  # of the edge there, in v*
-    work: float  # int y rho^2 dy of the whole way
-    depth: float  # at separation
-
-
-class Closed(NamedTuple):
-    """The results of closing; NaN where it could not be followed."""
-
-    radius: float  # where the edge rests
-    lag: float  # there
-    work: float  # int y rho^2 dy of the whole way
-    depth: float  # when the machine turns, or the rim is met
-
-
-class _Node(NamedTuple):
-    """The load at a place on the way inwards."""
-
-    length: float  # of the step up to there
-    away: float  # s
-    load: float
-    slope: float  # d load/ds
-    turning: float  # positive while the load falls, 0 in a trough
-
-
 @kernel
-def _node(edge: Edge, y: float, length: float, away: float, lag: float, slow: float) -> _Node:
-    """Return the load in a state, at a distance `away` from y."""
-    place = place_at(edge, y * math.exp(-away))
-    need, force = (0.5 * (3.0 + edge.table.k) - place.level) * (1.0 + lag), place.drag * slow
-    load = state_of(place, 1.0 + lag)[1]
-    return _Node(length, away, load, place.front * place.adhesion * (need - force), math.log(force / need))
-
-
-@kernel
-def _bound(before: _Node, after: _Node) -> float:
-    """Return a load above which a trough between two nodes lies, by its tangents there."""
-    between = after.away - before.away
-    share = (after.load - before.load - after.slope * between) / ((before.slope - after.slope) * between)
-    return before.load + before.slope * share * between
-
-
-@kernel
-def open_edge(edge: Edge, start: float, room: Room) -> Opened:
+def open_edge(edge: Edge, start: float, room: Room, out: Floats) -> None:
     """Follow an edge inwards from the radius at which it rests to separation.
 
-    Near y = 0 the depth is constant, which gives the rest of the work.
+    Results: the lowest load; where that is; the speed there in v*; int y rho^2 dy of the whole way; the depth at
+    separation. A trough of the load between two nodes lies above their tangents. Near y = 0 the depth is constant, which
+    gives the rest of the work.
     """
-    place = place_at(edge, start)
+    place, k = place_at(edge, start), edge.table.k
     h = 0.1 * min(0.1, lag_of(edge, (1.0 + abs(place.push - place.level)) / place.drag))
     y, lag, slow, work = start, 0.0, math.inf, 0.0
-    low, radius, speed = math.inf, start, 0.0
-    before = _Node(0.0, 0.0, state_of(place, 1.0)[1], -math.inf, math.inf)
+    low, load, fall, turning = math.inf, state_of(place, 1.0)[1], math.inf, math.inf
     note(edge, y, lag, room.track)
-    while y > _END * start:
+    while y > _ENDS * start:
         length, h = stride(edge, 1.0, y, lag, h, start * start, room)
         if math.isnan(length):
-            return Opened(math.nan, math.nan, math.nan, math.nan, math.nan)
-        first, last, floor = before, before, low
-        for i in range(STAGES):
-            nodes = room.nodes
-            node = _node(edge, y, length * NODES[i], nodes[AWAY, i], nodes[LAG, i], nodes[SLOW, i])
-            note(edge, y * math.exp(-nodes[AWAY, i]), nodes[LAG, i], room.track)
-            if before.turning > 0.0 >= node.turning:
-                bound = _bound(before, node)
-                if not bound >= floor:  # nor where two radii are one to rounding
-                    first, last, floor = before, node, bound
-            before = node
-        before = _Node(0.0, 0.0, before.load, before.slope, before.turning)
-        next_a, next_lag, slow = end_of_step(edge, y, room)
-        work += work_in(length, room)
-        if last.length > first.length:
-            ends, turnings = (first.length, last.length), (first.turning, last.turning)
-            step_until(edge, 1.0, y, lag, ends, turnings, TROUGH, 0.0, room)
-            where, own, slow_there = end_of_step(edge, y, room)
-            load = state_of(place_at(edge, where), 1.0 + own)[1]
-            if not load >= low:
-                low, radius, speed = load, where, 1.0 / slow_there
-        y, lag = next_a, next_lag
-    n, k = edge.power, edge.table.k
+            return
+        ends, turnings, floor, before, away = (0.0, 0.0), (0.0, 0.0, 0.0), low, 0.0, 0.0
+        for i in range(steps.STAGES):
+            s, own, there = room.nodes[AWAY, i], room.nodes[LAG, i], length * steps.NODES[i]
+            radius = y * math.exp(-s)
+            note(edge, radius, own, room.track)
+            place = place_at(edge, radius)
+            next_load = state_of(place, 1.0 + own)[1]
+            need, force = (0.5 * (3.0 + k) - place.level) * (1.0 + own), place.drag * room.nodes[SLOW, i]
+            next_fall, next_turning = place.front * place.adhesion * (force - need), math.log(force / need)
+            if turning > 0.0 >= next_turning:
+                share = (load - next_load - next_fall * (s - away)) / (fall - next_fall)
+                if not load - fall * share >= floor:  # nor where two radii are one to rounding
+                    ends, turnings, floor = (before, there), (turning, next_turning, 0.0), load - fall * share
+            load, fall, turning, before, away = next_load, next_fall, next_turning, there, s
+        next_y, next_lag, slow, part = end_of_step(edge, y, length, room)
+        if ends[1] > 0.0:
+            step_until(edge, 1.0, y, lag, ends, turnings, TROUGH, room)
+            radius, own, slow_there, _ = end_of_step(edge, y, length, room)
+            lowest = state_of(place_at(edge, radius), 1.0 + own)[1]
+            if not lowest >= low:
+                low = out[0] = lowest
+                out[1], out[2] = radius, 1.0 / slow_there
+        y, lag, work = next_y, next_lag, work + part
     depth, load = state_of(place_at(edge, y), 1.0 + lag)
-    depth += edge.by_load * load - edge.speed * y * slow * n / (n + 1.0 - k)
-    work += depth * depth * y ** (1.0 + k) / (1.0 + k)
-    return Opened(low, radius, speed, work, depth)
+    depth += edge.by_load * load - edge.speed * y * slow * edge.power / (edge.power + 1.0 - k)
+    out[3], out[4] = work + depth * depth * y ** (1.0 + k) / (1.0 + k), depth
 
 
 @kernel
-def close_edge(edge: Edge, rim: float, target: float, furthest: float, room: Room) -> Closed:
-    """Follow an edge outwards from zero contact at Y = 0 until it rests.
+def close_edge(edge: Edge, rim: float, target: float, furthest: float, room: Room, out: Floats) -> float:
+    """Follow an edge outwards from zero contact at Y = 0 until it rests; return how far it was followed.
 
     That is at the rim, where the machine turns as well if it has not, or where G = w_c after the machine has turned at
     the depth `target`. A contact starts where rho is next to 0: it follows the equilibrium of Y = 0, quickly at first.
+    Results: the radius at which the edge rests; the depth when the machine turned; int y rho^2 dy of the whole way; how
+    far the far end of the spring will move from there before the edge opens.
     """
-    y = _INNERMOST * min(rim, edge.shortest, edge.B ** (-1.0 / (edge.table.exponent - 0.5 * (1.0 - edge.table.k))))
+    size = edge.B ** (-1.0 / (edge.table.exponent - 0.5 * (1.0 - edge.table.k)))
+    y, work, depth, h, drive = _ENDS * min(rim, edge.shortest, size), 0.0, 0.0, 1.0, 1.0 if target > 0.0 else -1.0
     place = place_at(edge, y)
     lag = edge.root - (place.depth + edge.by_load * place.load) / ((1.0 + edge.by_load * place.front) * place.adhesion)
-    depth, work, h = 0.0, 0.0, 1.0
-    drive = 1.0 if target > 0.0 else -1.0
-    while y <= furthest:
-        place, slow = place_at(edge, y), slowness(edge, lag)[0]
-        need, force = place.push - place.level * (edge.root - lag), place.drag * slow
-        left = lag / (need + force) * edge.power / (1.0 + edge.power)  # to lag = 0, by the leading term
-        if drive < 0.0 and 0.0 < left < _LEFT and force > need and y * (1.0 + left) < rim:
-            note(edge, y * (1.0 + left), 0.0, room.track)
-            return Closed(y * (1.0 + left), 0.0, work + (y * edge.root) ** 2 * left, depth)
+    rests = False
+    while not rests:
+        w, change = steps.rates(edge, drive, y, lag)
+        left = -lag * w / change * edge.power / (1.0 + edge.power)  # to lag = 0, by the leading term
+        if drive < 0.0 and change < -0.5 and left < _LEFT and y * (1.0 + left) < rim:
+            y, lag, work, rests = y * (1.0 + left), 0.0, work + (y * edge.root) ** 2 * left, True
+            note(edge, y, lag, room.track)
+            continue
         length, h = stride(edge, drive, y, lag, h, y * y, room)
-        next_a, next_lag, slow = end_of_step(edge, y, room)
-        reached = measure(edge, next_a, next_lag, slow, DEPTH)
-        what, aim, values = RHO, 0.0, (edge.root - lag, edge.root - next_lag)  # a step ends at the kink of u^(-1/n)
-        if next_a >= rim:
-            what, aim, values = RADIUS, math.log(rim), (math.log(y), math.log(next_a))
+        next_y, next_lag, slow, part = end_of_step(edge, y, length, room)
+        reached = measure(edge, next_y, next_lag, slow, steps.DEPTH)
+        what, values = steps.RHO, (edge.root - lag, edge.root - next_lag, 0.0)  # a step ends at the kink of u^(-1/n)
+        if next_y >= rim:
+            what, values = steps.RADIUS, (math.log(y), math.log(next_y), math.log(rim))
         if drive > 0.0 and reached >= target:
-            what, aim, values = DEPTH, target, (depth, reached)
-        if what != RHO or values[0] * values[1] < 0.0:
+            what, values = steps.DEPTH, (depth, reached, target)
+        if what != steps.RHO or values[0] * values[1] < 0.0:
             whole = length
-            length = step_until(edge, drive, y, lag, (0.0, whole), values, what, aim, room)
-            h = max(whole - length, 1e-3 * whole)
-            next_a, next_lag, slow = end_of_step(edge, y, room)
-            next_lag = edge.root if what == RHO else next_lag
-        if math.isnan(length):
-            break
-        for i in range(STAGES):
+            length = step_until(edge, drive, y, lag, (0.0, whole), values, what, room)
+            next_y, next_lag, slow, part = end_of_step(edge, y, length, room)
+            next_lag, h = edge.root if what == steps.RHO else next_lag, max(whole - length, 1e-3 * whole)
+        if math.isnan(length) or next_y > furthest:
+            return next_y
+        for i in range(steps.STAGES):
             note(edge, y * math.exp(room.nodes[AWAY, i]), room.nodes[LAG, i], room.track)
-        y, lag, work = next_a, next_lag, work + work_in(length, room)
-        depth = measure(edge, y, lag, slow, DEPTH) if drive > 0.0 else depth
-        if what == RADIUS:
-            return Closed(rim, lag, work, depth)
-        if what == DEPTH:
+        y, lag, work, rests = rim if what == steps.RADIUS else next_y, next_lag, work + part, what == steps.RADIUS
+        depth = measure(edge, y, lag, slow, steps.DEPTH) if drive > 0.0 else depth
+        if what == steps.DEPTH:
             drive, h = -1.0, min(h, 0.1 * lag)
-    return Closed(y, math.nan, math.nan, math.nan)
+    place = place_at(edge, y)
+    out[0], out[1], out[2] = y, depth, work
+    out[3] = (1.0 - edge.root + lag) * place.adhesion * (1.0 + edge.by_load * place.front)
+    return y
