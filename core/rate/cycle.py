@@ -20,7 +20,14 @@ from numpy.typing import ArrayLike, NDArray
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import CLOSING, EDGE, OUTPUTS, PULL_OFF, RATE, SPEED, TURNS
 from gradhesion.core.problem.rate import Rate
-from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_CONTACT, NO_VALUE, PULL_OFF_AT_RIM
+from gradhesion.core.problem.status import (
+    CLOSE_TO_A_JUMP,
+    LOADING_NOT_ONE_DISC,
+    NO_CONTACT,
+    NO_VALUE,
+    PULL_OFF_AT_RIM,
+    TOO_MANY_WAVES,
+)
 from gradhesion.core.rate.scenes import move
 from gradhesion.core.sweep import solve
 
@@ -29,7 +36,7 @@ KNOWN: Final = (*(name for name in OUTPUTS if not name.endswith("_jumps")), *EDG
 _OF_CLOSING: Final = ("loading_energy", "front_energy", "snap_in_force", "pinned_depth", "delta_max", "turning_radius")
 _WITHOUT_CONTACT: Final = dict.fromkeys(("pull_off_radius", "delta_jump_out", "snap_in_force", RATE[0]), math.nan)
 """Results without a value where there is no contact; all others but delta_max are 0 then."""
-_KEPT: Final = NO_VALUE | NO_CONTACT | LOADING_NOT_ONE_DISC | CLOSE_TO_A_JUMP
+_KEPT: Final = NO_VALUE | TOO_MANY_WAVES | NO_CONTACT | LOADING_NOT_ONE_DISC | CLOSE_TO_A_JUMP
 """Bits of closing that are those of the cycle."""
 Results: TypeAlias = dict[str, NDArray[Any]]
 
@@ -106,7 +113,9 @@ def solve_at_speed(
     moves = np.broadcast_to(speed != 0.0, shape)
     wanted = set() if moves.all() else {name for name in outputs if name not in RATE}
     wanted |= ({*PULL_OFF} if RATE[1] in outputs else set()) | ({*_OF_CLOSING} if held else set())
-    quiet = solve(given, [name for name in KNOWN if name in wanted], **{**known, "rate": None})
+    quiet: Results = {"status": np.zeros(())}
+    if wanted:
+        quiet = solve(given, [name for name in KNOWN if name in wanted], **{**known, "rate": None})
     quiet = {name: np.broadcast_to(values, shape) for name, values in quiet.items()}
     found: Results = {name: np.array(quiet.get(name, np.full(shape, math.nan))) for name in outputs}
     found["status"] = quiet["status"].astype(np.int16)
