@@ -17,17 +17,11 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gradhesion.core.problem import status as flags
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import CLOSING, EDGE, OUTPUTS, PULL_OFF, RATE, SPEED, TURNS
 from gradhesion.core.problem.rate import Rate
-from gradhesion.core.problem.status import (
-    CLOSE_TO_A_JUMP,
-    LOADING_NOT_ONE_DISC,
-    NO_CONTACT,
-    NO_VALUE,
-    PULL_OFF_AT_RIM,
-    TOO_MANY_WAVES,
-)
+from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.rate.scenes import move
 from gradhesion.core.sweep import solve
 
@@ -36,23 +30,22 @@ KNOWN: Final = (*(name for name in OUTPUTS if not name.endswith("_jumps")), *EDG
 _OF_CLOSING: Final = ("loading_energy", "front_energy", "snap_in_force", "pinned_depth", "delta_max", "turning_radius")
 _WITHOUT_CONTACT: Final = dict.fromkeys(("pull_off_radius", "delta_jump_out", "snap_in_force", RATE[0]), math.nan)
 """Results without a value where there is no contact; all others but delta_max are 0 then."""
-_KEPT: Final = NO_VALUE | TOO_MANY_WAVES | NO_CONTACT | LOADING_NOT_ONE_DISC | CLOSE_TO_A_JUMP
+_KEPT: Final = NO_VALUE | flags.TOO_MANY_WAVES | NO_CONTACT | flags.LOADING_NOT_ONE_DISC | flags.CLOSE_TO_A_JUMP
 """Bits of closing that are those of the cycle."""
 Results: TypeAlias = dict[str, NDArray[Any]]
 
 
 def _cycles(scenes: Results, quiet: Results, rate: Rate, known: Mapping[str, Any]) -> Results:
     """Return all results of the cycles of moving edges, and `status`; `quiet` are results of closing at rest."""
-    how, ratio = (rate, known["profile"], known["loading"], known["threads"]), scenes[CLOSING]
-    found = dict(quiet)
+    ratio, found = scenes[CLOSING], dict(quiet)
     if rate.closing == "same":
-        found = move(scenes, *how, opens=False)
+        found = move(scenes, rate, known, opens=False)
         area = math.pi * found["turning_radius"] ** 2
         found["loading_energy"], found["front_energy"] = ratio * area - found["closing_energy"], (1.0 - ratio) * area
         found["snap_in_force"] = np.full_like(area, math.nan)
     radius, bits = found["turning_radius"], found["status"].astype(np.int16) & _KEPT
     away = (bits & NO_CONTACT) != 0
-    opened = move(scenes | {"a_max_over_R": np.where(away, 1.0, radius)}, *how, opens=True)
+    opened = move(scenes | {"a_max_over_R": np.where(away, 1.0, radius)}, rate, known, opens=True)
     found |= opened | {"status": bits | np.where(away, 0, opened["status"])}
     found["unloading_energy"] = found["opening_energy"] - math.pi * radius * radius
     found["dissipated_energy"] = found["loading_energy"] + found["unloading_energy"] + found["front_energy"]
@@ -65,7 +58,7 @@ def _cycles(scenes: Results, quiet: Results, rate: Rate, known: Mapping[str, Any
 def _rate_coefficient(parameters: Mapping[str, Any], rate: Rate, slow: Results) -> NDArray[np.float64]:
     """Return the factor of (V/v*)^n in F/F_0 - 1 of a slow edge, from the pull-off of one at rest.
 
-    K a^(1+k) Delta/(2 F_0) (a/((1+k) Delta))^n, a being the radius of the pull-off F_0; NaN where that is the turning one.
+    K a^(1+k) Delta/(2 F_0) (a/((1+k) Delta))^n, a being the radius of the pull-off F_0; NaN at the turning radius.
     """
     k, M = parameters["k"], stiffness(*(parameters[name] for name in ("k", "nu", "modulus", "c0_over_R")))
     force, a = 1.5 * math.pi * slow["pull_off_force"], slow["pull_off_radius"]
@@ -79,27 +72,12 @@ def _rate_coefficient(parameters: Mapping[str, Any], rate: Rate, slow: Results) 
 def solve_at_speed(
     parameters: Mapping[str, ArrayLike], outputs: Sequence[str], rate: Rate, known: Mapping[str, Any]
 ) -> Results:
-    """Solve scenes whose edge moves at a speed.
+    """Solve scenes whose edge moves at a speed; arguments are those of `solve` of core/sweep.py.
 
-    Parameters
-    ----------
-    parameters
-        As those of `solve` of core/sweep.py, and speed_over_reference V/v* >= 0, which broadcasts with them.
-    outputs
-        Names out of `KNOWN`: edge_speed_at_pull_off in v*, rate_coefficient the factor of (V/v*)^n in F/F_0 - 1 of a
-        slow edge (NaN where the pull-off at rest is at the turning radius), and those of edges at rest.
-    rate, known
-        The law; and the other arguments of `solve`.
-
-    Returns
-    -------
-    The outputs and `status` (int16), of the broadcast shape. A finite radius of the punch or a turn is needed: without
-    either there is no value. snap_in_force is NaN where the contact closes by the same law, which has no jump.
-
-    Raises
-    ------
-    ValueError
-        For a turn at a load where the contact closes by the same law.
+    `outputs` are out of `KNOWN`: edge_speed_at_pull_off in v*, rate_coefficient the factor of (V/v*)^n in F/F_0 - 1
+    of a slow edge (NaN where the pull-off at rest is at the turning radius), and those of edges at rest. A finite
+    radius of the punch or a turn is needed: without either there is no value. snap_in_force is NaN where the contact
+    closes by the same law, which has no jump; a turn at a load is refused there (ValueError).
     """
     given: dict[str, Any] = {CLOSING: 1.0} | {
         name: np.asarray(value, dtype=float) for name, value in parameters.items()
@@ -123,7 +101,7 @@ def solve_at_speed(
         found[RATE[0]] = np.where(found["status"] & (NO_VALUE | NO_CONTACT), math.nan, 0.0)
     if moves.any():
         scenes = {name: np.broadcast_to(value, shape)[moves] for name, value in (given | {SPEED: speed}).items()}
-        closed = {name: quiet[name][moves] for name in (*_OF_CLOSING, "status") if name in quiet}
+        closed = {name: values[moves] for name, values in quiet.items()}
         cycles = _cycles(scenes, closed, rate, known)
         for name in {*outputs, "status"} - {RATE[1]}:
             found[name][moves] = cycles[name]

@@ -110,4 +110,4 @@ def lag_of(edge: Edge, slow: float) -> float:
     """Return the lag at which the slowness has a positive value."""
     u = slow ** (-edge.power)
     far = math.sqrt(1.0 + u)
-    return u / (1.0 + far) if edge.sense > 0.0 else edge.root * u / (far * (1.0 + far))
+    return float(u / (1.0 + far) if edge.sense > 0.0 else edge.root * u / (far * (1.0 + far)))

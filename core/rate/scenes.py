@@ -9,9 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.jit import kernel
-from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import SPEED, TURNS
-from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.rate import MOST_WAVES, Rate
 from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE, PULL_OFF_AT_RIM, TOLERANCE_NOT_MET, TOO_MANY_WAVES
 from gradhesion.core.processors import processors
@@ -23,7 +21,7 @@ from gradhesion.core.scenes.tasks import columns_of, long_table, punch_of, scene
 from gradhesion.core.sweep import request_of
 from gradhesion.core.table.basis import basis_of
 from gradhesion.core.table.layout import EXACT, Table
-from gradhesion.core.types import Floats, Integers
+from gradhesion.core.types import Floats
 
 OPENED: Final = ("pull_off_force", "pull_off_radius", "edge_speed_at_pull_off", "opening_energy", "delta_jump_out")
 CLOSED: Final = ("turning_radius", "delta_max", "closing_energy", "pinned_depth")
@@ -32,14 +30,13 @@ _SLOWEST: Final = 1e-15
 """(V/v*)^n below which a step may pass the end of a branch unseen: the lag there is below rounding."""
 _AT_RIM: Final = 1.0 - 1e-9
 """Part of the radius where it started beyond which an edge has not moved."""
-_PART: Final = 16
-"""Scenes that a thread takes at a time: some milliseconds."""
 
 
 @kernel
-def _move(edge: Edge, opens: bool, rim: float, target: float, furthest: float, track: Floats, out: Floats) -> int:
+def _move(edge: Edge, opens: bool, rim: float, target: float, track: Floats, out: Floats) -> int:
     """Let one edge open from a rim, or close up to it or to a depth; store the results, and return the status."""
     room = Room(np.empty((6, STAGES)), np.empty((2 * STAGES, 2 * STAGES + 1)), track)
+    furthest = MOST_WAVES * edge.shortest
     if not edge.root > 0.0 or not (rim < math.inf or (target < math.inf and not opens)):
         return NO_VALUE
     if furthest < rim < math.inf and (opens or target == math.inf):
@@ -48,8 +45,7 @@ def _move(edge: Edge, opens: bool, rim: float, target: float, furthest: float, t
         open_edge(edge, rim, room, out)
         return NO_VALUE if math.isnan(out[4]) else PULL_OFF_AT_RIM if out[1] >= _AT_RIM * rim else 0
     if target < 0.0:
-        out[:] = 0.0
-        out[1] = target
+        out[0], out[1], out[2], out[3] = 0.0, target, 0.0, 0.0
         return NO_CONTACT
     reached = close_edge(edge, rim, target, furthest, room, out)
     return 0 if not math.isnan(out[3]) else NO_VALUE | TOO_MANY_WAVES if reached > furthest else NO_VALUE
@@ -57,115 +53,82 @@ def _move(edge: Edge, opens: bool, rim: float, target: float, furthest: float, t
 
 @kernel
 def move_edges(
-    punch: rows.Punch,
-    table: Table,
-    scenes: Floats,
-    reduced: Floats,
-    rate: tuple[Floats, float],
-    opens: bool,
-    track: Floats,
-    out: Floats,
-    status: Integers,
+    punch: rows.Punch, table: Table, scenes: Floats, reduced: Floats, n: float, opens: bool, track: Floats, out: Floats
 ) -> None:
-    """Open or close the contacts of scenes of one exponent; `out` has a row a result, NaN where nothing is stored.
+    """Open or close the contacts of scenes of one exponent by a law of the power n.
 
-    `rate` are V/v*, (scenes,), and n of the law; `scenes` and `reduced` those of scenes/reduced.py. `track` takes where
-    the edge of the last scene has been, as that of `Room`.
+    `scenes` and `reduced` are those of scenes/reduced.py, the first with a last row of V/v*. `out` has a row a result,
+    NaN where nothing is stored, and a last one of status. `track` takes where the edge of the last scene has been.
     """
-    speeds, n = rate
     shortest = 2.0 * math.pi / np.max(punch.waves[:, 0])
     for i in range(scenes.shape[1]):
-        status[i] = NO_VALUE
-        if not rows.is_valid(punch, scenes, reduced, i) or not 0.0 < speeds[i] < math.inf:
+        speed, units = scenes[-1, i], reduced[:, i].copy()
+        if not rows.is_valid(punch, scenes, reduced, i) or not 0.0 < speed < math.inf:
+            out[-1, i] = NO_VALUE
             continue
-        B, g, by_load, rim = (
-            reduced[rows.BY_POWER, i],
-            reduced[rows.BY_WAVES, i],
-            reduced[rows.BY_LOAD, i],
-            reduced[rows.RIM_Y, i],
+        edge = Edge(
+            table=table,
+            B=units[rows.BY_POWER],
+            g=units[rows.BY_WAVES],
+            by_load=units[rows.BY_LOAD],
+            shortest=shortest if units[rows.BY_WAVES] > 0.0 else math.inf,
+            speed=speed * units[rows.LENGTH] / units[rows.DEPTH],
+            power=n,
+            root=1.0 if opens else math.sqrt(scenes[rows.RATIO, i]),
+            sense=1.0 if opens else -1.0,
         )
-        wave = shortest if g > 0.0 else math.inf
-        speed = speeds[i] * reduced[rows.LENGTH, i] / reduced[rows.DEPTH, i]
-        root, sense = (1.0, 1.0) if opens else (math.sqrt(scenes[rows.RATIO, i]), -1.0)
-        target = math.inf if punch.turn == rows.AT_RIM else reduced[rows.TARGET_VALUE, i]
-        edge = Edge(table, B, g, by_load, wave, speed, n, root, sense)
-        status[i] = _move(edge, opens, rim, target, MOST_WAVES * wave, track, out[:, i])
-        if speeds[i] ** n < _SLOWEST and not status[i] & (NO_VALUE | NO_CONTACT):
-            status[i] |= TOLERANCE_NOT_MET
+        target = math.inf if punch.turn == rows.AT_RIM else units[rows.TARGET_VALUE]
+        status = _move(edge, opens, units[rows.RIM_Y], target, track, out[:, i])
+        too_slow = speed**n < _SLOWEST and not status & (NO_VALUE | NO_CONTACT)
+        out[-1, i] = status | (TOLERANCE_NOT_MET if too_slow else 0)
 
 
 def move(
-    parameters: Mapping[str, ArrayLike],
-    rate: Rate,
-    profile: Profile,
-    loading: Loading,
-    threads: int | None,
-    *,
-    opens: bool,
-    points: int = 0,
+    parameters: Mapping[str, ArrayLike], rate: Rate, known: Mapping[str, Any], *, opens: bool, points: int = 0
 ) -> dict[str, NDArray[Any]]:
     """Return the results of contacts that open, or close by the same law G = w_c/[1 + (v/v*)^n], at a speed.
 
-    Opening goes from the radius at which rho = 1 to separation; closing starts from zero contact at Y = 0, which is what
+    Opening goes from the radius at which rho = 1 to separation; closing starts from zero contact at Y = 0. Y is what
     moves at the speed V: the depth, or the far end of the spring. Where the machine turns, at the depth
     indentation_max_over_R, the edge goes on closing until G = w_c or the rim is met; a punch whose rim is met first
     stays there. At rho <= 0 the edge follows at once.
 
-    Parameters
-    ----------
-    parameters
-        Those of `solve` of core/sweep.py, arrays (scenes,), and speed_over_reference V/v* > 0; a_max_over_R is where
-        opening starts.
-    rate, profile, loading, threads
-        As of `solve`.
-    opens
-        Whether the contacts open.
-    points
-        Length of the track of the last scene: 0 if there is more than one.
+    `parameters` are those of `solve` of core/sweep.py, arrays (scenes,), and speed_over_reference V/v* > 0;
+    a_max_over_R is where opening starts. `known` has profile, loading and threads as of `solve`. `points` is the length
+    of the track of the last scene, 0 if there is more than one.
 
-    Returns
-    -------
-    Arrays (scenes,) by the names of `OPENED` or `CLOSED`: those of results of cycles, opening_energy and closing_energy
-    int 2 pi a G da in R^2 dgamma, and pinned_depth how far the far end moves from where the edge rests to where it
-    opens. `status` (int16): pull_off_at_rim (the edge has moved by less than 1e-9), tolerance_not_met ((V/v*)^n below
-    1e-15), no_contact, no_value (all values are NaN), and too_many_waves with it. `track`, (3, .): radii and depths in
-    R, loads in 1.5 pi R dgamma, step by step.
+    Returns arrays (scenes,) by the names of `OPENED` or `CLOSED`: those of results of cycles, opening_energy and
+    closing_energy int 2 pi a G da in R^2 dgamma, and pinned_depth how far the far end moves from where the edge rests
+    to where it opens. `status` (int16): pull_off_at_rim (the edge has moved by less than 1e-9), tolerance_not_met
+    ((V/v*)^n below 1e-15), no_contact, no_value (all values are NaN), and too_many_waves with it. `track`, (3, .):
+    radii and depths in R, loads in 1.5 pi R dgamma, step by step.
     """
     turn = TURNS[0] if TURNS[0] in parameters and not opens else None
-    request, shape = request_of(parameters, turn, profile, loading, None)
+    request, shape = request_of(parameters, turn, known["profile"], known["loading"], None)
     punch, names, (columns, count) = punch_of(request), OPENED if opens else CLOSED, columns_of(request)
-    scenes, speeds = scenes_of(columns, 0, count), np.broadcast_to(np.asarray(parameters[SPEED], dtype=float), shape)
+    scenes = np.vstack([scenes_of(columns, 0, count), np.broadcast_to(parameters[SPEED], shape).reshape(1, -1)])
     reduced = rows.reduced_of(punch, basis_of(punch.exponent, punch.waves), scenes, np.ones(count), np.zeros(count))
-    out, status, track = (
-        np.full((len(names), count), np.nan),
-        np.full(count, NO_VALUE, dtype=np.int64),
-        np.zeros((3, points)),
-    )
+    out, track = np.full((len(names) + 1, count), np.nan), np.zeros((3, points))
+    out[-1] = NO_VALUE
     far = np.where(reduced[rows.BY_WAVES] > 0.0, reduced[rows.RIM_Y if turn is None else rows.NEED], 0.0)
     far = np.fmin(np.where(far < np.inf, far, 0.0), 2.0 * math.pi * MOST_WAVES / punch.waves[:, 0].max())
 
-    def work(task: tuple[float, NDArray[np.int64]]) -> None:
-        """Solve some scenes of one exponent."""
-        k, index = task
-        own, bits = np.full((len(names), index.size), np.nan), np.empty(index.size, dtype=np.int64)
-        table = long_table(punch, k, EXACT, 1, float(far[scenes[rows.K] == k].max()))[0]
-        law = np.ascontiguousarray(speeds[index]), rate.exponent
-        move_edges(punch, table, scenes[:, index], reduced[:, index], law, opens, track, own, bits)
-        out[:, index], status[index] = own, bits
+    def work(k: float) -> None:
+        """Solve the scenes of one exponent."""
+        own = np.flatnonzero(scenes[rows.K] == k)
+        table, found = long_table(punch, k, EXACT, 1, float(far[own].max()))[0], out[:, own]
+        move_edges(punch, table, scenes[:, own], reduced[:, own], rate.exponent, opens, track, found)
+        out[:, own] = found
 
-    tasks = []
-    for k in np.unique(scenes[rows.K][(scenes[rows.K] >= 0.0) & (scenes[rows.K] <= 1.0)]).tolist():
-        index = np.flatnonzero(scenes[rows.K] == k)
-        tasks += [(k, index[first : first + _PART]) for first in range(0, index.size, _PART)]
-    with ThreadPoolExecutor(threads or processors()) as pool:
-        list(map(work, tasks) if len(tasks) == 1 else pool.map(work, tasks))
+    with ThreadPoolExecutor(known["threads"] or processors()) as pool:
+        list(pool.map(work, [k for k in np.unique(scenes[rows.K]).tolist() if 0.0 <= k <= 1.0]))
     length, depth = reduced[rows.LENGTH], reduced[rows.DEPTH]
     load, area = reduced[rows.LOAD] * rows.UNIT_OF_FORCE, 2.0 * math.pi * length**2
     units = (-load, length, 1.0, area, depth) if opens else (length, depth, area, depth)
-    found: dict[str, NDArray[Any]] = {name: row * unit for name, row, unit in zip(names, out, units, strict=True)}
+    found: dict[str, NDArray[Any]] = {name: row * unit for name, row, unit in zip(names, out, units, strict=False)}
     if not opens:  # a rim that is met is the one that was given
-        radius, rim = found["turning_radius"], scenes[rows.RIM]
+        rim, radius = scenes[rows.RIM], found["turning_radius"]
         found["turning_radius"] = np.where(radius > rim * (1.0 - 1e-15), rim, radius)
     if points > 0:
         found["track"] = track[:, 1 : int(track[0, 0]) + 1] * np.array([length, depth, load])
-    return found | {"status": status.astype(np.int16)}
+    return found | {"status": out[-1].astype(np.int16)}

@@ -24,8 +24,7 @@ def open_edge(edge: Edge, start: float, room: Room, out: Floats) -> None:
     """Follow an edge inwards from the radius at which it rests to separation.
 
     Results: the lowest load; where that is; the speed there in v*; int y rho^2 dy of the whole way; the depth at
-    separation. A trough of the load between two nodes lies above their tangents. Near y = 0 the depth is constant, which
-    gives the rest of the work.
+    separation. A trough of the load between two nodes lies above their tangents. Near y = 0 the depth is constant.
     """
     place, k = place_at(edge, start), edge.table.k
     h = 0.1 * min(0.1, lag_of(edge, (1.0 + abs(place.push - place.level)) / place.drag))
@@ -99,7 +98,7 @@ def close_edge(edge: Edge, rim: float, target: float, furthest: float, room: Roo
             next_y, next_lag, slow, part = end_of_step(edge, y, length, room)
             next_lag, h = edge.root if what == steps.RHO else next_lag, max(whole - length, 1e-3 * whole)
         if math.isnan(length) or next_y > furthest:
-            return next_y
+            return float(next_y)
         for i in range(steps.STAGES):
             note(edge, y * math.exp(room.nodes[AWAY, i]), room.nodes[LAG, i], room.track)
         y, lag, work, rests = rim if what == steps.RADIUS else next_y, next_lag, work + part, what == steps.RADIUS
@@ -109,4 +108,4 @@ def close_edge(edge: Edge, rim: float, target: float, furthest: float, room: Roo
     place = place_at(edge, y)
     out[0], out[1], out[2] = y, depth, work
     out[3] = (1.0 - edge.root + lag) * place.adhesion * (1.0 + edge.by_load * place.front)
-    return y
+    return float(y)
