@@ -43,7 +43,7 @@ def _move(edge: Edge, opens: bool, rim: float, target: float, track: Floats, out
         return NO_VALUE | TOO_MANY_WAVES
     if opens:
         open_edge(edge, rim, room, out)
-        return NO_VALUE if math.isnan(out[4]) else PULL_OFF_AT_RIM if out[1] >= _AT_RIM * rim else 0
+        return NO_VALUE if math.isnan(out[0] + out[4]) else PULL_OFF_AT_RIM if out[1] >= _AT_RIM * rim else 0
     if target < 0.0:
         out[0], out[1], out[2], out[3] = 0.0, target, 0.0, 0.0
         return NO_CONTACT

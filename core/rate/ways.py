@@ -4,7 +4,7 @@ Both put their results into a column, in the units of tables, and NaN where the 
 """
 
 import math
-from typing import Final
+from typing import Final, NamedTuple
 
 from gradhesion.core.jit import kernel
 from gradhesion.core.rate import step as steps
@@ -19,43 +19,64 @@ _LEFT: Final = 1e-13
 """Remaining ln y that is left to the leading term where closing comes to rest."""
 
 
+class _Point(NamedTuple):
+    """The load on the way inwards, at a node of a step."""
+
+    length: float  # of the step up to there
+    away: float  # s
+    load: float
+    slope: float  # d load/ds
+    turning: float  # positive while the load falls, 0 in a trough
+
+
+@kernel
+def _point_at(edge: Edge, y: float, length: float, away: float, lag: float, slow: float) -> _Point:
+    """Return the load in a state, at a distance `away` from y."""
+    place = place_at(edge, y * math.exp(-away))
+    need, force = (0.5 * (3.0 + edge.table.k) - place.level) * (1.0 + lag), place.drag * slow
+    slope = place.front * place.adhesion * (need - force)
+    return _Point(length, away, state_of(place, 1.0 + lag)[1], slope, math.log(force / need))
+
+
+@kernel
+def _bound(first: _Point, last: _Point) -> float:
+    """Return a load above which a trough between two points lies, by its tangents there."""
+    between = last.away - first.away
+    share = (last.load - first.load - last.slope * between) / (first.slope - last.slope)
+    return first.load + first.slope * share
+
+
 @kernel
 def open_edge(edge: Edge, start: float, room: Room, out: Floats) -> None:
     """Follow an edge inwards from the radius at which it rests to separation.
 
     Results: the lowest load; where that is; the speed there in v*; int y rho^2 dy of the whole way; the depth at
-    separation. A trough of the load between two nodes lies above their tangents. Near y = 0 the depth is constant.
+    separation. Near y = 0 the depth is constant, which gives the rest of the work.
     """
-    place, k = place_at(edge, start), edge.table.k
+    place, nodes, k = place_at(edge, start), room.nodes, edge.table.k
     h = 0.1 * min(0.1, lag_of(edge, (1.0 + abs(place.push - place.level)) / place.drag))
-    y, lag, slow, work = start, 0.0, math.inf, 0.0
-    low, load, fall, turning = math.inf, state_of(place, 1.0)[1], math.inf, math.inf
+    y, lag, slow, work, low = start, 0.0, math.inf, 0.0, math.inf
+    before = _Point(0.0, 0.0, state_of(place, 1.0)[1], -math.inf, math.inf)
     note(edge, y, lag, room.track)
     while y > _ENDS * start:
         length, h = stride(edge, 1.0, y, lag, h, start * start, room)
         if math.isnan(length):
             return
-        ends, turnings, floor, before, away = (0.0, 0.0), (0.0, 0.0, 0.0), low, 0.0, 0.0
+        first, last, floor = before, before, low
         for i in range(steps.STAGES):
-            s, own, there = room.nodes[AWAY, i], room.nodes[LAG, i], length * steps.NODES[i]
-            radius = y * math.exp(-s)
-            note(edge, radius, own, room.track)
-            place = place_at(edge, radius)
-            next_load = state_of(place, 1.0 + own)[1]
-            need, force = (0.5 * (3.0 + k) - place.level) * (1.0 + own), place.drag * room.nodes[SLOW, i]
-            next_fall, next_turning = place.front * place.adhesion * (force - need), math.log(force / need)
-            if turning > 0.0 >= next_turning:
-                share = (load - next_load - next_fall * (s - away)) / (fall - next_fall)
-                if not load - fall * share >= floor:  # nor where two radii are one to rounding
-                    ends, turnings, floor = (before, there), (turning, next_turning, 0.0), load - fall * share
-            load, fall, turning, before, away = next_load, next_fall, next_turning, there, s
+            point = _point_at(edge, y, length * steps.NODES[i], nodes[AWAY, i], nodes[LAG, i], nodes[SLOW, i])
+            note(edge, y * math.exp(-nodes[AWAY, i]), nodes[LAG, i], room.track)
+            if before.turning > 0.0 >= point.turning and not _bound(before, point) >= floor:  # NaN at the same radius
+                first, last, floor = before, point, _bound(before, point)
+            before = point
+        before = _Point(0.0, 0.0, before.load, before.slope, before.turning)
         next_y, next_lag, slow, part = end_of_step(edge, y, length, room)
-        if ends[1] > 0.0:
-            step_until(edge, 1.0, y, lag, ends, turnings, TROUGH, room)
+        if last.length > first.length:
+            step_until(edge, 1.0, y, lag, (first.length, last.length), (first.turning, last.turning, 0.0), TROUGH, room)
             radius, own, slow_there, _ = end_of_step(edge, y, length, room)
-            lowest = state_of(place_at(edge, radius), 1.0 + own)[1]
-            if not lowest >= low:
-                low = out[0] = lowest
+            load = state_of(place_at(edge, radius), 1.0 + own)[1]
+            if load < low:
+                low = out[0] = load
                 out[1], out[2] = radius, 1.0 / slow_there
         y, lag, work = next_y, next_lag, work + part
     depth, load = state_of(place_at(edge, y), 1.0 + lag)
