@@ -131,13 +131,12 @@ def _study(folder: Path, fingerprint: str) -> Any:
 def _loaded(folder: Path, fingerprint: str) -> Any:
     """Read the study of a folder, and compile what it needs; once in a process."""
     from gradhesion.cli.errors import DatasetError  # noqa: PLC0415
-    from gradhesion.cli.work.kernels.kernels import compile_kinds, kinds_of  # noqa: PLC0415
+    from gradhesion.cli.work.compiling import compile_for  # noqa: PLC0415
     from gradhesion.cli.work.parts.folder import Folder  # noqa: PLC0415
     from gradhesion.cli.work.parts.manifest import study_in  # noqa: PLC0415
 
     study = study_in(Folder(folder), folder)
     if study.sha256 != fingerprint:
         raise DatasetError(f"{folder}: of another study")
-    with suppress(Exception):  # the block that is asked for will show it
-        compile_kinds(kinds_of(study))
+    compile_for(study)
     return study

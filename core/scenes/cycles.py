@@ -11,7 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from gradhesion.core.curve.folds import CLOSE, find_folds
-from gradhesion.core.curve.trace import END, LANDING, START
+from gradhesion.core.curve.levels import polished
+from gradhesion.core.curve.trace import END, END_LEVEL, LANDING, START
 from gradhesion.core.curve.values import Curve, coordinate_of, softness, state_in
 from gradhesion.core.cycle.disc import Disc, gap_is_open, loading_is_one_disc
 from gradhesion.core.cycle.path import load_to, unload_from, visited_within, walk_loading
@@ -111,7 +112,7 @@ class Walked(NamedTuple):
     pattern: Pattern
     ratio: float  # of the works of closing and opening
     limits: Floats  # (2,): those of `loading_is_one_disc`
-    count: int  # branches of closing; negative: the table is too short
+    branches: int  # of closing; negative: the table is too short
     visits: int  # those that loading visits
     measured: int  # branches of the depth or load at which cycles turn, of a trace of its own; -1: those of closing
 
@@ -120,7 +121,7 @@ CLOSING_TRACE, OPENING_TRACE, MEASURED_TRACE = range(3)
 
 
 @kernel
-def _pattern_of(punch: Punch, scenes: Floats, reduced: Floats, i: int) -> Pattern:
+def pattern_of(punch: Punch, scenes: Floats, reduced: Floats, i: int) -> Pattern:
     """Return the pattern of toughness of scene i."""
     amplitude = scenes[PATTERN_AMPLITUDE, i]
     waves, most, steep = reduced[PATTERN_WAVES, i], reduced[MOST, i], reduced[STEEP, i]
@@ -128,8 +129,8 @@ def _pattern_of(punch: Punch, scenes: Floats, reduced: Floats, i: int) -> Patter
 
 
 @kernel
-def _curve_of(task: Task, pattern: Pattern, reduced: Floats, i: int, root: float, y_end: float, which: int) -> Curve:
-    """Return a curve of scene i, sizes over `root`: of a table with its pattern, filled up to y_end into room `which`."""
+def curve_of(task: Task, pattern: Pattern, reduced: Floats, i: int, root: float, y_end: float, which: int) -> Curve:
+    """Return a curve of scene i, sizes over `root`; a table with its pattern is filled up to y_end into room `which`."""
     B, g = reduced[BY_POWER, i] / root, reduced[BY_WAVES, i] / root
     table = task.table
     if pattern.rows.shape[1] > 0:
@@ -162,16 +163,22 @@ def _walk(task: Task, scenes: Floats, reduced: Floats, i: int, y_end: float) -> 
     rooms, turn = task.rooms, task.punch.turn
     ratio = reduced[CLOSING, i]
     filled = y_end if y_end < math.inf else reduced[WINDOW, i]
-    pattern = _pattern_of(task.punch, scenes, reduced, i)
-    closing = _curve_of(task, pattern, reduced, i, math.sqrt(ratio), filled, 0)
-    opening = closing if ratio == 1.0 else _curve_of(task, pattern, reduced, i, 1.0, filled, 1)
+    pattern = pattern_of(task.punch, scenes, reduced, i)
+    closing = curve_of(task, pattern, reduced, i, math.sqrt(ratio), filled, 0)
+    opening = closing if ratio == 1.0 else curve_of(task, pattern, reduced, i, 1.0, filled, 1)
     trace = rooms.traces[CLOSING_TRACE]
     count = find_folds(closing, y_end, trace)
     visits, measured = 0, -1
     if count >= 0:
         visits = walk_loading(closing, trace, count, rooms.columns[0])
+        if turn != AT_RIM:  # losses forgive the error of a landing, but not where a cycle turns
+            level = 0.0
+            for v in range(visits):
+                j = rooms.columns[0, v]
+                trace[LANDING, j] = polished(closing, trace[LANDING, j], level)
+                level = trace[END_LEVEL, j]
         own = measured_curve(closing, turn)
-        if turn != AT_RIM and own.by_depth != closing.by_depth or (turn == AT_DEPTH and closing.by_load > 0.0):
+        if (turn != AT_RIM and own.by_depth != closing.by_depth) or (turn == AT_DEPTH and closing.by_load > 0.0):
             measured = find_folds(own, y_end, rooms.traces[MEASURED_TRACE])
     limits = np.array([0.0, -1.0])
     return Walked(closing, opening, pattern, ratio, limits, count, visits, measured)
@@ -194,14 +201,14 @@ def _turn(task: Task, walked: Walked, reduced: Floats, i: int) -> float:
         rooms.columns[0],
         walked.visits,
         rooms.traces[MEASURED_TRACE if own else CLOSING_TRACE],
-        walked.measured if own else walked.count,
+        walked.measured if own else walked.branches,
     )
     return min(found, float(reduced[RIM_Y, i]))
 
 
 @kernel
 def _snap_in(closing: Curve, landing: float) -> float:
-    """Return the pull after the jump from zero contact to a radius, at the coordinate 0, in the unit of load of closing."""
+    """Return the pull after the jump from zero contact to a radius, at the coordinate 0, in loads of closing."""
     if landing > end_of(closing.table):
         return math.nan
     depth, load = state_in(closing, landing)
@@ -211,7 +218,7 @@ def _snap_in(closing: Curve, landing: float) -> float:
 
 @kernel
 def _loading_keeps_one_disc(task: Task, walked: Walked, y: float, reduced: Floats, i: int) -> bool:
-    """Return whether the contact stays one disc on loading up to y, where the cycle turns, and there, out to the rim."""
+    """Return whether the contact stays one disc on loading up to y, where the cycle turns, and around it there."""
     rooms, rim, root = task.rooms, reduced[RIM_Y, i], math.sqrt(walked.ratio)
     weights = walked.closing
     plain = Curve(
@@ -230,7 +237,7 @@ def _loading_keeps_one_disc(task: Task, walked: Walked, y: float, reduced: Float
 def _is_tied(task: Task, walked: Walked, opened: int, y: float, reduced: Floats, i: int) -> bool:
     """Return whether a decision of the cycle of scene i, which turns at y, is close."""
     traces, closing, opening = task.rooms.traces, walked.closing, walked.opening
-    if rim_is_tied(closing, y) or loading_is_tied(closing, y, traces[CLOSING_TRACE], walked.count):
+    if rim_is_tied(closing, y) or loading_is_tied(closing, y, traces[CLOSING_TRACE], walked.branches):
         return True
     if walked.ratio < 1.0 and rim_is_tied(opening, y):
         return True
@@ -241,7 +248,7 @@ def _is_tied(task: Task, walked: Walked, opened: int, y: float, reduced: Floats,
     target = reduced[TARGET_VALUE, i] / math.sqrt(walked.ratio)
     own = walked.measured >= 0
     branches = traces[MEASURED_TRACE if own else CLOSING_TRACE]
-    count = walked.measured if own else walked.count
+    count = walked.measured if own else walked.branches
     return target_is_tied(measured_curve(closing, task.punch.turn), target, y, branches, count)
 
 
@@ -291,7 +298,7 @@ def _put_edge(task: Task, walked: Walked, y: float, reduced: Floats, i: int, out
 
 @kernel
 def _put_cycle(task: Task, walked: Walked, opened: int, y: float, reduced: Floats, i: int, out: Floats) -> int:
-    """Store what the cycle of scene i, which turns at y, loses; return its bits of status, -1 if the table is too short."""
+    """Store what the cycle of scene i, which turns at y, loses; return its bits of status, -1: too short a table."""
     rooms, closing, opening = task.rooms, walked.closing, walked.opening
     loading, visited = rooms.traces[CLOSING_TRACE], rooms.columns[0]
     unloading = loading if walked.ratio == 1.0 else rooms.traces[OPENING_TRACE]
@@ -321,7 +328,7 @@ def _put_cycle(task: Task, walked: Walked, opened: int, y: float, reduced: Float
 
 
 @kernel
-def _turns_of(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> Walked:
+def turns_of(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> Walked:
     """Store where scenes of one curve turn, in TURN, as a reduced radius; return their curve of closing as walked.
 
     The curve is traced as far as some scene is sure to turn, and farther where a jump has passed its target.
@@ -334,7 +341,7 @@ def _turns_of(task: Task, scenes: Floats, reduced: Floats, first: int, last: int
         walked = _walk(task, scenes, reduced, first, far)
         farther = False
         for i in range(first, last):
-            y = _turn(task, walked, reduced, i) if walked.count >= 0 else math.nan
+            y = _turn(task, walked, reduced, i) if walked.branches >= 0 else math.nan
             if task.punch.turn != AT_RIM and y == reduced[RIM_Y, i] and far < min(y, end):
                 farther = True  # not reached as far as the curve is traced
             out[TURN, i] = y
@@ -346,7 +353,7 @@ def _turns_of(task: Task, scenes: Floats, reduced: Floats, first: int, last: int
 @kernel
 def _last_fold(task: Task, walked: Walked) -> float:
     """Return the radius of the outermost fold of opening, 0 if there is none; the third trace is overwritten."""
-    if walked.count < 0 or walked.opening.g == 0.0:
+    if walked.branches < 0 or walked.opening.g == 0.0:
         return 0.0
     trace = task.rooms.traces[MEASURED_TRACE]
     count = find_folds(walked.opening, math.inf, trace)
@@ -356,20 +363,30 @@ def _last_fold(task: Task, walked: Walked) -> float:
 
 
 @kernel
-def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
-    """Solve the scenes `first` to `last` - 1, all of one curve and valid; store their results, or SHORT as status."""
-    walked = _turns_of(task, scenes, reduced, first, last, out)
-    opening = walked.opening
-    end, farthest = end_of(opening.table), 0.0
+def open_curve(task: Task, walked: Walked, first: int, last: int, out: Floats) -> tuple[int, float]:
+    """Trace the curve of opening of scenes whose TURN is stored; return its branches and the farthest turn.
+
+    Those that turn beyond the table get SHORT as status and no TURN.
+    """
+    end, farthest = end_of(walked.opening.table), 0.0
     for i in range(first, last):
-        beyond = task.punch.turn != AT_RIM and out[TURN, i] >= end and walked.count >= 0
+        beyond = task.punch.turn != AT_RIM and out[TURN, i] >= end and walked.branches >= 0
         if math.isnan(out[TURN, i]) or beyond:
             no_value(out, i, SHORT)
         else:
             farthest = max(farthest, out[TURN, i])
-    opened = walked.count
-    if walked.ratio < 1.0 and walked.count >= 0 and farthest > 0.0:
-        opened = find_folds(opening, farthest, task.rooms.traces[OPENING_TRACE])
+    opened = walked.branches
+    if walked.ratio < 1.0 and walked.branches >= 0 and farthest > 0.0:
+        opened = find_folds(walked.opening, farthest, task.rooms.traces[OPENING_TRACE])
+    return opened, farthest
+
+
+@kernel
+def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
+    """Solve the scenes `first` to `last` - 1, all of one curve and valid; store their results, or SHORT as status."""
+    walked = turns_of(task, scenes, reduced, first, last, out)
+    opening = walked.opening
+    opened, farthest = open_curve(task, walked, first, last, out)
     table = task.by_load if walked.pattern.rows.shape[1] == 0 else opening.table
     pull = Curve(table, opening.B, opening.g, 0.0, 1.0)
     lowest = Lowest(0.0, 0.0, 0.0, 0.0, True)
@@ -387,7 +404,7 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
         if y < farthest and max(lowest.y, lowest.second_y) > y:
             own = lowest_load(pull, y, 0, table.bins)
         bits = -1
-        if walked.count >= 0 and opened >= 0 and own.known and own.load < 0.0:
+        if walked.branches >= 0 and opened >= 0 and own.known and own.load < 0.0:
             bits = _put_cycle(task, walked, opened, y, reduced, i, out)
         if bits < 0:
             no_value(out, i, SHORT)
@@ -409,20 +426,23 @@ def _may_be_solved(task: Task, scenes: Floats, reduced: Floats, i: int, out: Flo
 
 
 @kernel
+def curve_end(task: Task, scenes: Floats, reduced: Floats, start: int, last: int, out: Floats) -> int:
+    """Return the end of the scenes from `start` on that share its curve; `start` if it cannot be solved (stored)."""
+    end = start
+    while end < last and same_curve(scenes, reduced, start, end) and _may_be_solved(task, scenes, reduced, end, out):
+        end += 1
+    return end
+
+
+@kernel
 def solve_cycles(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Solve the scenes `first` to `last` - 1 of one exponent."""
     start = first
     while start < last:
-        end = start + 1
-        if _may_be_solved(task, scenes, reduced, start, out):
-            while (
-                end < last
-                and same_curve(scenes, reduced, start, end)
-                and _may_be_solved(task, scenes, reduced, end, out)
-            ):
-                end += 1
+        end = curve_end(task, scenes, reduced, start, last, out)
+        if end > start:
             solve_curve(task, scenes, reduced, start, end, out)
-        start = end
+        start = max(end, start + 1)
 
 
 @kernel

@@ -9,7 +9,7 @@ import threading
 from collections import OrderedDict
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from typing import Final, NamedTuple
+from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,10 +64,12 @@ from gradhesion.core.table.layout import (
     U1,
     E,
     N,
+    Source,
     Table,
     U,
     Y,
     end_of,
+    span_of,
 )
 from gradhesion.core.table.leading import crests_of
 from gradhesion.core.types import Floats, Integers
@@ -84,6 +86,8 @@ _SCENES: Final = 1024
 """Scenes of a part, at least: a millisecond or more."""
 _MOST_SCENES: Final = 32768
 """And at most: some megabytes."""
+Group: TypeAlias = Callable[[int, Floats, Floats, Floats], None]
+"""What solves scenes of one fineness of bins: takes that, scenes, their reduced numbers, and room for results."""
 
 
 @kernel
@@ -123,42 +127,89 @@ def near_forces(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats, out
 
 
 @kernel
+def end_of_exponent(scenes: Floats, first: int) -> int:
+    """Return the end of the scenes that share the exponent of the first one."""
+    last = first + 1
+    while last < scenes.shape[1] and scenes[K, last] == scenes[K, first]:
+        last += 1
+    return last
+
+
+class NearRooms(NamedTuple):
+    """Room for near tables and the curves on them.
+
+    rooms       for curves
+    nodes, polys  of the table and, of leading terms, of that of its loads, (2, ROWS, .) and (2, .)
+    weights     (NODES,)
+    """
+
+    rooms: Rooms
+    nodes: Floats
+    polys: Floats
+    weights: Floats
+
+
+def near_rooms(basis: Basis, punch: Punch, tables: int = 1) -> NearRooms:
+    """Return room for that many tables of a basis."""
+    bins, patterned = basis.values.shape[0] - 1, punch.rows.shape[1] > 0
+    nodes, polys = (np.stack([room] * tables) for room in room_of(bins))
+    return NearRooms(rooms_for(bins, patterned), nodes, polys, np.zeros(NODES))
+
+
+@kernel
+def near_task(
+    punch: Punch,
+    wanted: Wanted,
+    basis: Basis,
+    by_load: Basis,
+    profile: Floats,
+    near: NearRooms,
+    scenes: Floats,
+    reduced: Floats,
+    first: int,
+    last: int,
+) -> Task:
+    """Return what the scenes `first` to `last` - 1, of one exponent, are solved with, tables filled as they need.
+
+    `by_load` is the basis of the pull-off, which is that of the cycle but for the leading terms of short waves.
+    """
+    most = basis.values.shape[0] - 1
+    reach = basis.start + (most - 2 - GEOMETRIC) * basis.width
+    k, far = scenes[K, first], 0.0
+    for i in range(first, last):
+        if reduced[NEED, i] <= reach:
+            far = max(far, reduced[NEED, i])
+    if not (far > 0.0 and 0.0 <= k <= 1.0):
+        k = 0.5  # none can be solved here
+    bins = min(GEOMETRIC + max(16, int((far - basis.start) / basis.width) + 2), most)
+    table = fill_table(basis, k, near.weights, bins, near.nodes[0], near.polys[0])
+    pull = table
+    if by_load.form != basis.form:
+        pull = fill_table(by_load, k, near.weights, bins, near.nodes[1], near.polys[1])
+    node = between(basis, k)
+    crest = 1.01 * max(basis.crest[node], basis.crest[node + 1])
+    disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
+    return Task(punch, wanted, table, pull, crest, disc, near.rooms, reach)
+
+
+@kernel
 def near_cycles(
     punch: Punch,
     wanted: Wanted,
     basis: Basis,
     by_load: Basis,
     profile: Floats,
-    rooms: Rooms,
+    near: NearRooms,
     scenes: Floats,
     reduced: Floats,
     out: Floats,
 ) -> None:
-    """Solve the cycles of scenes in the order of their exponents; those that reach beyond the basis are left as SHORT.
-
-    `by_load` is the basis of the pull-off, which is that of the cycle but for the leading terms of short waves.
-    """
-    most = basis.values.shape[0] - 1
-    reach = basis.start + (most - 2 - GEOMETRIC) * basis.width
-    nodes, polys = np.zeros((ROWS, most + 1)), np.zeros((most, LANES, N))
-    other = most if by_load.form != basis.form else 0
-    load_nodes, load_polys = np.zeros((ROWS, other + 1)), np.zeros((other, LANES, N))
-    weights, first = np.zeros(NODES), 0
+    """Solve cycles in the order of their exponents; scenes that reach beyond the basis are left as SHORT."""
+    first = 0
     while first < scenes.shape[1]:
-        k, last, far = scenes[K, first], first, 0.0
-        while last < scenes.shape[1] and (scenes[K, last] == k or last == first):
-            if reduced[NEED, last] <= reach:
-                far = max(far, reduced[NEED, last])
-            last += 1
-        if not (far > 0.0 and 0.0 <= k <= 1.0):
-            k = 0.5  # none can be solved here
-        bins = min(GEOMETRIC + max(16, int((far - basis.start) / basis.width) + 2), most)
-        table = fill_table(basis, k, weights, bins, nodes, polys)
-        pull = fill_table(by_load, k, weights, bins, load_nodes, load_polys) if other > 0 else table
-        node = between(basis, k)
-        crest = 1.01 * max(basis.crest[node], basis.crest[node + 1])
-        disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
-        solve_cycles(Task(punch, wanted, table, pull, crest, disc, rooms, reach), scenes, reduced, first, last, out)
+        last = end_of_exponent(scenes, first)
+        task = near_task(punch, wanted, basis, by_load, profile, near, scenes, reduced, first, last)
+        solve_cycles(task, scenes, reduced, first, last, out)
         first = last
 
 
@@ -187,23 +238,23 @@ def _solve_near(
     if not wanted.cycle and punch.turn == AT_RIM and not patterned:
         near_forces(punch, by_load, scenes, reduced, out)
         return
-    rooms = rooms_for(basis.values.shape[0] - 1, patterned)
+    rooms = near_rooms(basis, punch, 1 if form == EXACT else 2)
     near_cycles(punch, wanted, basis, by_load, profile, rooms, scenes, reduced, out)
 
 
-_tables: OrderedDict[tuple[object, ...], tuple[Table, float]] = OrderedDict()
+_tables: OrderedDict[tuple[object, ...], tuple[Table, Source, float]] = OrderedDict()
 _lock = threading.Lock()
 
 
-def long_table(punch: Punch, k: float, form: int, finer: int, y_end: float) -> tuple[Table, float]:
-    """Return a table of one exponent to y_end or beyond, and the crest of -U'.
+def long_table(punch: Punch, k: float, form: int, finer: int, y_end: float) -> tuple[Table, Source, float]:
+    """Return a table of one exponent to y_end or beyond, what its bins are filled from, and the crest of -U'.
 
     One of the last few, if it is long enough.
     """
     width = width_of(punch.waves, finer)
     key = (punch.exponent, punch.waves.tobytes(), k, form, finer)
     with _lock:
-        if key in _tables and end_of.py_func(_tables[key][0]) >= y_end:
+        if key in _tables and span_of(_tables[key][0]) >= y_end:
             _tables.move_to_end(key)
             return _tables[key]
         crest, wave, cut = crests_of(k, punch.waves)
@@ -215,48 +266,57 @@ def long_table(punch: Punch, k: float, form: int, finer: int, y_end: float) -> t
         share = (1.0 + k) / (1.0 + k + punch.exponent)
         empty = Table(k, punch.exponent, share, source.start, width, lowest, 0.0, GEOMETRIC, bins, nodes, polys)
         _tables.pop(key, None)
-        _tables[key] = with_bounds(empty, crest, bins), crest
-        while len(_tables) > 1 and sum(table.bins for table, _ in _tables.values()) > _KEPT_BINS:
+        _tables[key] = with_bounds(empty, crest, bins), source, crest
+        while len(_tables) > 1 and sum(table.bins for table, _, _ in _tables.values()) > _KEPT_BINS:
             _tables.popitem(last=False)
         return _tables[key]
 
 
 @kernel
-def far_forces(punch: Punch, table: Table, scenes: Floats, reduced: Floats, out: Floats) -> None:
-    """Solve the pull-off alone of scenes of one exponent on a table of its own."""
-    for i in range(scenes.shape[1]):
+def far_forces(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
+    """Solve the pull-off alone of the scenes `first` to `last` - 1 of one exponent."""
+    table = task.by_load
+    for i in range(first, last):
         curve = Curve(table, reduced[BY_POWER, i], reduced[BY_WAVES, i], 0.0, 1.0)
         put_force(lowest_load(curve, reduced[RIM_Y, i], 0, table.bins), reduced, i, out)
 
 
 def _lowest(nodes: Floats, crest: float) -> float:
     """Return a bound below (U - U1)/(y E): that of the leading term, or 2 % more than the values near the centre."""
-
     near = nodes[:, GEOMETRIC - 20 : GEOMETRIC + 512]
     return min(crest, 1.02 * float(((near[U] - near[U1]) / (near[E] * near[Y])).min()))
 
 
-def _solve_far(
-    punch: Punch, wanted: Wanted, form: int, finer: int, profile: Floats, scenes: Floats, reduced: Floats, out: Floats
+def solve_far(
+    punch: Punch,
+    wanted: Wanted,
+    form: int,
+    finer: int,
+    profile: Floats,
+    scenes: Floats,
+    reduced: Floats,
+    out: Floats,
+    most_bins: int = _MOST_BINS,
+    solve: Callable[[Task, Floats, Floats, int, int, Floats], None] = solve_cycles,
 ) -> None:
-    """Solve scenes of one exponent that reach beyond near tables, on tables that are tripled where they prove too short."""
-    k, most = float(scenes[K, 0]), (_MOST_BINS - GEOMETRIC) * width_of(punch.waves, finer)
+    """Solve scenes of one exponent beyond near tables, on tables that are tripled where they prove too short.
+
+    `solve` takes a task and scenes as `solve_cycles` does. Tables have `most_bins` bins at most.
+    """
+    k, most = float(scenes[K, 0]), (most_bins - GEOMETRIC) * width_of(punch.waves, finer)
     left, factor = np.arange(scenes.shape[1]), 1.0
     while left.size:
         need = np.minimum(reduced[NEED, left] * factor, reduced[RIM_Y, left] * 1.01)
         possible = need[need <= most]
         y_end = float(possible.max()) if possible.size else most
-        table, crest = long_table(punch, k, form, finer, y_end)
+        table, _, crest = long_table(punch, k, form, finer, y_end)
         pull = table if form == EXACT else long_table(punch, k, BY_LOAD, finer, y_end)[0]
         disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
         rooms = rooms_for(table.bins, punch.rows.shape[1] > 0)
+        task = Task(punch, wanted, table, pull, crest, disc, rooms, math.inf)
         chosen, own = np.ascontiguousarray(scenes[:, left]), np.ascontiguousarray(reduced[:, left])
-        found = np.empty((RESULT_ROWS, left.size))
-        if wanted.cycle or punch.turn != AT_RIM or punch.rows.shape[1]:
-            task = Task(punch, wanted, table, pull, crest, disc, rooms, math.inf)
-            solve_cycles(task, chosen, own, 0, left.size, found)
-        else:
-            far_forces(punch, pull, chosen, own, found)
+        found = np.empty((len(out), left.size))
+        solve(task, chosen, own, 0, left.size, found)
         out[:, left] = found
         left = left[found[STATUS] == SHORT]
         factor *= 3.0
@@ -275,9 +335,11 @@ def _finer_bins(punch: Punch, scenes: Floats, least: Floats) -> Integers:
         return 2 ** np.clip(np.nan_to_num(np.ceil(np.log2(ratio))), 0, 12).astype(np.int64)
 
 
-def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes: Floats) -> Floats:
-    """Return the results of scenes in the order of their exponents, of one thread."""
-    out = np.full((RESULT_ROWS, scenes.shape[1]), np.nan)
+def prepared(punch: Punch, form: int, scenes: Floats) -> tuple[Floats, Integers]:
+    """Return the reduced numbers of scenes, (REDUCED_ROWS, scenes), and by how much their bins are to be narrower.
+
+    The latter are of one item, or one a scene.
+    """
     most, steep = np.ones(scenes.shape[1]), np.zeros(scenes.shape[1])
     finer = np.ones(1, dtype=np.int64)
     if punch.rows.shape[1] > 0:
@@ -287,39 +349,61 @@ def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes
         most = np.where(allowed, most, np.nan)
         finer = _finer_bins(punch, scenes, least)
     basis = basis_of(punch.exponent, punch.waves, form)
-    reduced = reduced_of(punch, basis, scenes, most, steep)
-    if wanted.saturation:  # all folds are needed, wherever the rim is
+    return reduced_of(punch, basis, scenes, most, steep), finer
+
+
+def in_groups(
+    punch: Punch, form: int, scenes: Floats, rows: int, near: Group, far: Group, *, whole: bool = False
+) -> Floats:
+    """Return the results of scenes in the order of their exponents, (rows, scenes), those of STATUS among them.
+
+    `near` solves scenes of one fineness of bins, `far` those of one exponent that it leaves as SHORT; each takes the
+    fineness, scenes, their reduced numbers, and room for results. `whole`: all folds are needed, wherever the rim is.
+    """
+    out = np.full((rows, scenes.shape[1]), np.nan)
+    reduced, finer = prepared(punch, form, scenes)
+    if whole:
         reduced[NEED] = np.fmax(reduced[NEED], reduced[WINDOW])
-    groups = (
-        [(int(finer[0]), slice(None))]
-        if (finer == finer[0]).all()
-        else [(int(value), np.flatnonzero(finer == value)) for value in np.unique(finer)]
-    )
-    for value, chosen in groups:
-        own = np.ascontiguousarray(scenes[:, chosen])
-        found = np.empty((RESULT_ROWS, own.shape[1]))
-        _solve_near(punch, wanted, form, value, profile, own, np.ascontiguousarray(reduced[:, chosen]), found)
+
+    def put(solve: Group, value: int, chosen: slice | Integers) -> None:
+        """Solve chosen scenes."""
+        own, numbers = (np.ascontiguousarray(array[:, chosen]) for array in (scenes, reduced))
+        found = np.full((rows, own.shape[1]), np.nan)
+        solve(value, own, numbers, found)
         out[:, chosen] = found
+
+    if (finer == finer[0]).all():
+        put(near, int(finer[0]), slice(None))
+    else:
+        for value in np.unique(finer):
+            put(near, int(value), np.flatnonzero(finer == value))
     short = np.flatnonzero(out[STATUS] == SHORT)
     finer = np.broadcast_to(finer, scenes.shape[1])
     for value in np.unique(finer[short]):
         for k in np.unique(scenes[K, short]):
             index = short[(scenes[K, short] == k) & (finer[short] == value)]
             if index.size:
-                found = np.empty((RESULT_ROWS, index.size))
-                _solve_far(
-                    punch,
-                    wanted,
-                    form,
-                    int(value),
-                    profile,
-                    np.ascontiguousarray(scenes[:, index]),
-                    np.ascontiguousarray(reduced[:, index]),
-                    found,
-                )
-                out[:, index] = found
+                put(far, int(value), index)
+    return out
+
+
+def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes: Floats) -> Floats:
+    """Return the results of scenes in the order of their exponents, of one thread."""
+    cycles = wanted.cycle or punch.turn != AT_RIM or punch.rows.shape[1] > 0
+
+    def near(finer: int, own: Floats, reduced: Floats, out: Floats) -> None:
+        """Solve near scenes."""
+        _solve_near(punch, wanted, form, finer, profile, own, reduced, out)
+
+    def far(finer: int, own: Floats, reduced: Floats, out: Floats) -> None:
+        """Solve others."""
+        solve = solve_cycles if cycles else far_forces
+        solve_far(punch, wanted, form, finer, profile, own, reduced, out, _MOST_BINS, solve)
+
+    out = in_groups(punch, form, scenes, RESULT_ROWS, near, far, whole=wanted.saturation)
     if wanted.depth:
-        far_rims(punch, basis.width, form, scenes, reduced, out)
+        reduced, _ = prepared(punch, form, scenes)
+        far_rims(punch, width_of(punch.waves), form, scenes, reduced, out)
     return out
 
 
@@ -361,7 +445,7 @@ def scenes_of(columns: list[Floats], first: int, last: int) -> Floats:
 
 
 def run_parts(count: int, work: Callable[[int, int], None], threads: int | None) -> None:
-    """Do the work on parts of `count` scenes, from a first one to a last one, on threads that each take the next part."""
+    """Do the work on parts of `count` scenes, first to last, on threads that each take the next part."""
     workers = 1 if count < 2 * _SCENES else min(threads or processors(), -(-count // _SCENES))
     size = max(_SCENES, min(_MOST_SCENES, -(-count // (4 * workers)))) if workers > 1 else _MOST_SCENES
     parts = [(first, min(first + size, count)) for first in range(0, count, size)]
