@@ -6,6 +6,7 @@ pi a_t^2.
 
 import json
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,11 +17,10 @@ from gradhesion.core import Harmonic, Loading, Profile, solve
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.rate import MOST_WAVES, Rate
 from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE, PULL_OFF_AT_RIM, TOLERANCE_NOT_MET, TOO_MANY_WAVES
-from tests.core.conftest import REFERENCE
 from tests.core.rate.second_way import Punch, closed, opened
 
 BY_DEPTH, BY_MACHINE = Loading(), Loading(control="machine")
-MOVING = json.loads((REFERENCE / "moving_edge.json").read_text(encoding="utf-8"))
+MOVING = json.loads((Path(__file__).parents[2] / "reference/moving_edge.json").read_text(encoding="utf-8"))
 SMOOTH = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1, "A": 0.0, "a_max_over_R": 0.4}
 WAVY = {"k": 0.37, "nu": 0.2, "modulus": 700.0, "c0_over_R": 0.03, "lambda_over_R": 0.17, "A": 0.013}
 OPENED = ["pull_off_force", "pull_off_radius", "unloading_energy", "delta_jump_out", "edge_speed_at_pull_off"]
