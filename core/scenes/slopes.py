@@ -52,6 +52,7 @@ from gradhesion.core.scenes.cycles import (
     Walked,
     curve_end,
     curve_of,
+    no_value,
     open_curve,
     pattern_of,
     turns_of,
@@ -67,6 +68,7 @@ from gradhesion.core.scenes.reduced import (
     C0,
     LENGTH,
     MACHINE,
+    NEED,
     NU,
     PARAMETER_ROWS,
     PATTERN_AMPLITUDE,
@@ -82,7 +84,7 @@ from gradhesion.core.scenes.reduced import (
 from gradhesion.core.scenes.reduced import (
     CLOSING as CLOSING_ROW,
 )
-from gradhesion.core.scenes.results import RESULT_ROWS, SHORT, STATUS, TURN, Rooms, Wanted, rooms_for
+from gradhesion.core.scenes.results import RESULT_ROWS, SHORT, TURN, Rooms, Wanted, rooms_for
 from gradhesion.core.scenes.tasks import (
     NearRooms,
     Request,
@@ -98,7 +100,7 @@ from gradhesion.core.scenes.tasks import (
     solve_far,
 )
 from gradhesion.core.table.basis import NODES, Basis, basis_of, empty_table, fill_table
-from gradhesion.core.table.layout import EXACT, Table, Y, end_of, span_of
+from gradhesion.core.table.layout import EXACT, GEOMETRIC, Table, Y, end_of, span_of
 from gradhesion.core.types import Floats, Integers
 
 # Rows of derivatives: d ln(value)/d ln of the reduced numbers B, g, by_load, waves and amplitude of the pattern, k (by
@@ -332,14 +334,14 @@ def _put_slopes(near: Near, pair: Pair, frozen: Frozen, target: float, out: Floa
 @kernel
 def _fill_scene(
     task: Task, near: Near, walked: Walked, opened: int, y: float, scenes: Floats, reduced: Floats, i: int, out: Floats
-) -> float:
-    """Store the derivatives of scene i, which turns at y; return its status, SHORT if the table is too short."""
+) -> bool:
+    """Store the derivatives of scene i, which turns at y; return False if the table is too short."""
     pair = Pair(walked.closing, walked.opening, walked.pattern, walked.ratio)
     own, n = task.rooms.traces[CLOSING_TRACE], walked.visits
     lowest = lowest_load(pair.opening, y, 0, pair.opening.table.bins)
     beyond = y > end_of(pair.closing.table) and (n == 0 or own[END, task.rooms.columns[0, n - 1]] < y)
     if walked.branches < 0 or opened < 0 or beyond or not (lowest.known and lowest.load < 0.0):
-        return SHORT
+        return False
     turns = task.punch.turn != AT_RIM and y < reduced[RIM_Y, i]
     frozen = _freeze(task, walked, opened, y, lowest.y, turns, near.jumps)
     near.scene[:, 0], near.numbers[:, 0] = scenes[:, i], reduced[:, i]
@@ -349,7 +351,7 @@ def _fill_scene(
     _fill_tables(near, y_end)
     _fill_by(task, near, pair.pattern, frozen, y_end)
     _put_slopes(near, pair, frozen, reduced[TARGET_VALUE, i] / math.sqrt(pair.ratio), out, i)
-    return 0.0
+    return True
 
 
 @kernel
@@ -363,10 +365,8 @@ def fill_slopes(task: Task, near: Near, scenes: Floats, reduced: Floats, first: 
             opened, _ = open_curve(task, walked, start, end, out)
             for i in range(start, end):
                 y = out[TURN, i]
-                if not math.isnan(y):
-                    out[STATUS, i] = 0.0
-                    if y > 0.0:
-                        out[STATUS, i] = _fill_scene(task, near, walked, opened, y, scenes, reduced, i, out)
+                if y > 0.0 and not _fill_scene(task, near, walked, opened, y, scenes, reduced, i, out):
+                    no_value(out, i, SHORT)
         start = max(end, start + 1)
 
 
@@ -386,7 +386,7 @@ def near_slopes(
 
     `near` has room for the table of an exponent and its four neighbours.
     """
-    nodes, polys, first = near.nodes, near.polys, np.int64(0)  # a plain 0 would be a type of its own to callees
+    nodes, polys, first = near.nodes, near.polys, int(np.int64(0))  # a plain 0 would be a type of its own to callees
     while first < scenes.shape[1]:
         last, k = end_of_exponent(scenes, first), scenes[K, first]
         task = near_task(punch, wanted, basis, basis, profile, near, scenes, reduced, first, last)
@@ -412,8 +412,12 @@ def _near(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Fl
 
 
 def _far(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Floats, out: Floats) -> None:
-    """Store the derivatives of scenes of one exponent that reach beyond near tables; NaN where tables end before."""
+    """Store the derivatives of scenes of one exponent that reach beyond near tables.
+
+    Those of more waves than _MOST_BINS holds have none: here sums over waves would take over.
+    """
     basis, patterned = basis_of(punch.exponent, punch.waves, EXACT, finer), punch.rows.shape[1] > 0
+    within = np.flatnonzero(reduced[NEED] <= (_MOST_BINS - GEOMETRIC) * basis.width)
 
     def solve(task: Task, own: Floats, numbers: Floats, first: int, last: int, found: Floats) -> None:
         """Store those of scenes within the table of a task, on tables of neighbouring exponents as long."""
@@ -424,7 +428,12 @@ def _far(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Flo
         near = _near_of((tables[0], tables[1], tables[2], tables[3]), basis, rooms, bins, ALL)
         fill_slopes(task, near, own, numbers, first, last, found)
 
-    solve_far(punch, _WANTED, EXACT, finer, profile, scenes, reduced, out, _MOST_BINS, solve)
+    if within.size:
+        found = np.empty((len(out), within.size))
+        solve_far(
+            punch, _WANTED, EXACT, finer, profile, scenes[:, within], reduced[:, within], found, _MOST_BINS, solve
+        )
+        out[:, within] = found
 
 
 def _by_exponent(k: Floats, nu: Floats, m: float) -> tuple[Floats, Floats, Floats]:
