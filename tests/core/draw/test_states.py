@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core import draw_curves, solve
-from gradhesion.core.curves import states
+from gradhesion.core.draw import states
 from gradhesion.core.equations import general, jkr
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.profile import Harmonic, Profile

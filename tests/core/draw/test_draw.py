@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import draw_curves, solve
-from gradhesion.core.curves import CURVES, INTEGERS
+from gradhesion.core import CURVES, draw_curves, solve
+from gradhesion.core.draw.draw import INTEGERS
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
 
 

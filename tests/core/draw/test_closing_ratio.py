@@ -5,8 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import Harmonic, Loading, Profile, solve
-from gradhesion.core.curves import draw_curves
+from gradhesion.core import Harmonic, Loading, Profile, draw_curves, solve
 from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
 
 BALL: dict[str, Any] = {"k": 0.1, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1, "A": 0.02}

@@ -1,4 +1,4 @@
-"""What the tests of curves share: scenes of every kind, the curve in slow arithmetic, and the error of chords."""
+"""What the tests of drawing share: scenes of every kind, the curve in slow arithmetic, and the error of chords."""
 
 import math
 from collections.abc import Callable
@@ -8,8 +8,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from gradhesion.core.curves.forms import fill_points
-from gradhesion.core.curves.subject import Form, Subject, subject_of
+from gradhesion.core import Profile
+from gradhesion.core.equations import general
 from gradhesion.core.problem.material import stiffness
 
 SCENES: dict[str, dict[str, float]] = {
@@ -23,7 +23,6 @@ SCENES: dict[str, dict[str, float]] = {
     "unbounded smooth": {"a_max_over_R": math.inf, "A": 0.0},
     "short waves": {"lambda_over_R": 7e-4},
     "one long wave": {"lambda_over_R": 3e4},
-    "endlessly long wave": {"lambda_over_R": 1e60},
     "r > s": {"A": 0.21},
     "r > s, unbounded": {"A": 0.21, "a_max_over_R": math.inf},
     "r > s, linear": {"k": 1.0, "nu": 0.5, "A": 0.4},
@@ -49,11 +48,29 @@ def any_scene(request: pytest.FixtureRequest, scene: dict[str, float]) -> dict[s
     return scene | SCENES[request.param]
 
 
-@pytest.fixture
-def any_subject(any_scene: dict[str, float]) -> Subject:
-    subject = subject_of(any_scene)
-    assert subject is not None
-    return subject
+def stretch_of(scene: dict[str, float]) -> float:
+    """The strength of adhesion s of a scene."""
+    material = float(stiffness(scene["k"], scene["nu"], scene["modulus"], scene["c0_over_R"]))
+    return math.sqrt(2 ** (1 + scene["k"]) * math.pi / material)
+
+
+def strength_of(scene: dict[str, float]) -> float:
+    """The strength r of the waves of a scene."""
+    k = scene["k"]
+    wave = scene["lambda_over_R"] ** ((1 + k) / 2)
+    return math.pi ** ((1 - k) / 2) * math.gamma((1 + k) / 2) * scene["A"] * wave
+
+
+def curve_of(scene: dict[str, float], profile: Profile | None = None) -> Callable[[Any], tuple[Any, Any]]:
+    """Depth and load of equilibrium at radii, by the printed equations."""
+    shape = profile or Profile()
+    material = float(stiffness(scene["k"], scene["nu"], scene["modulus"], scene["c0_over_R"]))
+    count = max(wave.n for wave in shape.harmonics)
+    cosines, sines = [0.0] * count, [0.0] * count
+    for wave in shape.harmonics:
+        cosines[wave.n - 1], sines[wave.n - 1] = -scene["A"] * wave.cos, scene["A"] * wave.sin
+    rest = (scene["lambda_over_R"], cosines, sines, shape.exponent)
+    return lambda a: (general.indentation(scene["k"], material, a, *rest), general.load(scene["k"], material, a, *rest))
 
 
 class SlowCurve:
@@ -86,36 +103,30 @@ class SlowCurve:
     def load(self, a: float) -> Any:
         return self.pinned(a, self.depth(a))
 
-    def turn(self, function: Callable[[Any], Any], a: float) -> Any:
-        """How far from a, relative to a, the slope of a function is zero."""
-        a = mpmath.mpf(a)
-        with mpmath.workdps(40):
-            return mpmath.diff(function, a) / mpmath.diff(function, a, 2) / a
-
 
 @pytest.fixture
 def slow_curve(slow_pair: Callable[..., Any]) -> Callable[[dict[str, float]], SlowCurve]:
     return lambda scene: SlowCurve(scene, slow_pair)
 
 
-def chord_error(form: Form, points: Any, joined: Any = None, spans: Any = None) -> float:
-    """The largest distance of a form from the chords of its points, in any plane and in spans, on 48 points a chord.
+def chord_error(curve: Callable[[Any], tuple[Any, Any]], points: Any, joined: Any = None) -> float:
+    """The largest distance of a curve from the chords of its points, in any plane and in spans, at 48 places a chord.
 
-    Points are radius, depth and load; `joined` tells which are reached along the curve.
+    Points are rows of radius, depth and load; `joined` tells which are reached along the curve. Of long curves every
+    so many chords are looked at.
     """
     points = np.asarray(points)
-    spans = np.ptp(points, axis=1) if spans is None else np.asarray(spans)
+    spans = np.ptp(points, axis=1)
     scales = np.divide(1.0, spans, out=np.zeros(3), where=spans > 0)
     steps = np.flatnonzero(np.ones(points.shape[1] - 1, dtype=bool) if joined is None else joined[1:])
+    steps = steps[:: 1 + steps.size // 800]
     start, end = points[:, steps], points[:, steps + 1]
     worst = 0.0
     if not steps.size:
         return worst
     for share in np.arange(1, 48) * 0.6180339887498949 % 1.0:
-        between = np.empty((3, steps.size))
-        between[0] = (start[0] + share * (end[0] - start[0])) / form.radius_scale
-        fill_points(form.table, form.numbers, between)
-        found = np.array(form.scaled(between))
+        radii = start[0] + share * (end[0] - start[0])
+        found = np.array([radii, *curve(radii)])
         for i, j in ((0, 1), (1, 2), (0, 2)):
             u, v = (end - start)[i] * scales[i], (end - start)[j] * scales[j]
             x, y = (found - start)[i] * scales[i], (found - start)[j] * scales[j]
@@ -129,3 +140,14 @@ def chord_error(form: Form, points: Any, joined: Any = None, spans: Any = None) 
 @pytest.fixture(scope="session")
 def worst_chord() -> Callable[..., float]:
     return chord_error
+
+
+@pytest.fixture(scope="session")
+def equation() -> Callable[..., Callable[[Any], tuple[Any, Any]]]:
+    return curve_of
+
+
+@pytest.fixture(scope="session")
+def strengths() -> Callable[[dict[str, float]], tuple[float, float]]:
+    """Give s and r of a scene."""
+    return lambda scene: (stretch_of(scene), strength_of(scene))

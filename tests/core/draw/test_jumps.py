@@ -11,8 +11,6 @@ import numpy as np
 import pytest
 
 from gradhesion.core import draw_curves, solve
-from gradhesion.core.curve.branches import END, START
-from gradhesion.core.curves.subject import subject_of
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
 
 TESTS = Path(__file__).parents[2]
@@ -122,11 +120,8 @@ def test_loading_goes_outwards_and_unloading_inwards(any_scene: dict[str, float]
 
 
 def test_jumps_at_the_rim_are_marked(scene: dict[str, float]) -> None:
-    subject = subject_of(scene)
-    assert subject is not None
-    assert subject.trace is not None
-    end, start = subject.trace[END, 3], subject.trace[START, 4]
-    rim = float((0.3 * end + 0.7 * start) * scene["lambda_over_R"])  # within the jump from one to the other
+    free = _jumps(scene | {"a_max_over_R": math.inf})
+    rim = float(0.3 * free["radius_before"][2] + 0.7 * free["radius_after"][2])  # within a jump of loading
     jumps = _jumps(scene | {"a_max_over_R": rim})
     last = int((jumps["unloading"] == 0).sum()) - 1
     assert np.flatnonzero(jumps["at_rim"]).tolist() == [last, last + 1]
