@@ -174,7 +174,7 @@ def _typed(name: str, values: NDArray[np.float64]) -> NDArray[Any]:
 
 
 def _roughness(parameters: Mapping[str, ArrayLike], profile: Profile, status: NDArray[Any]) -> NDArray[np.float64]:
-    """Return chi of scenes, of the shape of their `status`: how far unloading swings below the mean of the waves, over s."""
+    """Return chi of scenes, of the shape of `status`: how far unloading swings below the mean of the waves, over s."""
     from gradhesion.core.closed.envelope import chis  # noqa: PLC0415 (SciPy)
     from gradhesion.core.problem.material import stiffness  # noqa: PLC0415
 

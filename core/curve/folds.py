@@ -64,7 +64,7 @@ def zero_in(curve: Curve, i: int, low: float, high: float, guess: float, rising:
         if not (low <= ahead <= high):
             ahead = 0.5 * (low + high)
             step = ahead - t
-        if abs(step) < near and abs(step * D2) < 4e-3 * abs(D1) or step == 0.0:
+        if (abs(step) < near and abs(step * D2) < 4e-3 * abs(D1)) or step == 0.0:
             if curve.by_load == 0.0:  # what the last step still changes
                 depth += step * (D + step * (0.5 * D1 + step * D2 / 6.0))
             return ahead, depth
@@ -149,7 +149,7 @@ def detour_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
 
 @leaf
 def swing_in(curve: Curve, i: int) -> float:
-    """Return how far D can swing in bin i beyond its values at the edges: a bound of h^2/2 times its second derivative."""
+    """Return a bound of how far D swings in bin i beyond its edges: h^2/2 times its second derivative."""
     nodes = curve.table.nodes
     highest = 0.5 * (1.0 - curve.table.k) + (1.0 + curve.table.k if curve.by_load != 0.0 else 0.0)
     return curve.g * nodes[BV, i] + curve.B * nodes[BP, i] + highest * nodes[BE, i]
@@ -174,7 +174,7 @@ def _add_fold(curve: Curve, i: int, t: float, depth: float, rising: bool, trace:
 
 @leaf
 def _guess_of(older: float, before: float, after: float) -> float:
-    """Return where in a bin D is about 0, by the parabola through its values at three edges, the last two around the bin."""
+    """Return where in a bin D is about 0, by the parabola through three edges, the last two around the bin."""
     bend = after - 2.0 * before + older
     share = before / (before - after)
     share -= 0.5 * bend * share * (share - 1.0) / (after - before + bend * (share - 0.5))

@@ -43,7 +43,7 @@ def _bin_with(curve: Curve, level: float, i: int, j: int) -> int:
 
 @leaf
 def _guess(curve: Curve, i: int, level: float) -> float:
-    """Return where in bin i the level is about: a step from the chord by the cubic through values and slopes at edges."""
+    """Return where in bin i the level is about: a step from the chord, by the cubic through values and slopes."""
     nodes = curve.table.nodes
     low, high = coordinate_at(curve, i), coordinate_at(curve, i + 1)
     width = 2.0 * nodes[HALF, i]

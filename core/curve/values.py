@@ -137,7 +137,7 @@ def softness(curve: Curve, stiffness: float) -> float:
 
 @leaf
 def level_at(curve: Curve, i: int) -> float:
-    """Return (1+k) tau/(1+tau) at the lower edge of bin i: the share of the load in the level of the folds (physics 9)."""
+    """Return (1+k) tau/(1+tau) at the lower edge of bin i: the share of the load in the level of folds."""
     x = curve.by_load * curve.table.nodes[T, i]
     return (1.0 + curve.table.k) * x / (curve.by_depth + x)
 

@@ -97,7 +97,7 @@ def walk_on(curve: Curve, trace: Floats, first: int, count: int, visited: Intege
 
 @kernel
 def walk_loading(curve: Curve, trace: Floats, count: int, visited: Integers) -> int:
-    """Let loading go from no contact over all branches; return the number of those visited, whose columns are `visited`."""
+    """Let loading go from no contact over all branches; return how many it visits, whose columns are `visited`."""
     return walk_on(curve, trace, 0, count, visited, 0, State(0.0, 0.0, 0.0))
 
 

@@ -52,7 +52,7 @@ def _load_at(curve: Curve, i: int) -> float:
 
 @kernel
 def _trough(curve: Curve, crest: float, i: int, before: float, after: float, rim: float, best: Lowest) -> Lowest:
-    """Take in the trough of bin i, at whose edges D is `before` and `after`, if it has one that may be among the lowest."""
+    """Take in the trough of bin i, at whose edges D is `before` and `after`, if it may be among the lowest."""
     nodes = curve.table.nodes
     low, high = -1.0, 1.0
     if before < 0.0 <= after:

@@ -40,7 +40,7 @@ class Frozen(NamedTuple):
     by_depth, by_load  weights of depth and load in the target
     jumps       those of the cycle (jumps.py), of loading first
     loading     the number of these
-    count       of all jumps
+    total       of all jumps
     """
 
     pull: float
@@ -52,7 +52,7 @@ class Frozen(NamedTuple):
     by_load: float
     jumps: Floats
     loading: int
-    count: int
+    total: int
 
 
 @kernel
@@ -68,7 +68,7 @@ def observe(closing: Curve, opening: Curve, frozen: Frozen, weight: float, out: 
     """Add what is observed on two curves at frozen radii, times a weight, to `out`, (OBSERVED,)."""
     out[PULL] += weight * value_at(load_curve(opening), frozen.pull)
     out[LOADING] += weight * frozen_loss(closing, frozen.jumps, 0, frozen.loading)
-    out[UNLOADING] += weight * frozen_loss(opening, frozen.jumps, frozen.loading, frozen.count)
+    out[UNLOADING] += weight * frozen_loss(opening, frozen.jumps, frozen.loading, frozen.total)
     if frozen.moves:
         measured = measured_by(closing, frozen)
         aim = value_at(measured, frozen.left) if frozen.passed and frozen.left > 0.0 else 0.0
@@ -99,7 +99,7 @@ def loading_by_turn(closing: Curve, kappa: float, frozen: Frozen) -> float:
 def unloading_by_turn(opening: Curve, frozen: Frozen) -> float:
     """Return d(loss of unloading)/d ln y of a turn from which unloading jumps at once: the state it leaves moves."""
     y, n = frozen.turn, frozen.loading
-    if n >= frozen.count or frozen.jumps[LEFT, n] != y:
+    if n >= frozen.total or frozen.jumps[LEFT, n] != y:
         return 0.0
     landing = frozen.jumps[LANDED, n]
     if landing == 0.0 and opening.by_depth == 0.0:

@@ -82,7 +82,7 @@ def unloading_is_tied(curve: Curve, rim: float, trace: Floats, count: int) -> bo
 
 @kernel
 def target_is_tied(measured: Curve, target: float, rim: float, branches: Floats, count: int) -> bool:
-    """Return whether a depth or load at which a cycle turns is close to the top of a branch of it; arguments as there."""
+    """Return whether the depth or load at which a cycle turns is close to the top of a branch of it."""
     for j in range(count):
         if branches[START, j] > rim:
             return False

@@ -25,8 +25,8 @@ def turning_radius(
     """Return where loading first reaches a target of depth or load, inf if it does not within the table.
 
     `measured` is the curve with that depth or load prescribed, and `branches` the trace of it, with `count` branches:
-    where it is what the cycle prescribes, the `trace` of loading itself, whose `visits` branches are `visited`. A target
-    that is passed within a jump is reached where the jump ends.
+    where it is what the cycle prescribes, the `trace` of loading itself, whose `visits` branches are `visited`. A
+    target that is passed within a jump is reached where the jump ends.
     """
     first, end = 0, end_of(measured.table)
     for v in range(visits):

@@ -50,7 +50,7 @@ def draw_equilibrium(drawn: Drawn, side: Side) -> tuple[Floats, Floats, Floats, 
     places = np.unique(np.concatenate([edges, extrema, middles]))
     corners = side.line.points(places)
     points, _ = sample(side.line, corners, np.arange(places.size) > 0, spans_of(corners))
-    y, starts, ends = points[0], side.trace[START, : side.count], side.trace[END, : side.count]
+    y, starts, ends = points[0], side.trace[START, : side.branches], side.trace[END, : side.branches]
     branch = np.searchsorted(starts, y, "left") - 1  # the last one that starts below
     stable = (branch >= 0) & (y < np.append(ends, 0.0)[branch])
     stable |= (y == 0.0) & (starts[:1] == 0.0).any()
@@ -132,7 +132,7 @@ def find_corners(drawn: Drawn, closing: Side, opening: Side, *, grows: bool) -> 
     """Return the corners of the path of a cycle; where the contact `grows` from a point its first jump is none."""
     frame, turn = drawn.frame, drawn.turn
     jumps = np.empty((JUMP_ROWS, 2 * (closing.trace.shape[1] + opening.trace.shape[1])))
-    traces = closing.trace, closing.visited, opening.trace, opening.count
+    traces = closing.trace, closing.visited, opening.trace, opening.branches
     loading, total = list_jumps(closing.curve, opening.curve, turn, *traces, jumps)
     ways = jumps[[LEFT, LANDED, LANDED_BRANCH], :total].T.tolist()
     up: list[_Corner] = [(0.0,) * 6]
@@ -142,12 +142,12 @@ def find_corners(drawn: Drawn, closing: Side, opening: Side, *, grows: bool) -> 
             _put_along(closing, up, left, branch)
         branch = to + 1.0
         if to < 0.0:  # flat against the rim: on none of the branches within it
-            branch, pinned = 1.0 + np.count_nonzero(closing.trace[START, : closing.count] <= turn), True
+            branch, pinned = 1.0 + np.count_nonzero(closing.trace[START, : closing.branches] <= turn), True
         _put_jump(frame, closing, up, landed, branch)
     _put_along(closing, up, turn, branch)
 
     down: list[_Corner] = [(*opening.line.points(np.array([turn]))[:, 0].tolist(), 0.0, branch, 0.0)]
-    branch = float(np.searchsorted(opening.trace[START, : opening.count], turn, "right"))
+    branch = float(np.searchsorted(opening.trace[START, : opening.branches], turn, "right"))
     for left, landed, to in ways[loading:]:
         if left != turn:
             _put_along(opening, down, left, branch)

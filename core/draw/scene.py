@@ -45,7 +45,11 @@ from gradhesion.core.scenes.reduced import (
 from gradhesion.core.scenes.tasks import Request, columns_of, long_table, prepared, punch_of, scenes_of
 from gradhesion.core.table.basis import room_of
 from gradhesion.core.table.filling import width_of
+<<<<<<< HEAD
 from gradhesion.core.table.layout import EXACT, LANES, Source, Table, end_of
+=======
+from gradhesion.core.table.layout import EXACT, LANES, Source, Table, span_of
+>>>>>>> base
 from gradhesion.core.types import Floats, Integers
 
 BEYOND: Final = 1.05
@@ -123,13 +127,13 @@ class Side(NamedTuple):
     line: Line
     curve: Curve
     trace: Floats
-    count: int
+    branches: int
     extrema: Floats
     visited: Integers
 
     def folds(self, end: float) -> Floats:
         """Return the ends of branches, in order, between 0 and an end."""
-        ends = np.sort(self.trace[[START, END], : self.count].ravel())
+        ends = np.sort(self.trace[[START, END], : self.branches].ravel())
         return ends[(ends > 0.0) & (ends < end)]
 
 
@@ -175,7 +179,7 @@ def extrema_of(curve: Curve, y_end: float) -> Floats | None:
     if count < 0:
         return None
     ends = np.sort(trace[[START, END], :count].ravel())
-    return ends[(ends > 0.0) & (ends < min(y_end, end_of.py_func(curve.table)))]
+    return ends[(ends > 0.0) & (ends < min(y_end, span_of(curve.table)))]
 
 
 def waves_of(frame: Frame) -> tuple[float, float]:
@@ -189,10 +193,18 @@ def waves_of(frame: Frame) -> tuple[float, float]:
 
 
 def table_for(frame: Frame, form: int, y_end: float) -> tuple[Table, Source, float] | None:
+<<<<<<< HEAD
     """Return the table of a scene up to y_end, its source, and the crest of its -U'; None where it has too many bins."""
     if not y_end <= _MOST_BINS * width_of(frame.punch.waves, frame.finer):
         return None
     return long_table(frame.punch, frame.k, form, frame.finer, y_end)
+=======
+    """Return the table of a scene up to y_end, its source, and the crest of -U'; None: it has too many bins."""
+    punch, width = frame.punch, width_of(frame.punch.waves, frame.finer)
+    if not y_end <= _MOST_BINS * width:
+        return None
+    return long_table(punch, frame.k, form, frame.finer, y_end)
+>>>>>>> base
 
 
 def _side(frame: Frame, root: float, made: tuple[Table, Source, float], y_end: float) -> Side | None:
@@ -204,7 +216,7 @@ def _side(frame: Frame, root: float, made: tuple[Table, Source, float], y_end: f
         numbers = frame.reduced[PATTERN_WAVES, 0], frame.scenes[PATTERN_AMPLITUDE, 0]
         bounds = frame.reduced[MOST, 0], frame.reduced[STEEP, 0]
         pattern = Pattern(frame.punch.rows, *numbers, frame.punch.of_work, *bounds)
-        end, room = min(y_end, end_of.py_func(table)), room_of(table.bins, LANES + 1)
+        end, room = min(y_end, span_of(table)), room_of(table.bins, LANES + 1)
         table, g = patterned_table(table, crest, g, pattern, end, *room), 1.0
     curve = Curve(table, B, g, by_depth, by_load)
     trace, visited = room_for(table.bins), np.empty(table.bins + 8, dtype=np.int64)
@@ -218,7 +230,7 @@ def _side(frame: Frame, root: float, made: tuple[Table, Source, float], y_end: f
         return None
     visits = walk_loading(curve, trace, count, visited)
     missed = count > 0 and trace[END, count - 1] == math.inf and count - 1 not in visited[:visits]
-    if missed and end_of.py_func(table) < y_end:
+    if missed and span_of(table) < y_end:
         return None
     units = frame.units * np.array([1.0, root, root])
     line = line_of(curve, source, units, *waves_of(frame))
@@ -231,7 +243,7 @@ def _end_of(frame: Frame, sides: tuple[Side, ...]) -> float:
     pull = 1.0 + waves_of(frame)[1] if not sides else 0.0
     last = [frame.place(0.5 * (3.0 + frame.k) / m, pull)]
     for side in sides:
-        trace = side.trace[:, : side.count]
+        trace = side.trace[:, : side.branches]
         last += [trace[START, -1], trace[LANDING, side.visited[-1]], *side.extrema[-1:]]
     return max(_BEYOND_SMOOTH * frame.place(1.0, 1.0), BEYOND * max(last))
 
@@ -265,7 +277,7 @@ def draw_scene(frame: Frame, turn: float | None, pulled: float) -> Drawn:
         if opening is not None and closing is not None:
             sides = closing, opening
             end = y_end if y_end < math.inf else _end_of(frame, sides)
-            if frame.is_patterned and end > end_of.py_func(opening.curve.table):
+            if frame.is_patterned and end > span_of(opening.curve.table):
                 sides = None
         need = min(3.0 * need, y_end)
     if sides is None:

@@ -112,7 +112,7 @@ class Walked(NamedTuple):
     pattern: Pattern
     ratio: float  # of the works of closing and opening
     limits: Floats  # (2,): those of `loading_is_one_disc`
-    count: int  # branches of closing; negative: the table is too short
+    branches: int  # of closing; negative: the table is too short
     visits: int  # those that loading visits
     measured: int  # branches of the depth or load at which cycles turn, of a trace of its own; -1: those of closing
 
@@ -130,7 +130,7 @@ def pattern_of(punch: Punch, scenes: Floats, reduced: Floats, i: int) -> Pattern
 
 @kernel
 def curve_of(task: Task, pattern: Pattern, reduced: Floats, i: int, root: float, y_end: float, which: int) -> Curve:
-    """Return a curve of scene i, sizes over `root`: of a table with its pattern, filled up to y_end into room `which`."""
+    """Return a curve of scene i, sizes over `root`; a table with its pattern is filled up to y_end into room `which`."""
     B, g = reduced[BY_POWER, i] / root, reduced[BY_WAVES, i] / root
     table = task.table
     if pattern.rows.shape[1] > 0:
@@ -178,7 +178,7 @@ def _walk(task: Task, scenes: Floats, reduced: Floats, i: int, y_end: float) -> 
                 trace[LANDING, j] = polished(closing, trace[LANDING, j], level)
                 level = trace[END_LEVEL, j]
         own = measured_curve(closing, turn)
-        if turn != AT_RIM and own.by_depth != closing.by_depth or (turn == AT_DEPTH and closing.by_load > 0.0):
+        if (turn != AT_RIM and own.by_depth != closing.by_depth) or (turn == AT_DEPTH and closing.by_load > 0.0):
             measured = find_folds(own, y_end, rooms.traces[MEASURED_TRACE])
     limits = np.array([0.0, -1.0])
     return Walked(closing, opening, pattern, ratio, limits, count, visits, measured)
@@ -201,14 +201,14 @@ def _turn(task: Task, walked: Walked, reduced: Floats, i: int) -> float:
         rooms.columns[0],
         walked.visits,
         rooms.traces[MEASURED_TRACE if own else CLOSING_TRACE],
-        walked.measured if own else walked.count,
+        walked.measured if own else walked.branches,
     )
     return min(found, float(reduced[RIM_Y, i]))
 
 
 @kernel
 def _snap_in(closing: Curve, landing: float) -> float:
-    """Return the pull after the jump from zero contact to a radius, at the coordinate 0, in the unit of load of closing."""
+    """Return the pull after the jump from zero contact to a radius, at the coordinate 0, in loads of closing."""
     if landing > end_of(closing.table):
         return math.nan
     depth, load = state_in(closing, landing)
@@ -218,7 +218,7 @@ def _snap_in(closing: Curve, landing: float) -> float:
 
 @kernel
 def _loading_keeps_one_disc(task: Task, walked: Walked, y: float, reduced: Floats, i: int) -> bool:
-    """Return whether the contact stays one disc on loading up to y, where the cycle turns, and there, out to the rim."""
+    """Return whether the contact stays one disc on loading up to y, where the cycle turns, and around it there."""
     rooms, rim, root = task.rooms, reduced[RIM_Y, i], math.sqrt(walked.ratio)
     weights = walked.closing
     plain = Curve(
@@ -237,7 +237,7 @@ def _loading_keeps_one_disc(task: Task, walked: Walked, y: float, reduced: Float
 def _is_tied(task: Task, walked: Walked, opened: int, y: float, reduced: Floats, i: int) -> bool:
     """Return whether a decision of the cycle of scene i, which turns at y, is close."""
     traces, closing, opening = task.rooms.traces, walked.closing, walked.opening
-    if rim_is_tied(closing, y) or loading_is_tied(closing, y, traces[CLOSING_TRACE], walked.count):
+    if rim_is_tied(closing, y) or loading_is_tied(closing, y, traces[CLOSING_TRACE], walked.branches):
         return True
     if walked.ratio < 1.0 and rim_is_tied(opening, y):
         return True
@@ -248,7 +248,7 @@ def _is_tied(task: Task, walked: Walked, opened: int, y: float, reduced: Floats,
     target = reduced[TARGET_VALUE, i] / math.sqrt(walked.ratio)
     own = walked.measured >= 0
     branches = traces[MEASURED_TRACE if own else CLOSING_TRACE]
-    count = walked.measured if own else walked.count
+    count = walked.measured if own else walked.branches
     return target_is_tied(measured_curve(closing, task.punch.turn), target, y, branches, count)
 
 
@@ -298,7 +298,7 @@ def _put_edge(task: Task, walked: Walked, y: float, reduced: Floats, i: int, out
 
 @kernel
 def _put_cycle(task: Task, walked: Walked, opened: int, y: float, reduced: Floats, i: int, out: Floats) -> int:
-    """Store what the cycle of scene i, which turns at y, loses; return its bits of status, -1 if the table is too short."""
+    """Store what the cycle of scene i, which turns at y, loses; return its bits of status, -1: too short a table."""
     rooms, closing, opening = task.rooms, walked.closing, walked.opening
     loading, visited = rooms.traces[CLOSING_TRACE], rooms.columns[0]
     unloading = loading if walked.ratio == 1.0 else rooms.traces[OPENING_TRACE]
@@ -341,7 +341,7 @@ def turns_of(task: Task, scenes: Floats, reduced: Floats, first: int, last: int,
         walked = _walk(task, scenes, reduced, first, far)
         farther = False
         for i in range(first, last):
-            y = _turn(task, walked, reduced, i) if walked.count >= 0 else math.nan
+            y = _turn(task, walked, reduced, i) if walked.branches >= 0 else math.nan
             if task.punch.turn != AT_RIM and y == reduced[RIM_Y, i] and far < min(y, end):
                 farther = True  # not reached as far as the curve is traced
             out[TURN, i] = y
@@ -353,7 +353,7 @@ def turns_of(task: Task, scenes: Floats, reduced: Floats, first: int, last: int,
 @kernel
 def _last_fold(task: Task, walked: Walked) -> float:
     """Return the radius of the outermost fold of opening, 0 if there is none; the third trace is overwritten."""
-    if walked.count < 0 or walked.opening.g == 0.0:
+    if walked.branches < 0 or walked.opening.g == 0.0:
         return 0.0
     trace = task.rooms.traces[MEASURED_TRACE]
     count = find_folds(walked.opening, math.inf, trace)
@@ -370,13 +370,13 @@ def open_curve(task: Task, walked: Walked, first: int, last: int, out: Floats) -
     """
     end, farthest = end_of(walked.opening.table), 0.0
     for i in range(first, last):
-        beyond = task.punch.turn != AT_RIM and out[TURN, i] >= end and walked.count >= 0
+        beyond = task.punch.turn != AT_RIM and out[TURN, i] >= end and walked.branches >= 0
         if math.isnan(out[TURN, i]) or beyond:
             no_value(out, i, SHORT)
         else:
             farthest = max(farthest, out[TURN, i])
-    opened = walked.count
-    if walked.ratio < 1.0 and walked.count >= 0 and farthest > 0.0:
+    opened = walked.branches
+    if walked.ratio < 1.0 and walked.branches >= 0 and farthest > 0.0:
         opened = find_folds(walked.opening, farthest, task.rooms.traces[OPENING_TRACE])
     return opened, farthest
 
@@ -404,7 +404,7 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
         if y < farthest and max(lowest.y, lowest.second_y) > y:
             own = lowest_load(pull, y, 0, table.bins)
         bits = -1
-        if walked.count >= 0 and opened >= 0 and own.known and own.load < 0.0:
+        if walked.branches >= 0 and opened >= 0 and own.known and own.load < 0.0:
             bits = _put_cycle(task, walked, opened, y, reduced, i, out)
         if bits < 0:
             no_value(out, i, SHORT)
@@ -427,7 +427,7 @@ def _may_be_solved(task: Task, scenes: Floats, reduced: Floats, i: int, out: Flo
 
 @kernel
 def curve_end(task: Task, scenes: Floats, reduced: Floats, start: int, last: int, out: Floats) -> int:
-    """Return the end of the scenes from `start` on that share its curve; `start` if it cannot be solved, which is stored."""
+    """Return the end of the scenes from `start` on that share its curve; `start` if it cannot be solved (stored)."""
     end = start
     while end < last and same_curve(scenes, reduced, start, end) and _may_be_solved(task, scenes, reduced, end, out):
         end += 1

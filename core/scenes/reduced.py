@@ -96,7 +96,7 @@ def mean_of(waves: Floats) -> float:
 
 @kernel
 def reduce_scene(punch: Punch, scenes: Floats, i: int, theta: float, depth_factor: float, reduced: Floats) -> None:
-    """Fill the units, sizes and targets of scene i; theta and depth factor are those of its exponent and Poisson's ratio."""
+    """Fill the units, sizes and targets of scene i, of a given theta and depth factor."""
     k, m = scenes[K, i], punch.exponent
     eta = 0.5 * (1.0 - k)
     M = theta * scenes[MODULUS, i] / scenes[C0, i] ** k
@@ -154,7 +154,7 @@ def fill_reach(punch: Punch, i: int, crest: float, steepest: float, mean: float,
 
 @kernel
 def reduce_scenes(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats) -> None:
-    """Fill the reduced numbers of all scenes but MOST and STEEP; neighbours that share an exponent share its functions."""
+    """Fill the reduced numbers of all scenes but MOST and STEEP; neighbours share what depends on k alone."""
     k = nu = theta = depth_factor = crest = steepest = math.nan
     mean = mean_of(punch.waves)
     for i in range(scenes.shape[1]):
@@ -166,7 +166,7 @@ def reduce_scenes(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats) -
                 depth_factor, crest = depth_factor_of(k, punch.exponent), crest_of(k, punch.waves)
                 node = between(basis, k)
                 steepest = 1.05 * max(basis.crest[node], basis.crest[node + 1])
-        if not (scenes[NU, i] == nu):
+        if scenes[NU, i] != nu:
             nu = scenes[NU, i]
             theta = theta_of(k, nu)
         reduce_scene(punch, scenes, i, theta, depth_factor, reduced)

@@ -98,7 +98,7 @@ from gradhesion.core.scenes.tasks import (
     solve_far,
 )
 from gradhesion.core.table.basis import NODES, Basis, basis_of, empty_table, fill_table
-from gradhesion.core.table.layout import EXACT, Table, Y, end_of
+from gradhesion.core.table.layout import EXACT, Table, Y, end_of, span_of
 from gradhesion.core.types import Floats, Integers
 
 # Rows of derivatives: d ln(value)/d ln of the reduced numbers B, g, by_load, waves and amplitude of the pattern, radius of
@@ -243,7 +243,7 @@ def _farthest(frozen: Frozen, patterned: bool) -> float:
     y = frozen.pull
     if frozen.moves or (patterned and frozen.turn < math.inf):
         y = frozen.turn
-    for n in range(frozen.count):
+    for n in range(frozen.total):
         y = max(y, frozen.jumps[LEFT, n], frozen.jumps[LANDED, n])
     return y
 
@@ -333,7 +333,7 @@ def _fill_scene(
     own, n = task.rooms.traces[CLOSING_TRACE], walked.visits
     lowest = lowest_load(pair.opening, y, 0, pair.opening.table.bins)
     beyond = y > end_of(pair.closing.table) and (n == 0 or own[END, task.rooms.columns[0, n - 1]] < y)
-    if walked.count < 0 or opened < 0 or beyond or not (lowest.known and lowest.load < 0.0):
+    if walked.branches < 0 or opened < 0 or beyond or not (lowest.known and lowest.load < 0.0):
         return SHORT
     turns = task.punch.turn != AT_RIM and y < reduced[RIM_Y, i]
     frozen = _freeze(task, walked, opened, y, lowest.y, turns, near.jumps)
@@ -412,7 +412,7 @@ def _far(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Flo
 
     def solve(task: Task, own: Floats, numbers: Floats, first: int, last: int, found: Floats) -> None:
         """Store those of scenes within the table of a task, on tables of neighbouring exponents as long."""
-        y_end, bins = end_of.py_func(task.table), task.table.bins
+        y_end, bins = span_of(task.table), task.table.bins
         k = task.table.k
         tables = [long_table(punch, k + _STEP * place, EXACT, finer, y_end)[0] for place in _PLACES]
         rooms = rooms_for(bins if patterned else 0, patterned)

@@ -69,6 +69,7 @@ from gradhesion.core.table.layout import (
     U,
     Y,
     end_of,
+    span_of,
 )
 from gradhesion.core.table.leading import crests_of
 from gradhesion.core.types import Floats, Integers
@@ -168,7 +169,7 @@ def near_task(
     first: int,
     last: int,
 ) -> Task:
-    """Return what the scenes `first` to `last` - 1, of one exponent, are solved with: tables filled as far as they need.
+    """Return what the scenes `first` to `last` - 1, of one exponent, are solved with, tables filled as they need.
 
     `by_load` is the basis of the pull-off, which is that of the cycle but for the leading terms of short waves.
     """
@@ -203,7 +204,7 @@ def near_cycles(
     reduced: Floats,
     out: Floats,
 ) -> None:
-    """Solve the cycles of scenes in the order of their exponents; those that reach beyond the basis are left as SHORT."""
+    """Solve cycles in the order of their exponents; scenes that reach beyond the basis are left as SHORT."""
     first = 0
     while first < scenes.shape[1]:
         last = end_of_exponent(scenes, first)
@@ -253,7 +254,7 @@ def long_table(punch: Punch, k: float, form: int, finer: int, y_end: float) -> t
     width = width_of(punch.waves, finer)
     key = (punch.exponent, punch.waves.tobytes(), k, form, finer)
     with _lock:
-        if key in _tables and end_of.py_func(_tables[key][0]) >= y_end:
+        if key in _tables and span_of(_tables[key][0]) >= y_end:
             _tables.move_to_end(key)
             return _tables[key]
         crest, wave, cut = crests_of(k, punch.waves)
@@ -282,7 +283,6 @@ def far_forces(task: Task, scenes: Floats, reduced: Floats, first: int, last: in
 
 def _lowest(nodes: Floats, crest: float) -> float:
     """Return a bound below (U - U1)/(y E): that of the leading term, or 2 % more than the values near the centre."""
-
     near = nodes[:, GEOMETRIC - 20 : GEOMETRIC + 512]
     return min(crest, 1.02 * float(((near[U] - near[U1]) / (near[E] * near[Y])).min()))
 
@@ -299,7 +299,7 @@ def solve_far(
     most_bins: int = _MOST_BINS,
     solve: Callable[[Task, Floats, Floats, int, int, Floats], None] = solve_cycles,
 ) -> None:
-    """Solve scenes of one exponent that reach beyond near tables, on tables that are tripled where they prove too short.
+    """Solve scenes of one exponent beyond near tables, on tables that are tripled where they prove too short.
 
     `solve` takes a task and scenes as `solve_cycles` does. Tables have `most_bins` bins at most.
     """
@@ -445,7 +445,7 @@ def scenes_of(columns: list[Floats], first: int, last: int) -> Floats:
 
 
 def run_parts(count: int, work: Callable[[int, int], None], threads: int | None) -> None:
-    """Do the work on parts of `count` scenes, from a first one to a last one, on threads that each take the next part."""
+    """Do the work on parts of `count` scenes, first to last, on threads that each take the next part."""
     workers = 1 if count < 2 * _SCENES else min(threads or processors(), -(-count // _SCENES))
     size = max(_SCENES, min(_MOST_SCENES, -(-count // (4 * workers)))) if workers > 1 else _MOST_SCENES
     parts = [(first, min(first + size, count)) for first in range(0, count, size)]
