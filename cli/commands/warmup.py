@@ -10,9 +10,7 @@ from gradhesion.cli.terminal.examples import example
 
 @click.command(epilog=example("warmup --all"))
 @click.option("--all", "everything", is_flag=True, help="Other profiles, controls and reports too.")
-@click.option(
-    "--workers", type=click.IntRange(min=1), hidden=True, help="Without effect since 0.4: one process compiles."
-)
+@click.option("--workers", type=click.IntRange(min=1), hidden=True, help="Without effect: one process compiles.")
 @click.option("--quiet", is_flag=True, help="Print errors only.")
 def warmup(everything: bool, workers: int | None, quiet: bool) -> None:  # noqa: ARG001 (accepted, and without effect)
     """Compile the solver ahead of the first run.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -177,7 +178,8 @@ def draw_curves(
     if rate is not None:
         from gradhesion.core.rate.curves import draw_at_speed  # noqa: PLC0415 (seldom wanted)
 
-        return draw_at_speed(scene, curves, profile, loading, rate)
+        own: dict[str, Any] = {"profile": profile, "loading": loading}
+        return draw_at_speed(scene, curves, rate, own, partial(draw_curves, **own))
     shape: dict[str, Any] = {"profile": profile, "loading": loading, "toughness": toughness}
     plain = {name: value for name, value in scene.items() if name != turn}
     frame = frame_of(request_of(plain, None, **shape)[0])

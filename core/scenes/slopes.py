@@ -101,8 +101,8 @@ from gradhesion.core.table.basis import NODES, Basis, basis_of, empty_table, fil
 from gradhesion.core.table.layout import EXACT, Table, Y, end_of, span_of
 from gradhesion.core.types import Floats, Integers
 
-# Rows of derivatives: d ln(value)/d ln of the reduced numbers B, g, by_load, waves and amplitude of the pattern, radius of
-# the rim, target and ratio; and d ln(value)/dk at fixed others.
+# Rows of derivatives: d ln(value)/d ln of the reduced numbers B, g, by_load, waves and amplitude of the pattern, of k (by
+# k itself, at fixed others), and of the radius of the rim, the target and the ratio.
 OF_POWER, OF_WAVES, OF_MACHINE, OF_PATTERN_WAVES, OF_PATTERN, OF_EXPONENT, OF_RIM, OF_TARGET, OF_RATIO = range(9)
 ROWS: Final = 9
 FORCE, ENERGY = RESULT_ROWS, RESULT_ROWS + ROWS
@@ -123,6 +123,8 @@ _PHASE_STEP: Final = 2.0**-9
 """The same for a pattern, in its phase."""
 _PLACES, _WEIGHTS = np.array([-2.0, -1.0, 1.0, 2.0]), np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
 _OF_HALVES: Final = np.array([0.0, -0.5, 0.5, 0.0])
+_NUMBERS: Final = np.array([BY_POWER, BY_WAVES, BY_LOAD, PATTERN_WAVES, PATTERN_AMPLITUDE, K])
+"""Where the numbers of the first rows stand, among reduced ones or (of the pattern's amplitude) parameters."""
 _MOST_BINS: Final = 26_000
 """Bins of a table at most, of which there are five: 3,250 waves."""
 
@@ -202,23 +204,6 @@ def _observe(pair: Pair, frozen: Frozen, weight: float, out: Floats) -> None:
 
 
 @kernel
-def _differentiate(
-    task: Task, near: Near, frozen: Frozen, y_end: float, numbers: Floats, number: int, step: float, row: int
-) -> None:
-    """Add derivatives by ln of a number to a row of `near.by`: `number` is its row in an array of `near`.
-
-    A step of a half is that of a difference of second order, others are of fourth.
-    """
-    value = numbers[number, 0]
-    for j in range(4):
-        weight = _WEIGHTS[j] if step < 0.5 else _OF_HALVES[j]
-        if weight != 0.0:
-            numbers[number, 0] = value * (1.0 + step * _PLACES[j])
-            _observe(_neighbour(task, near, task.table, y_end), frozen, weight / step, near.by[row])
-    numbers[number, 0] = value
-
-
-@kernel
 def _freeze(task: Task, walked: Walked, opened: int, y: float, pull: float, turns: bool, jumps: Floats) -> Frozen:
     """Return the radii of the cycle of a scene that turns at y, short of its rim if it `turns`."""
     traces, visited = task.rooms.traces, task.rooms.columns[0]
@@ -249,26 +234,6 @@ def _farthest(frozen: Frozen, patterned: bool) -> float:
 
 
 @kernel
-def _fill_by(task: Task, near: Near, frozen: Frozen, y_end: float) -> None:
-    """Fill the derivatives of what is observed by all numbers but those of the turn."""
-    punch, scene, numbers = task.punch, near.scene, near.numbers
-    near.by[:] = 0.0
-    _differentiate(task, near, frozen, y_end, numbers, BY_POWER, 0.5, OF_POWER)
-    _differentiate(task, near, frozen, y_end, numbers, BY_WAVES, 0.5, OF_WAVES)
-    if punch.control == MACHINE:
-        _differentiate(task, near, frozen, y_end, numbers, BY_LOAD, _STEP, OF_MACHINE)
-    for j in range(4):
-        pair = _neighbour(task, near, near.tables[j], y_end)
-        _observe(pair, frozen, _WEIGHTS[j] / _STEP, near.by[OF_EXPONENT])
-    highest = punch.rows.shape[1]
-    if highest > 0:
-        least = _least_of(pattern_of(punch, scene, numbers, 0))
-        phase = max(1.0, numbers[PATTERN_WAVES, 0] * highest * y_end)
-        _differentiate(task, near, frozen, y_end, numbers, PATTERN_WAVES, _PHASE_STEP * least / phase, OF_PATTERN_WAVES)
-        _differentiate(task, near, frozen, y_end, scene, PATTERN_AMPLITUDE, _PHASE_STEP * least, OF_PATTERN)
-
-
-@kernel
 def _least_of(pattern: Pattern) -> float:
     """Return the least value of a pattern of the work of adhesion, from the bound of its root's slope; 1 of others."""
     if not pattern.of_work or pattern.steep == 0.0:
@@ -278,6 +243,39 @@ def _least_of(pattern: Pattern) -> float:
         size += (n + 1.0) * math.hypot(pattern.rows[0, n], pattern.rows[1, n])
     root = 0.5 * abs(pattern.amplitude) * size * pattern.waves / pattern.steep
     return min(1.0, root * root)
+
+
+@kernel
+def _step_of(near: Near, pattern: Pattern, y_end: float, row: int) -> float:
+    """Return the step of the differences of a row: a half where they are exact in the second order."""
+    if row in (OF_POWER, OF_WAVES):
+        return 0.5
+    if row not in (OF_PATTERN, OF_PATTERN_WAVES):
+        return _STEP
+    phase = near.numbers[PATTERN_WAVES, 0] * pattern.rows.shape[1] * y_end
+    return _PHASE_STEP * _least_of(pattern) / (max(1.0, phase) if row == OF_PATTERN_WAVES else 1.0)
+
+
+@kernel
+def _fill_by(task: Task, near: Near, pattern: Pattern, frozen: Frozen, y_end: float) -> None:
+    """Fill the derivatives of what is observed by all numbers but those of the turn."""
+    near.by[:] = 0.0
+    for row in range(OF_RIM):
+        fixed = row == OF_MACHINE and task.punch.control != MACHINE
+        if fixed or (row in (OF_PATTERN, OF_PATTERN_WAVES) and pattern.rows.shape[1] == 0):
+            continue
+        numbers, number = near.scene if row == OF_PATTERN else near.numbers, _NUMBERS[row]
+        value, step = numbers[number, 0], _step_of(near, pattern, y_end, row)
+        for j in range(4):
+            weight, table = _OF_HALVES[j] if step == 0.5 else _WEIGHTS[j], task.table
+            if weight == 0.0:
+                continue
+            if row == OF_EXPONENT:
+                table = near.tables[j]
+            else:
+                numbers[number, 0] = value * (1.0 + step * _PLACES[j])
+            _observe(_neighbour(task, near, table, y_end), frozen, weight / step, near.by[row])
+        numbers[number, 0] = value
 
 
 @kernel
@@ -342,7 +340,7 @@ def _fill_scene(
     _observe(pair, frozen, 1.0, near.value)
     y_end = _farthest(frozen, pair.pattern.rows.shape[1] > 0)
     _fill_tables(near, y_end)
-    _fill_by(task, near, frozen, y_end)
+    _fill_by(task, near, pair.pattern, frozen, y_end)
     _put_slopes(near, pair, frozen, reduced[TARGET_VALUE, i] / math.sqrt(pair.ratio), out, i)
     return 0.0
 
@@ -381,7 +379,7 @@ def near_slopes(
 
     `near` has room for the table of an exponent and its four neighbours.
     """
-    nodes, polys, first = near.nodes, near.polys, 0
+    nodes, polys, first = near.nodes, near.polys, np.int64(0)  # a plain 0 would be a type of its own to callees
     while first < scenes.shape[1]:
         last, k = end_of_exponent(scenes, first), scenes[K, first]
         task = near_task(punch, wanted, basis, basis, profile, near, scenes, reduced, first, last)

@@ -205,7 +205,7 @@ def near_cycles(
     out: Floats,
 ) -> None:
     """Solve cycles in the order of their exponents; scenes that reach beyond the basis are left as SHORT."""
-    first = 0
+    first = np.int64(0)  # a plain 0 would be a type of its own, for which callees are compiled once more
     while first < scenes.shape[1]:
         last = end_of_exponent(scenes, first)
         task = near_task(punch, wanted, basis, by_load, profile, near, scenes, reduced, first, last)
