@@ -45,11 +45,7 @@ from gradhesion.core.scenes.reduced import (
 from gradhesion.core.scenes.tasks import Request, columns_of, long_table, prepared, punch_of, scenes_of
 from gradhesion.core.table.basis import room_of
 from gradhesion.core.table.filling import width_of
-<<<<<<< HEAD
-from gradhesion.core.table.layout import EXACT, LANES, Source, Table, end_of
-=======
 from gradhesion.core.table.layout import EXACT, LANES, Source, Table, span_of
->>>>>>> base
 from gradhesion.core.types import Floats, Integers
 
 BEYOND: Final = 1.05
@@ -193,18 +189,10 @@ def waves_of(frame: Frame) -> tuple[float, float]:
 
 
 def table_for(frame: Frame, form: int, y_end: float) -> tuple[Table, Source, float] | None:
-<<<<<<< HEAD
-    """Return the table of a scene up to y_end, its source, and the crest of its -U'; None where it has too many bins."""
+    """Return the table of a scene up to y_end, its source, and the crest of -U'; None: it has too many bins."""
     if not y_end <= _MOST_BINS * width_of(frame.punch.waves, frame.finer):
         return None
     return long_table(frame.punch, frame.k, form, frame.finer, y_end)
-=======
-    """Return the table of a scene up to y_end, its source, and the crest of -U'; None: it has too many bins."""
-    punch, width = frame.punch, width_of(frame.punch.waves, frame.finer)
-    if not y_end <= _MOST_BINS * width:
-        return None
-    return long_table(punch, frame.k, form, frame.finer, y_end)
->>>>>>> base
 
 
 def _side(frame: Frame, root: float, made: tuple[Table, Source, float], y_end: float) -> Side | None:
