@@ -104,7 +104,7 @@ def sample(line: Line, corners: Floats, joined: Truths, scales: Floats) -> tuple
     """
     ends = np.flatnonzero(joined)
     # a place is the number of a corner less the share of the way to it that is still to go
-    start: Floats = ends - 1.0
+    start = ends.astype(np.float64) - 1.0
     width = np.ones(ends.size)
     places = [np.arange(corners.shape[1], dtype=float)]
 
