@@ -45,10 +45,11 @@ def _series(scene: dict[str, float], profile: Profile | None = None) -> tuple[li
 
 def _short(scene: dict[str, float], profile: Profile | None = None) -> Callable[[Any], tuple[Any, Any]]:
     """Depth and load of short waves by the printed equations (5.15), (5.16)."""
-    rest = (scene["lambda_over_R"], *_series(scene, profile))
+    cosines, sines, exponent = _series(scene, profile)
+    rest = (scene["lambda_over_R"], cosines, sines)
     return lambda a: (
-        short_waves.indentation(scene["k"], _material(scene), a, *rest),
-        short_waves.load(scene["k"], _material(scene), a, *rest),
+        short_waves.indentation(scene["k"], _material(scene), a, *rest, exponent=exponent),
+        short_waves.load(scene["k"], _material(scene), a, *rest, exponent=exponent),
     )
 
 
