@@ -143,10 +143,11 @@ def _solved(
         residual="energy_residual" in outputs,
         saturation="saturation_radius" in outputs,
     )
-    needed = {
-        *outputs,
-        *(("loading_energy", "loading_jumps", "dissipated_energy") if CLOSING in parameters and cycle else ()),
-    }
+    needed = {*outputs}
+    if cycle and CLOSING in parameters:
+        needed |= {"loading_energy", "loading_jumps", "dissipated_energy"}
+    if cycle and solver == "asymptotic":
+        needed |= {"dissipated_energy"}
     names = [name for name in NAMES if name in needed]
     form = BY_DEPTH if solver == "asymptotic" else EXACT
     rows, status = solve_all(request, wanted, form, [NAMES.index(name) for name in names], threads)

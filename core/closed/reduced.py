@@ -37,7 +37,7 @@ _RULES: Final[dict[str, dict[str, tuple[tuple[str, ...], Callable[..., Any]]]]] 
     "c0_over_R": {"c0": (("R",), _over)},
     "lambda_over_R": {"lambda_over_L": (_MATERIAL, _of_length), "wavelength": (("R",), _over)},
     "A": {
-        "chi": (PARAMETERS[:5], lambda chi, k, nu, modulus, c0, ratio: amplitude_of_ratio(k, nu, modulus, c0, ratio, chi)),
+        "chi": (PARAMETERS[:5], lambda chi, *scene: amplitude_of_ratio(*scene, chi=chi)),
         "amplitude": (("R", "lambda_over_R"), lambda amplitude, R, ratio: amplitude / R / ratio),
     },
     "a_max_over_R": {

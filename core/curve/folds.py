@@ -3,6 +3,8 @@
 import math
 from typing import Final
 
+import numpy as np
+
 from gradhesion.core.curve.trace import (
     CLOSE_PAIR,
     END,
@@ -98,6 +100,51 @@ def pair_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
     return D * sign <= 0.0, t, D if D != 0.0 else -sign * _TINY
 
 
+@kernel
+def _turn_of_slope(curve: Curve, i: int, low: float, high: float, sign: float) -> float:
+    """Return the place between two where sign D' turns from positive to negative, or the reverse, by bisection."""
+    _, D1, _, _ = slope_in(curve, i, low)
+    rises = D1 * sign > 0.0
+    for _ in range(40):
+        t = 0.5 * (low + high)
+        _, D1, _, _ = slope_in(curve, i, t)
+        if (D1 * sign > 0.0) == rises:
+            low = t
+        else:
+            high = t
+    return 0.5 * (low + high)
+
+
+@kernel
+def detour_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
+    """Look for three folds in bin i, over which sign D goes from below to above 0: whether it falls below 0 again.
+
+    Return that, and the places of the crest and of the trough between them. D' must be positive at both edges and
+    negative somewhere between: at the least of D', which is looked for where D'' turns.
+    """
+    _, left, left2, _ = slope_in(curve, i, -1.0)
+    _, right, right2, _ = slope_in(curve, i, 1.0)
+    if left * sign <= 0.0 or right * sign <= 0.0 or left2 * sign >= 0.0 or right2 * sign <= 0.0:
+        return False, 0.0, 0.0
+    low, high, middle = -1.0, 1.0, 0.0
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        _, D1, D2, _ = slope_in(curve, i, middle)
+        if D1 * sign < 0.0:
+            break
+        if D2 * sign < 0.0:
+            low = middle
+        else:
+            high = middle
+    if D1 * sign >= 0.0:
+        return False, 0.0, 0.0
+    crest = _turn_of_slope(curve, i, -1.0, middle, sign)
+    trough = _turn_of_slope(curve, i, middle, 1.0, sign)
+    top, _, _, _ = slope_in(curve, i, crest)
+    bottom, _, _, _ = slope_in(curve, i, trough)
+    return top * sign > 0.0 and bottom * sign < 0.0, crest, trough
+
+
 @leaf
 def swing_in(curve: Curve, i: int) -> float:
     """Return how far D can swing in bin i beyond its values at the edges: a bound of h^2/2 times its second derivative."""
@@ -146,6 +193,7 @@ def scan(curve: Curve, first: int, last: int, count: int, slopes: Floats, trace:
     ends = table.exponent - 1.0 >= base  # else the power loses against the waves, and folds need not end
     before = slope_at(curve, first)
     older, start = before, first
+    places, values = np.zeros(4), np.zeros(4)  # the ends of the pieces of a bin on which D has one fold, and D there
     while start < last:
         if ends and B * nodes[RPOW, start] + g * nodes[RLOW, start] > highest / nodes[Y, start]:
             return count, True
@@ -162,22 +210,30 @@ def scan(curve: Curve, first: int, last: int, count: int, slopes: Floats, trace:
             i, after = start + j, slopes[j]
             half = nodes[HALF, i]
             terms = B * nodes[SLOPE, i] + highest * nodes[E, i]
-            pieces, low, high, at_low, at_high, guess = 0, -1.0, 1.0, before * half, after * half, 0.0
+            places[0], places[1], values[0], values[1], pieces = -1.0, 1.0, before * half, after * half, 1
             if (before > 0.0) != (after > 0.0):
-                pieces, guess = 1, _guess_of(older, before, after)
+                if abs(after - before) < 4.0 * swing_in(curve, i):  # D may turn twice on its way
+                    found, crest, trough = detour_in(curve, i, 1.0 if after > 0.0 else -1.0)
+                    if found:
+                        places[1], places[2], places[3], pieces = crest, trough, 1.0, 3
+                        values[1], values[2], values[3] = -values[0], values[0], after * half
             elif min(abs(before), abs(after)) < swing_in(curve, i):
-                found, high, at_high = pair_in(curve, i, 1.0 if after > 0.0 else -1.0)
+                found, t, extreme = pair_in(curve, i, 1.0 if after > 0.0 else -1.0)
                 pieces = 2 if found else 0
-                if abs(at_high) <= CLOSE * half * terms:
+                places[1], values[1], places[2], values[2] = t, extreme, 1.0, after * half
+                if abs(extreme) <= CLOSE * half * terms:
                     trace[CLOSE_PAIR, 0] = min(trace[CLOSE_PAIR, 0], nodes[Y, i])
+            else:
+                pieces = 0
             for piece in range(pieces):
                 if count >= trace.shape[1]:
                     return FULL, False
-                if pieces == 2:  # noqa: PLR2004
-                    guess = low + (high - low) * at_low / (at_low - at_high)
-                t, depth = zero_in(curve, i, low, high, guess, at_high > 0.0)
-                count = _add_fold(curve, i, t, depth, at_high > 0.0, trace, count)
-                low, high, at_low, at_high = high, 1.0, at_high, after * half
+                low, high, rising = places[piece], places[piece + 1], values[piece + 1] > 0.0
+                guess = _guess_of(older, before, after)
+                if pieces > 1:
+                    guess = low + (high - low) * values[piece] / (values[piece] - values[piece + 1])
+                t, depth = zero_in(curve, i, low, high, guess, rising)
+                count = _add_fold(curve, i, t, depth, rising, trace, count)
             if abs(after) <= CLOSE * terms and swing_in(curve, i) > 0.5 * abs(before):
                 trace[CLOSE_PAIR, 0] = min(trace[CLOSE_PAIR, 0], nodes[Y, i])
             older, before = before, after

@@ -10,6 +10,7 @@ from gradhesion.core.curve.values import (
     coordinate_of,
     depth_and_load,
     place_of,
+    radius_of,
     slope_at,
     slope_in,
     softness,
@@ -21,6 +22,8 @@ LANDING: Final = 4e-4
 """Accuracy of a landing, in half widths, before its last step, whose error is the cube: energies forgive its square."""
 EXACTLY: Final = 1e-6
 """The same where the radius itself is asked for."""
+_UNDER_LOAD: Final = 2e-5
+"""Where a load counts, the depth of a landing is not stationary."""
 BEYOND: Final = -1.0
 """In the place of a radius: beyond the table."""
 
@@ -55,16 +58,20 @@ def _guess(curve: Curve, i: int, level: float) -> float:
 
 @leaf
 def _value_in(curve: Curve, i: int, t: float) -> tuple[float, float, float]:
-    """Return what is prescribed at a place in bin i, and its first two derivatives by t (the second to about a tenth)."""
+    """Return what is prescribed at a place in bin i, and its first two derivatives by t."""
+    table = curve.table
     D, D1, _, depth = slope_in(curve, i, t)
     if curve.by_load == 0.0:
         return depth, D, D1
     depth, load = depth_and_load(curve, i, t)
     stretch = 0.0
     for n in range(N - 1, -1, -1):
-        stretch = stretch * t + curve.table.polys[i, PE, n]
-    weight = softness(curve, 1.0 / (stretch * stretch))
-    return coordinate_of(curve, depth, load), D * weight, D1 * weight
+        stretch = stretch * t + table.polys[i, PE, n]
+    stiffness = 1.0 / (stretch * stretch)
+    weight = softness(curve, stiffness)
+    ratio = table.nodes[HALF, i] / radius_of(table, i, t)
+    change = curve.by_load * stiffness * (1.0 + table.k) * ratio
+    return coordinate_of(curve, depth, load), D * weight, D1 * weight + D * change
 
 
 @kernel
@@ -94,6 +101,8 @@ def at_level(curve: Curve, level: float, low: float, high: float, accuracy: floa
     t = _guess(curve, i, level)
     if not (a < t < b):
         t = 0.5 * (a + b)
+    if curve.by_load != 0.0:
+        accuracy = min(accuracy, _UNDER_LOAD)
     for _ in range(60):
         value, D, D1 = _value_in(curve, i, t)
         value -= level

@@ -13,7 +13,7 @@ from typing import Final
 
 import numpy as np
 
-from gradhesion.core.equations._domain import Array
+from gradhesion.core.equations._arguments import Array
 
 _SAMPLES: Final = 32
 """Of each wave of the shortest harmonic: a maximum lies within 1/64 of a wave of a sample that no neighbour exceeds."""

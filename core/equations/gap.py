@@ -2,12 +2,11 @@
 
     gap(r) = u_z(r) - delta + f(r) = (2/pi) cos(k pi/2) int_a^r s^k (delta_H(s) - delta) (r^2-s^2)^(-(1+k)/2) ds
 
-which is (3.5) with the adhesive part (4.10), in one integral. Contact over one disc requires gap(r) >= 0 for all
-r > a; delta_H(s) >= delta for all s > a is sufficient. The integral is a sum of Gauss rules: Jacobi's in the last
-panel, which takes the singular end r by its weight, and Legendre's in panels that grow from there by a factor of 2 to
-at most half a wave, and likewise from a, where s^k is not smooth at s = 0. As k tends to 1 all of the weight moves to
-r: that part is left out of the sum. For millions of points this is slow.
-Source: Jin, Guo & Wan (2013), section 12 of docs/theory.md.
+which is (3.5) with the adhesive part (4.10), in one integral. Contact over one disc requires gap(r) >= 0 for all r > a;
+delta_H(s) >= delta for all s > a is sufficient. The integral is a sum of Gauss rules: Jacobi's in the last panel, which
+takes the singular end r by its weight, and Legendre's in panels that grow from there by a factor of 2 to at most half a
+wave, and likewise from a, where s^k is not smooth at s = 0. As k tends to 1 all of the weight moves to r: that part is
+left out of the sum. For millions of points this is slow.
 """
 
 import math
@@ -18,14 +17,22 @@ import numpy as np
 from scipy.special import roots_legendre
 
 from gradhesion.core.equations import _abel, general, hertz, profile
-from gradhesion.core.equations._arguments import Real, Waves, documented
-from gradhesion.core.equations._domain import Array, exponent_of, not_negative, point_by_point, positive, power_of
+from gradhesion.core.equations._arguments import (
+    Array,
+    Real,
+    Waves,
+    describe,
+    exponent_of,
+    not_negative,
+    point_by_point,
+    positive,
+    power_of,
+)
 
 _NODES: Final = 24
 _LEGENDRE: Final = roots_legendre(_NODES)
 
 
-@documented()
 def gap(
     k: Real, distance: Real, radius: Real, depth: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0
 ) -> Array:
@@ -51,7 +58,6 @@ def gap(
     )
 
 
-@documented()
 def surface(
     k: Real, distance: Real, radius: Real, depth: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0
 ) -> Array:
@@ -68,7 +74,6 @@ def surface(
     return opening + np.asarray(depth, dtype=float) - profile.height(distance, wavelength, amplitude, exponent)
 
 
-@documented()
 def series_gap(
     k: Real,
     distance: Real,
@@ -79,12 +84,7 @@ def series_gap(
     sines: Waves = (),
     exponent: Real = 2.0,
 ) -> Array:
-    """Return gap/R around a punch whose waviness is a Fourier series (2.2).
-
-    >>> one, series = gap(0.3, 0.25, 0.2, 0.01, 0.1, 0.02), series_gap(0.3, 0.25, 0.2, 0.01, 0.1, [-0.02])
-    >>> bool(abs(one - series) < 1e-14)
-    True
-    """
+    """Return gap/R around a punch whose waviness is a Fourier series (2.2)."""
     shortest = max(1, len(cosines), len(sines))
 
     def at(k: float, r: float, a: float, level: float, length: float, m: float) -> float:
@@ -96,7 +96,6 @@ def series_gap(
     return point_by_point(at, exponent_of(k), positive(distance), positive(radius), depth, positive(wavelength), power)
 
 
-@documented()
 def series_surface(
     k: Real,
     distance: Real,
@@ -107,11 +106,7 @@ def series_surface(
     sines: Waves = (),
     exponent: Real = 2.0,
 ) -> Array:
-    """Return u_z/R, how far the surface is pressed in outside a punch whose waviness is a Fourier series (4.3), (4.10).
-
-    >>> float(series_surface(1.0, 0.25, 0.2, 0.03, 0.1, [-0.02], [0.01]).round(12))
-    0.0
-    """
+    """Return u_z/R, how far the surface is pressed in outside a punch of any series (4.3), (4.10)."""
     opening = series_gap(k, distance, radius, depth, wavelength, cosines, sines, exponent)
     r, m, length = positive(distance), power_of(exponent), positive(wavelength)
     height = r**m / m + length * general.waviness(r / length, cosines, sines)
@@ -152,3 +147,6 @@ def _panels(a: float, r: float, widest: float) -> Array:
         low = edges[-1]
         edges.append(min(last, low + min(widest, low, 0.5 * (r - low))))
     return np.array([*edges, r])
+
+
+describe(__name__)

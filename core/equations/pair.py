@@ -14,8 +14,7 @@ from typing import Final
 
 import numpy as np
 
-from gradhesion.core.equations._arguments import Real, documented
-from gradhesion.core.equations._domain import Array, exponent_of, not_negative
+from gradhesion.core.equations._arguments import Array, Real, describe, exponent_of, not_negative
 from gradhesion.core.jit import kernel
 from gradhesion.core.table.functions import Functions, functions_of, pairs_at
 
@@ -45,7 +44,6 @@ def _integrals(k: Real, x: Real) -> tuple[Array, Array, Array]:
     return exponents, z, out
 
 
-@documented(returns="Array of shape (4, *broadcast shape); NaN outside the ranges.")
 def sine_integrals(k: Real, x: Real) -> Array:
     """Return S0, S1, dS0/dz = (1 - z S1)/(1+k) and dS1/dz = ((1+k) S0 - (2+k) S1)/z at z = 2 pi x.
 
@@ -61,7 +59,6 @@ def sine_integrals(k: Real, x: Real) -> Array:
     return np.stack([s0, s1, (1.0 - z * s1) / (1.0 + exponents), np.where(np.isnan(z), np.nan, slope)])
 
 
-@documented(returns="Array of shape (2, *broadcast shape); NaN outside the ranges.")
 def cosine_integrals(k: Real, x: Real) -> Array:
     """Return C0 and C1 at z = 2 pi x.
 
@@ -71,3 +68,6 @@ def cosine_integrals(k: Real, x: Real) -> Array:
     [0.636619772368, 0.0]
     """
     return _integrals(k, x)[2][1::2]
+
+
+describe(__name__)

@@ -4,9 +4,8 @@
 
 for r < a, compression positive. The integral is the contact without adhesion (3.4); the second term is a flat punch
 (3.1) that is pulled out by delta_H - delta, which is Delta in equilibrium (4.9). P = 2 pi int r p dr. For k < 1 the
-pressure is infinite at the edge r = a, unless delta = delta_H; at k = 1 it is finite there. Lengths are in R,
-pressures in dgamma/R, M in dgamma/R^(1+k) (core/problem/material.py). The profile is a power and a Fourier series as in
-general.py; one cosine wave is cosines = [-A]. Source: Jin, Guo & Wan (2013) as corrected in docs/theory.md.
+pressure is infinite at the edge r = a, unless delta = delta_H; at k = 1 it is finite there. The profile is a power and
+a Fourier series as in general.py; one cosine wave is cosines = [-A].
 """
 
 import math
@@ -15,29 +14,26 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gradhesion.core.equations import _abel, hertz
-from gradhesion.core.equations._arguments import Real, Waves, documented
-from gradhesion.core.equations._domain import Array, exponent_of, not_negative, point_by_point, positive, power_of
+from gradhesion.core.equations._arguments import (
+    Array,
+    Real,
+    Waves,
+    describe,
+    exponent_of,
+    not_negative,
+    point_by_point,
+    positive,
+    power_of,
+)
 from gradhesion.core.equations.general import harmonics, hertz_indentation
 from gradhesion.core.equations.pair import cosine_integrals, sine_integrals
 
 
 def pressure_unit(radius_of_punch: ArrayLike, work_of_adhesion: ArrayLike) -> Array:
-    """Return dgamma/R in Pa, by which pressures are multiplied for SI units.
-
-    Parameters
-    ----------
-    radius_of_punch
-        R in m.
-    work_of_adhesion
-        dgamma in J/m^2.
-
-    >>> float(pressure_unit(1e-6, 0.05).round(6))
-    50000.0
-    """
+    """Return dgamma/R in Pa, by which pressures are multiplied for SI units."""
     return np.asarray(work_of_adhesion, dtype=float) / np.asarray(radius_of_punch, dtype=float)
 
 
-@documented()
 def flat_pressure(k: Real, stiffness: Real, distance: Real, radius: Real, depth: Real) -> Array:
     """Return p R/dgamma under a flat-ended cylinder, pressed in by a depth (3.1).
 
@@ -56,7 +52,6 @@ def flat_pressure(k: Real, stiffness: Real, distance: Real, radius: Real, depth:
         return np.where(pressed == 0.0, 0.0 * inside, _front(n - 1.0, positive(stiffness)) * pressed * root)
 
 
-@documented()
 def hertz_pressure(
     k: Real,
     stiffness: Real,
@@ -86,7 +81,6 @@ def hertz_pressure(
     return point_by_point(at, exponent_of(k), r, a, positive(wavelength), power_of(exponent), material)
 
 
-@documented()
 def pressure(
     k: Real,
     stiffness: Real,
@@ -115,15 +109,10 @@ def pressure(
     return hertz_pressure(k, stiffness, distance, radius, wavelength, cosines, sines, exponent) + flat
 
 
-@documented()
 def indentation_slope(
     k: Real, radius: Real, wavelength: Real, cosines: Waves, sines: Waves = (), exponent: Real = 2.0
 ) -> Array:
-    """Return delta_H'(a), the slope of the depth of contact without adhesion over the contact radius.
-
-    >>> float(indentation_slope(0.5, 0.3, 0.1, []).round(12))
-    0.4
-    """
+    """Return delta_H'(a), the slope of the depth of contact without adhesion over the contact radius."""
     a, m = positive(radius), power_of(exponent)
     smooth = m * hertz.power_indentation(k, a, m) / a
     return smooth + _wave_slope(k, a, wavelength, harmonics(cosines, sines))
@@ -169,3 +158,6 @@ def _integral(k: float, r: float, a: float, length: float, waves: list[tuple[int
     s, weights = _abel.from_zero(a, k, widest)
     rest = float(np.sum(weights * (_wave_slope(k, s, length, shown) - first) / s))
     return smooth + rest + (first * a**k / k if first != 0.0 else 0.0)
+
+
+describe(__name__)
