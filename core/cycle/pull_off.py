@@ -40,7 +40,7 @@ class Filling(NamedTuple):
 
 
 @leaf
-def _deeper(best: Lowest, load: float, y: float) -> Lowest:
+def deeper(best: Lowest, load: float, y: float) -> Lowest:
     """Return the lowest two, another trough taken in."""
     if load < best.load:
         return Lowest(load, y, best.load, best.y, True)
@@ -93,7 +93,7 @@ def _trough(curve: Curve, crest: float, i: int, before: float, after: float, rim
         return best
     t, _ = zero_in(curve, i, low, high, guess, True)
     y = radius_of(curve.table, i, t)
-    return _deeper(best, depth_and_load(curve, i, t)[1], y) if y <= rim else best
+    return deeper(best, depth_and_load(curve, i, t)[1], y) if y <= rim else best
 
 
 @leaf
@@ -133,7 +133,7 @@ def lowest_load(curve: Curve, rim: float, filling: Filling) -> Lowest:
         if lazy and not (filling.filled[0] < last <= filling.filled[1]):
             mix_bins(filling.basis, table.k, filling.weights, last - 1, last, nodes, table.polys)
         i, t = place_of(table, rim)
-        best = _deeper(best, depth_and_load(curve, i, t)[1], rim)
+        best = deeper(best, depth_and_load(curve, i, t)[1], rim)
     i = start
     before = first_slope = slope_at(curve, start)
     while i < last and (i == start or _envelope(curve, crest, i) <= best.load):

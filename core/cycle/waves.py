@@ -307,6 +307,11 @@ def fill_waves(waves: Waves, table: Table, source: Source) -> None:
         _integrate(waves, first, 2 * first, nodes, polys, sums)
 
 
+def reach_of(waves: Waves) -> int:
+    """Return the number up to which waves are known."""
+    return FIRST_WAVE << len(waves.values)
+
+
 def waves_of(table: Table, source: Source, steepest: float, cut: float, most: float) -> Waves:
     """Return the waves of a table up to number `most`, given the y at which wave 0 begins."""
     per = int(round(2.0 * math.pi / table.width))

@@ -12,7 +12,7 @@ from gradhesion.core.curve.folds import CLOSE, find_folds
 from gradhesion.core.curve.trace import END, LANDING, START
 from gradhesion.core.curve.values import Curve, coordinate_of, load_curve, softness, state_at
 from gradhesion.core.cycle.disc import Disc, gap_is_open, loading_is_one_disc
-from gradhesion.core.cycle.path import load_to, unload_from, visited_within, walk_loading
+from gradhesion.core.cycle.path import Loaded, Unloaded, load_to, unload_from, visited_within, walk_loading
 from gradhesion.core.cycle.pull_off import Filling, Lowest, lowest_load
 from gradhesion.core.cycle.residual import work_of_cycle
 from gradhesion.core.cycle.ties import loading_is_tied, rim_is_tied, target_is_tied, unloading_is_tied
@@ -210,7 +210,7 @@ def _turn(task: Task, walked: Walked, reduced: Floats, i: int) -> float:
 
 
 @kernel
-def _snap_in(pair: Pair, source: Source, trace: Floats, landing: float) -> float:
+def _snap_in(pair: Pair, source: Source, landing: float) -> float:
     """Return the pull after the jump from zero contact to a radius, at the coordinate 0, in the unit of load of closing."""
     depth, load = state_at(pair.closing, source, landing)
     stiffness = landing ** (1.0 + pair.closing.table.k)
@@ -247,7 +247,7 @@ def _ties(task: Task, walked: Walked, opened: int, y: float, reduced: Floats, i:
 
 
 @leaf
-def _no_value(out: Floats, i: int, status: float) -> None:
+def no_value(out: Floats, i: int, status: float) -> None:
     """Store that a scene has no value."""
     out[:, i] = math.nan
     out[STATUS, i] = status
@@ -262,7 +262,7 @@ def _no_contact(scenes: Floats, i: int, out: Floats) -> None:
 
 
 @kernel
-def _put_pull_off(lowest: Lowest, y: float, reduced: Floats, i: int, out: Floats) -> int:
+def put_pull_off(lowest: Lowest, y: float, reduced: Floats, i: int, out: Floats) -> int:
     """Store the pull-off of a cycle that turns at y; return its bits of status."""
     out[FORCE, i] = -lowest.load * reduced[LOAD, i] * UNIT_OF_FORCE
     out[PULL_OFF_RADIUS, i] = lowest.y * reduced[LENGTH, i]
@@ -271,9 +271,11 @@ def _put_pull_off(lowest: Lowest, y: float, reduced: Floats, i: int, out: Floats
 
 
 @kernel
-def _put_edge(task: Task, walked: Walked, y: float, reduced: Floats, i: int, out: Floats) -> None:
-    """Store what depends on the edge being stuck between closing and opening, for a cycle that turns at y."""
-    pair = walked.pair
+def put_edge(task: Task, pair: Pair, landing: float, y: float, reduced: Floats, i: int, out: Floats) -> None:
+    """Store what depends on the edge being stuck between closing and opening, for a cycle that turns at y.
+
+    `landing` is where the jump-in lands, or the rim.
+    """
     root, k = math.sqrt(pair.ratio), task.table.k
     out[FRONT, i] = out[PINNED, i] = out[SNAP, i] = 0.0
     if pair.ratio < 1.0:
@@ -285,10 +287,31 @@ def _put_edge(task: Task, walked: Walked, y: float, reduced: Floats, i: int, out
             by_machine = softness(pair.opening, y ** (1.0 + k)) if pair.opening.by_depth > 0.0 else 1.0
             out[PINNED, i] = (1.0 - root) * stretch * by_machine
     if pair.opening.by_depth > 0.0:
-        rooms, rim = task.rooms, reduced[RIM_Y, i]
-        landing = rooms.closing[LANDING, rooms.visited[0]] if walked.visits > 0 else rim
-        pull = _snap_in(pair, task.source, rooms.closing, min(rim, landing)) * root
-        out[SNAP, i] = pull * reduced[LOAD, i] * UNIT_OF_FORCE
+        out[SNAP, i] = _snap_in(pair, task.source, landing) * root * reduced[LOAD, i] * UNIT_OF_FORCE
+
+
+@kernel
+def put_losses(
+    task: Task,
+    pair: Pair,
+    loaded: Loaded,
+    unloaded: Unloaded,
+    y: float,
+    landings: tuple[float, float],
+    reduced: Floats,
+    i: int,
+    out: Floats,
+) -> int:
+    """Store what a cycle that turns at y loses, given the first and last `landings` of loading; return its bits of status."""
+    area = 2.0 * math.pi * reduced[LENGTH, i] ** 2
+    out[LOADING, i], out[UNLOADING, i] = loaded.lost * area * pair.ratio, unloaded.lost * area
+    out[LOADING_JUMPS, i], out[UNLOADING_JUMPS, i] = loaded.jumps, unloaded.jumps
+    out[DEEPEST, i] = loaded.deepest * reduced[DEPTH, i] * math.sqrt(pair.ratio)
+    out[JUMP_OUT, i] = unloaded.last * reduced[DEPTH, i]
+    put_edge(task, pair, landings[0], y, reduced, i, out)
+    out[ENERGY, i] = out[LOADING, i] + out[UNLOADING, i] + out[FRONT, i]
+    out[TURN, i], out[REACH, i] = y * reduced[LENGTH, i], landings[1] * reduced[LENGTH, i]
+    return JUMP_IN_TO_RIM if loaded.in_to_rim and y == reduced[RIM_Y, i] else 0
 
 
 @kernel
@@ -302,23 +325,17 @@ def _put_cycle(
     if not loaded.known:
         return -1
     unloaded = unload_from(pair.opening, source, y, trace, opened, rooms.stack)
-    area = 2.0 * math.pi * reduced[LENGTH, i] ** 2
-    out[LOADING, i], out[UNLOADING, i] = loaded.lost * area * pair.ratio, unloaded.lost * area
-    out[LOADING_JUMPS, i], out[UNLOADING_JUMPS, i] = loaded.jumps, unloaded.jumps
-    out[DEEPEST, i] = loaded.deepest * reduced[DEPTH, i] * math.sqrt(pair.ratio)
-    out[JUMP_OUT, i] = unloaded.last * reduced[DEPTH, i]
-    _put_edge(task, walked, y, reduced, i, out)
-    out[ENERGY, i] = out[LOADING, i] + out[UNLOADING, i] + out[FRONT, i]
-    out[TURN, i] = y * reduced[LENGTH, i]
     n = visited_within(rooms.closing, rooms.visited, walked.visits, y)
+    landing = rooms.closing[LANDING, rooms.visited[0]] if walked.visits > 0 else math.inf
     reach = rooms.closing[LANDING, rooms.visited[n - 1]] if n > 0 else y
-    out[REACH, i] = reach * reduced[LENGTH, i]
+    landings = min(landing, reduced[RIM_Y, i]), reach
+    bits = put_losses(task, pair, loaded, unloaded, y, landings, reduced, i, out)
     if task.wanted.residual:
+        area = 2.0 * math.pi * reduced[LENGTH, i] ** 2
         work = work_of_cycle(
             pair.closing, pair.opening, source, y, rooms.closing, walked.visits, rooms.visited, trace, opened
         )
         out[RESIDUAL, i] = math.nan if math.isnan(work) else out[ENERGY, i] - work * area
-    bits = JUMP_IN_TO_RIM if loaded.in_to_rim and y == reduced[RIM_Y, i] else 0
     if task.wanted.contact and not _loading_keeps_one_disc(task, walked, y, reduced[RIM_Y, i]):
         bits |= LOADING_NOT_ONE_DISC
     if _ties(task, walked, opened, y, reduced, i):
@@ -371,7 +388,7 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
     for i in range(first, last):
         beyond = task.punch.turn != AT_RIM and out[TURN, i] >= end_of(pair.closing.table) and walked.count >= 0
         if math.isnan(out[TURN, i]) or beyond:
-            _no_value(out, i, SHORT)
+            no_value(out, i, SHORT)
         else:
             farthest = max(farthest, out[TURN, i])
     opened = walked.count
@@ -399,9 +416,9 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
         if walked.count >= 0 and opened >= 0 and own.known and own.load < 0.0:
             bits = _put_cycle(task, walked, opened, y, scenes, reduced, i, out)
         if bits < 0:
-            _no_value(out, i, SHORT)
+            no_value(out, i, SHORT)
             continue
-        out[STATUS, i] = bits | _put_pull_off(own, y, reduced, i, out)
+        out[STATUS, i] = bits | put_pull_off(own, y, reduced, i, out)
         out[SATURATION, i] = last_fold * reduced[LENGTH, i]
 
 
@@ -409,10 +426,10 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
 def _may_be_solved(task: Task, scenes: Floats, reduced: Floats, i: int, out: Floats) -> bool:
     """Return whether scene i is valid and within reach; store what it is if not."""
     if not is_valid(task.punch, scenes, reduced, i):
-        _no_value(out, i, NO_VALUE)
+        no_value(out, i, NO_VALUE)
         return False
     if reduced[NEED, i] > task.reach:
-        _no_value(out, i, SHORT)
+        no_value(out, i, SHORT)
         return False
     return True
 
@@ -439,7 +456,7 @@ def solve_forces(task: Task, scenes: Floats, reduced: Floats, first: int, last: 
     """Solve the pull-off alone of scenes that end at their rims, without pattern: no trace is made."""
     for i in range(first, last):
         if not is_valid(task.punch, scenes, reduced, i):
-            _no_value(out, i, NO_VALUE)
+            no_value(out, i, NO_VALUE)
             continue
         curve = Curve(task.by_load, reduced[BY_POWER, i], reduced[BY_WAVES, i], 0.0, 1.0)
         rim = reduced[RIM_Y, i]
@@ -448,4 +465,4 @@ def solve_forces(task: Task, scenes: Floats, reduced: Floats, first: int, last: 
         out[TURN, i] = rim * reduced[LENGTH, i]
         out[STATUS, i] = SHORT
         if lowest.known:
-            out[STATUS, i] = _put_pull_off(lowest, rim, reduced, i, out)
+            out[STATUS, i] = put_pull_off(lowest, rim, reduced, i, out)

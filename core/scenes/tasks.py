@@ -15,12 +15,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.cycle.disc import disc_of, profile_of
+from gradhesion.core.cycle.long import BEFORE, MOST, Long, space_for
 from gradhesion.core.cycle.pull_off import ALL, Filling
+from gradhesion.core.cycle.waves import Waves, reach_of, waves_of
 from gradhesion.core.edge.pattern import bins_of_wave, bounds_of, rows_by_number
 from gradhesion.core.jit import kernel
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.processors import processors
 from gradhesion.core.scenes.cycles import Task, solve_cycles, solve_forces
+from gradhesion.core.scenes.long import solve_long
 from gradhesion.core.scenes.reduced import (
     AT_RIM,
     NEED,
@@ -54,6 +57,12 @@ _MOST_BINS: Final = 130_000
 """Bins of a table, at most: 76 MB."""
 _KEPT_BINS: Final = 260_000
 """Bins of all long tables that are kept between calls."""
+_WALKED: Final = 300
+"""Waves that are walked; scenes of more are summed."""
+_WALKED_BINS: Final = 40_000
+"""Bins that are walked at most, where waves have many: 23 MB."""
+_KEPT_WAVES: Final = 64e6
+"""Bytes of all waves (cycle/waves.py) that are kept between calls."""
 _SCENES: Final = 1024
 """Scenes of a part, at least: a millisecond or more."""
 _MOST_SCENES: Final = 32768
@@ -212,6 +221,51 @@ def _lowest(nodes: Floats, crest: float) -> float:
     return min(crest, 1.02 * float(((near[U] - near[U1]) / (near[E] * near[Y])).min()))
 
 
+_waves: OrderedDict[tuple[object, ...], Waves] = OrderedDict()
+
+
+def _long_of(punch: Punch, wanted: Wanted, k: float, form: int, profile: Floats, most: int) -> tuple[Task, Long]:
+    """Return what scenes of an exponent are summed with, up to a number of waves."""
+    y_end = 2.0 * math.pi * (BEFORE + 2)
+    table, source, crest = long_table(punch, k, form, 1, y_end)
+    key = (punch.exponent, punch.waves.tobytes(), k, form)
+    with _lock:
+        waves = _waves.pop(key, None)
+        if waves is None or most + 8 > reach_of(waves):
+            waves = waves_of(table, source, crest, crests_of(k, punch.waves)[2], most + 8.0)
+        _waves[key] = waves
+        while len(_waves) > 1 and sum(own.values.nbytes for own in _waves.values()) > _KEPT_WAVES:
+            _waves.popitem(last=False)
+    disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
+    filling = Filling(
+        basis_of(punch.exponent, punch.waves, form, 1), np.zeros(NODES), np.array([ALL, ALL])
+    )
+    task = Task(punch, wanted, table, table, crest, source, disc, filling, rooms_for(8, patterned=False), math.inf)
+    per = waves.per
+    rooms = (space_for(bins) for bins in (table.bins, 3 * per, 3 * per, 5 * per))
+    return task, Long(table, source, waves, most, disc, wanted.contact, *rooms)
+
+
+def _solve_long(
+    punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes: Floats, reduced: Floats, out: Floats
+) -> None:
+    """Solve scenes of one exponent, without pattern, that have more waves than are walked."""
+    k = float(scenes[K, 0])
+    most = int(min(reduced[NEED].max() / (2.0 * math.pi) + 3.0, MOST + 8.0))
+    task, long = _long_of(punch, wanted, k, EXACT if form == EXACT else BY_DEPTH, profile, most)
+    pull = long
+    if form != EXACT:
+        by_load, pull = _long_of(punch, wanted, k, BY_LOAD, profile, most)
+        task = task._replace(by_load=by_load.table)
+    solve_long(task, long, pull, scenes, reduced, out)
+
+
+def _walked(punch: Punch) -> float:
+    """Return the radius up to which scenes are walked."""
+    per = PER_WAVE * punch.waves[:, 0].max()
+    return float(2.0 * math.pi * min(_WALKED, max(_WALKED_BINS / per, 64.0)))
+
+
 def _solve_far(
     punch: Punch, wanted: Wanted, form: int, finer: int, profile: Floats, scenes: Floats, reduced: Floats, out: Floats
 ) -> None:
@@ -220,6 +274,15 @@ def _solve_far(
     filling_basis = basis_of(punch.exponent, punch.waves, EXACT if form == EXACT else BY_DEPTH, finer)
     filling = Filling(filling_basis, np.zeros(NODES), np.array([ALL, ALL]))
     left, factor = np.arange(scenes.shape[1]), 1.0
+    if punch.rows.shape[1] == 0:
+        walked = _walked(punch)
+        far = np.flatnonzero(reduced[NEED] > walked)
+        if punch.turn == AT_RIM and far.size:
+            found = np.empty((RESULT_ROWS, far.size))
+            own = (np.ascontiguousarray(array[:, far]) for array in (scenes, reduced))
+            _solve_long(punch, wanted, form, profile, *own, found)
+            out[:, far] = found
+            left = np.flatnonzero(~(reduced[NEED] > walked))
     while left.size:
         need = np.minimum(reduced[NEED, left] * factor, reduced[RIM_Y, left] * 1.01)
         possible = need[need <= most]
