@@ -98,7 +98,8 @@ def walk_on(curve: Curve, trace: Floats, first: int, count: int, visited: Intege
 @kernel
 def walk_loading(curve: Curve, trace: Floats, count: int, visited: Integers) -> int:
     """Let loading go from no contact over all branches; return the number of those visited, whose columns are `visited`."""
-    return walk_on(curve, trace, 0, count, visited, 0, State(0.0, 0.0, 0.0))
+    none = count - count  # not the number 0, for which numba would compile another copy
+    return walk_on(curve, trace, none, count, visited, none, State(0.0, 0.0, 0.0))
 
 
 @leaf

@@ -158,7 +158,10 @@ def _fill_doubling(source: Source, index: int, doubling: int, values: Floats, no
             for n in range(N):
                 c = _LANES_AT + n
                 out[c], out[c + N] = polys[i, PU, n] / scales[c], polys[i, PU1, n] / scales[c + N]
-                out[c + 2 * N], out[c + 3 * N] = polys[i, PP, n] / scales[c + 2 * N], polys[i, PE, n] / scales[c + 3 * N]
+                out[c + 2 * N], out[c + 3 * N] = (
+                    polys[i, PP, n] / scales[c + 2 * N],
+                    polys[i, PE, n] / scales[c + 3 * N],
+                )
 
 
 @quadrature
@@ -196,25 +199,31 @@ def mix_wave(waves: Waves, number: float, bins: int, column: int, nodes: Floats,
             return
         for row in range(6):
             nodes[K0 + row, j] = mixed[6 + row] * scales[6 + row]
-        nodes[PC, j], nodes[BP, j], nodes[BE, j] = mixed[12] * scales[12], mixed[14] * scales[14], mixed[15] * scales[15]
+        nodes[PC, j], nodes[BP, j], nodes[BE, j] = (
+            mixed[12] * scales[12],
+            mixed[14] * scales[14],
+            mixed[15] * scales[15],
+        )
         nodes[BV, j] = 1.01 * mixed[13] * scales[13]  # a largest value, which is not quite smooth
         nodes[YC, j], nodes[HALF, j] = low + 0.5 * width, 0.5 * width
         nodes[M0, j] = width * (low + 0.5 * width)
         for n in range(N):
             c = _LANES_AT + n
             polys[j, PU, n], polys[j, PU1, n] = mixed[c] * scales[c], mixed[c + N]
-            polys[j, PP, n], polys[j, PE, n] = mixed[c + 2 * N] * scales[c + 2 * N], mixed[c + 3 * N] * scales[c + 3 * N]
+            polys[j, PP, n], polys[j, PE, n] = (
+                mixed[c + 2 * N] * scales[c + 2 * N],
+                mixed[c + 3 * N] * scales[c + 3 * N],
+            )
 
 
 @kernel
-def waves_from(waves: Waves, number: float, count: int, nodes: Floats, polys: Floats) -> Table:
-    """Return a table of a number of waves, from one on, in the given room."""
-    for j in range(count):
+def waves_from(waves: Waves, number: float, nodes: Floats, polys: Floats) -> Table:
+    """Return a table of as many waves, from one on, as the given room holds."""
+    bins = len(polys)
+    for j in range(bins // waves.per):
         mix_wave(waves, number + j, waves.per, j * waves.per, nodes, polys)
-    start, bins = start_of(waves, number), count * waves.per
-    return Table(
-        waves.k, waves.exponent, waves.share, start, waves.width, waves.lowest, 0.0, 0, bins, nodes, polys
-    )
+    start = start_of(waves, number)
+    return Table(waves.k, waves.exponent, waves.share, start, waves.width, waves.lowest, 0.0, 0, bins, nodes, polys)
 
 
 @kernel
@@ -274,16 +283,16 @@ def _integrate(waves: Waves, first: int, last: int, nodes: Floats, polys: Floats
 
 
 @kernel
-def fill_from_zero(waves: Waves, number: int, nodes: Floats, polys: Floats, column: Floats) -> None:
-    """Fill the rows HM to HUU of `column` (ROWS, 1): integrals from 0 to the start of a wave; the rest is room."""
+def fill_from_zero(waves: Waves, number: int, room: Floats, polys: Floats, nodes: Floats) -> None:
+    """Fill the integrals from 0 to the start of a wave, rows HM to HUU, in the first column of `nodes`."""
     doubling = min(int(math.log2(number / FIRST_WAVE)), waves.values.shape[0] - 1)
     sums = waves.sums[doubling].copy()
-    _integrate(waves, FIRST_WAVE * 2**doubling, number, nodes, polys, sums)
+    _integrate(waves, FIRST_WAVE * 2**doubling, number, room, polys, sums)
     y, k, m = start_of(waves, float(number)), waves.k, waves.exponent
-    column[HM, 0] = 0.5 * y * y
-    column[HP, 0] = y ** (1.0 + k + m) / (1.0 + k + m)
-    column[HPP, 0] = y ** (1.0 + k + 2.0 * m) / (1.0 + k + 2.0 * m)
-    column[HU, 0], column[HPU, 0], column[HUU, 0] = sums[0], sums[1], sums[2]
+    nodes[HM, 0] = 0.5 * y * y
+    nodes[HP, 0] = y ** (1.0 + k + m) / (1.0 + k + m)
+    nodes[HPP, 0] = y ** (1.0 + k + 2.0 * m) / (1.0 + k + 2.0 * m)
+    nodes[HU, 0], nodes[HPU, 0], nodes[HUU, 0] = sums[0], sums[1], sums[2]
 
 
 @kernel
@@ -317,8 +326,6 @@ def waves_of(table: Table, source: Source, steepest: float, cut: float, most: fl
     per = int(round(2.0 * math.pi / table.width))
     doublings = max(1, math.ceil(math.log2(max(most, 1.0) / FIRST_WAVE)))
     values, sums = np.zeros((doublings, per + 1, PLACES, SIZE)), np.zeros((doublings, 3))
-    waves = Waves(
-        table.k, table.exponent, table.share, table.width, table.lowest, steepest, cut, per, values, sums
-    )
+    waves = Waves(table.k, table.exponent, table.share, table.width, table.lowest, steepest, cut, per, values, sums)
     fill_waves(waves, table, source)
     return waves

@@ -10,7 +10,6 @@ from gradhesion.core.cycle.long import (
     end_of_folds,
     loop_far,
     lowest_far,
-    trace_start,
     turn_far,
 )
 from gradhesion.core.cycle.pull_off import lowest_load
@@ -39,8 +38,7 @@ def _solve(task: Task, long: Long, pull: Long, scenes: Floats, reduced: Floats, 
     y = reduced[RIM_Y, i]
     if task.wanted.cycle or task.punch.turn != AT_RIM:
         folds = end_of_folds(long, closing)
-        starts = trace_start(long, closing, folds)
-        begun = begin(long, closing, starts, folds)
+        begun, starts = begin(long, closing, folds)
         if task.punch.turn != AT_RIM:
             by_load = 1.0 if task.punch.turn == AT_A_LOAD else 0.0
             measured = Curve(closing.table, closing.B, closing.g, 1.0 - by_load, by_load)
@@ -57,7 +55,7 @@ def _solve(task: Task, long: Long, pull: Long, scenes: Floats, reduced: Floats, 
     looped = loop_far(long, closing, opening, same, folds, begun, starts, y, task.wanted.depth)
     if not looped.loaded.known:
         return -1
-    landings = min(looped.landing, reduced[RIM_Y, i]), looped.reach
+    landings = min(looped.first, reduced[RIM_Y, i]), looped.last
     bits |= put_losses(task, pair, looped.loaded, looped.unloaded, y, landings, reduced, i, out)
     if not looped.one_disc:
         bits |= LOADING_NOT_ONE_DISC

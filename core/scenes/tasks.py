@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.cycle.disc import disc_of, profile_of
-from gradhesion.core.cycle.long import BEFORE, MOST, Long, space_for
+from gradhesion.core.cycle.long import MOST, NEAR, Long, space_for
 from gradhesion.core.cycle.pull_off import ALL, Filling
 from gradhesion.core.cycle.waves import Waves, reach_of, waves_of
 from gradhesion.core.edge.pattern import bins_of_wave, bounds_of, rows_by_number
@@ -226,7 +226,7 @@ _waves: OrderedDict[tuple[object, ...], Waves] = OrderedDict()
 
 def _long_of(punch: Punch, wanted: Wanted, k: float, form: int, profile: Floats, most: int) -> tuple[Task, Long]:
     """Return what scenes of an exponent are summed with, up to a number of waves."""
-    y_end = 2.0 * math.pi * (BEFORE + 2)
+    y_end = 2.0 * math.pi * (NEAR + 3)
     table, source, crest = long_table(punch, k, form, 1, y_end)
     key = (punch.exponent, punch.waves.tobytes(), k, form)
     with _lock:
@@ -237,13 +237,11 @@ def _long_of(punch: Punch, wanted: Wanted, k: float, form: int, profile: Floats,
         while len(_waves) > 1 and sum(own.values.nbytes for own in _waves.values()) > _KEPT_WAVES:
             _waves.popitem(last=False)
     disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
-    filling = Filling(
-        basis_of(punch.exponent, punch.waves, form, 1), np.zeros(NODES), np.array([ALL, ALL])
-    )
+    filling = Filling(basis_of(punch.exponent, punch.waves, form, 1), np.zeros(NODES), np.array([ALL, ALL]))
     task = Task(punch, wanted, table, table, crest, source, disc, filling, rooms_for(8, patterned=False), math.inf)
     per = waves.per
-    rooms = (space_for(bins) for bins in (table.bins, 3 * per, 3 * per, 5 * per))
-    return task, Long(table, source, waves, most, disc, wanted.contact, *rooms)
+    rooms = (space_for(bins) for bins in (table.bins, 2 * per, 3 * per, 5 * per))
+    return task, Long(table, source, waves, NEAR, most, disc, wanted.contact, *rooms)
 
 
 def _solve_long(
