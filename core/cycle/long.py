@@ -67,7 +67,7 @@ from gradhesion.core.cycle.turning import turning_radius
 from gradhesion.core.cycle.waves import GAUSS, Waves, fill_from_zero, fill_rule, start_of, wave_of, waves_from
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.table.basis import room_of
-from gradhesion.core.table.layout import HM, HUU, ROWS, Source, Table, end_of
+from gradhesion.core.table.layout import Source, Table, end_of
 from gradhesion.core.types import Floats, Integers
 
 NEAR: Final = 24
@@ -426,7 +426,7 @@ def _panel(
             other += last[1, i] * values[i, row]
         if row <= INWARDS and abs(miss) + abs(other) > _SMOOTH * abs(total):
             return False
-        sums[row] = total
+        sums[row] = total if row <= INWARDS or row == SHUT else values[0, row] * count
     return True
 
 
@@ -666,7 +666,16 @@ def finish_unloading(
 
 @kernel
 def turn_far(long: Long, curve: Curve, measured: Curve, target: float, before: Loading, rim: float) -> float:
-    """Return where loading first reaches a target of what is measured, a rim at most; inf: not within long.most waves."""
+    """Return where loading first reaches a target of what is measured, a rim at most; inf: not within long.most waves.
+
+    0: next to the centre, within two waves beyond those that are walked there, or before contact is made.
+    """
+    start, space = on(measured, long.table), long.start
+    rising = find_folds(start, end_of(long.table), space.slopes, space.measured)
+    visits = int(before.jumps)
+    found = turning_radius(start, target, space.trace, space.visited, visits, space.measured, rising)
+    if found < math.inf or target < 0.0:
+        return 0.0
     if not before.landed and before.wave < long.most:
         space = long.window
         visits = land(long, curve, before)[1]
@@ -680,7 +689,8 @@ def turn_far(long: Long, curve: Curve, measured: Curve, target: float, before: L
     wave = _first_wave(long, sought, min(before.wave + 1, high), high)
     if wave == high:
         return rim if high < long.most else math.inf
-    return min(_turn_in(long, sought, wave), rim)
+    found = _turn_in(long, sought, wave)
+    return min(found, rim) if found >= start_of(long.waves, long.near + 2.0) else 0.0
 
 
 @kernel

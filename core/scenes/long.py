@@ -2,7 +2,6 @@
 
 import math
 
-from gradhesion.core.curve.folds import CLOSE
 from gradhesion.core.curve.values import Curve
 from gradhesion.core.cycle.long import (
     Long,
@@ -13,8 +12,6 @@ from gradhesion.core.cycle.long import (
     turn_far,
 )
 from gradhesion.core.cycle.pull_off import lowest_load
-from gradhesion.core.cycle.ties import rim_is_tied, target_is_tied
-from gradhesion.core.cycle.waves import start_of
 from gradhesion.core.jit import kernel
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.scenes.cycles import Task, curves_of, no_value, put_losses, put_pull_off
@@ -26,13 +23,13 @@ from gradhesion.core.scenes.reduced import (
     TARGET_VALUE,
     is_valid,
 )
-from gradhesion.core.scenes.results import SATURATION, STATUS, TURN
+from gradhesion.core.scenes.results import SHORT, STATUS, TURN
 from gradhesion.core.types import Floats
 
 
 @kernel
-def _solve(task: Task, long: Long, pull: Long, scenes: Floats, reduced: Floats, i: int, out: Floats) -> int:
-    """Store the results of scene i; return its bits of status, -1 if it has too many waves."""
+def _solve(task: Task, long: Long, pull: Long, scenes: Floats, reduced: Floats, i: int, out: Floats) -> float:
+    """Store the results of scene i; return its status, SHORT if it must be walked."""
     pair = curves_of(task, scenes, reduced, i, 0.0)
     closing, opening, same = pair.closing, pair.opening, pair.ratio == 1.0
     y = reduced[RIM_Y, i]
@@ -43,18 +40,20 @@ def _solve(task: Task, long: Long, pull: Long, scenes: Floats, reduced: Floats, 
             by_load = 1.0 if task.punch.turn == AT_A_LOAD else 0.0
             measured = Curve(closing.table, closing.B, closing.g, 1.0 - by_load, by_load)
             y = turn_far(long, closing, measured, reduced[TARGET_VALUE, i] / math.sqrt(pair.ratio), begun, y)
+            if y == 0.0:
+                return SHORT
     lowest = lowest_load(Curve(task.by_load, opening.B, opening.g, 0.0, 1.0), y, task.filling)
     if not lowest.known:
         lowest = lowest_far(pull, Curve(task.by_load, opening.B, opening.g, 0.0, 1.0), y)
     if not lowest.known or not lowest.load < 0.0:
-        return -1
+        return NO_VALUE | TOO_MANY_WAVES
     bits = put_pull_off(lowest, y, reduced, i, out)
     out[TURN, i] = y * reduced[LENGTH, i]
     if not task.wanted.cycle and task.punch.turn == AT_RIM:
         return bits
     looped = loop_far(long, closing, opening, same, folds, begun, starts, y, task.wanted.depth)
     if not looped.loaded.known:
-        return -1
+        return NO_VALUE | TOO_MANY_WAVES
     landings = min(looped.first, reduced[RIM_Y, i]), looped.last
     bits |= put_losses(task, pair, looped.loaded, looped.unloaded, y, landings, reduced, i, out)
     if not looped.one_disc:
@@ -69,8 +68,7 @@ def solve_long(task: Task, long: Long, pull: Long, scenes: Floats, reduced: Floa
         no_value(out, i, NO_VALUE)
         if not is_valid(task.punch, scenes, reduced, i):
             continue
-        bits = _solve(task, long, pull, scenes, reduced, i, out)
-        if bits < 0:
-            no_value(out, i, NO_VALUE | TOO_MANY_WAVES)
-        else:
-            out[STATUS, i] = bits
+        status = _solve(task, long, pull, scenes, reduced, i, out)
+        if status == SHORT or status >= NO_VALUE:
+            no_value(out, i, status)
+        out[STATUS, i] = status

@@ -61,6 +61,8 @@ _WALKED: Final = 300
 """Waves that are walked; scenes of more are summed."""
 _WALKED_BINS: Final = 40_000
 """Bins that are walked at most, where waves have many: 23 MB."""
+_BINS_OF_A_WAVE: Final = 1024
+"""Bins of a wave at most, where waves are summed: 5 MB for each doubling of their number."""
 _KEPT_WAVES: Final = 64e6
 """Bytes of all waves (cycle/waves.py) that are kept between calls."""
 _SCENES: Final = 1024
@@ -258,8 +260,13 @@ def _solve_long(
     solve_long(task, long, pull, scenes, reduced, out)
 
 
+def _may_be_summed(punch: Punch) -> bool:
+    """Return whether scenes of many waves can be summed: not those with a pattern, or of a great many bins a wave."""
+    return punch.rows.shape[1] == 0 and bool(PER_WAVE * punch.waves[:, 0].max() <= _BINS_OF_A_WAVE)
+
+
 def _walked(punch: Punch) -> float:
-    """Return the radius up to which scenes are walked."""
+    """Return the radius up to which scenes are walked that may be summed."""
     per = PER_WAVE * punch.waves[:, 0].max()
     return float(2.0 * math.pi * min(_WALKED, max(_WALKED_BINS / per, 64.0)))
 
@@ -272,15 +279,15 @@ def _solve_far(
     filling_basis = basis_of(punch.exponent, punch.waves, EXACT if form == EXACT else BY_DEPTH, finer)
     filling = Filling(filling_basis, np.zeros(NODES), np.array([ALL, ALL]))
     left, factor = np.arange(scenes.shape[1]), 1.0
-    if punch.rows.shape[1] == 0:
-        walked = _walked(punch)
-        far = np.flatnonzero(reduced[NEED] > walked)
-        if punch.turn == AT_RIM and far.size:
+    if _may_be_summed(punch):
+        most = _walked(punch)
+        far = np.flatnonzero(reduced[NEED] > most)
+        if far.size:
             found = np.empty((RESULT_ROWS, far.size))
-            own = (np.ascontiguousarray(array[:, far]) for array in (scenes, reduced))
-            _solve_long(punch, wanted, form, profile, *own, found)
+            chosen, own = np.ascontiguousarray(scenes[:, far]), np.ascontiguousarray(reduced[:, far])
+            _solve_long(punch, wanted, form, profile, chosen, own, found)
             out[:, far] = found
-            left = np.flatnonzero(~(reduced[NEED] > walked))
+            left = np.setdiff1d(left, far[found[STATUS] != SHORT])
     while left.size:
         need = np.minimum(reduced[NEED, left] * factor, reduced[RIM_Y, left] * 1.01)
         possible = need[need <= most]
