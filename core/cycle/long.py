@@ -403,30 +403,30 @@ def _wave_losses(long: Long, curve: Curve, number: float, outwards: bool, inward
 def _panel(
     long: Long, curve: Curve, first: int, count: int, outwards: bool, inwards: bool, values: Floats, sums: Floats
 ) -> bool:
-    """Put the sums of what some waves lose into `sums` (LOSSES,); return whether it is smooth. `values` is room.
+    """Put the sums of what some waves lose into `sums` (LOSSES,); return whether it is smooth.
 
-    The outermost places are looked at first, where the jumps differ most.
+    The first and the last wave are looked at themselves, before all others, for there the jumps differ most. `values` is
+    room, (GAUSS + 2, LOSSES).
     """
     places, weights, last = np.empty(GAUSS), np.empty(GAUSS), np.empty((2, GAUSS))
-    fill_rule(float(count), places, weights, last)
-    for n in range(GAUSS):
-        i = 0 if n == 0 else GAUSS - n
-        if not _wave_losses(long, curve, first + places[i], outwards, inwards, values[i]):
+    fill_rule(count - 2.0, places, weights, last)
+    for i in range(-2, GAUSS):
+        place = places[i] + 1.0 if i >= 0 else 0.0 if i == -1 else count - 1.0
+        own = values[i + 2]
+        if not _wave_losses(long, curve, first + place, outwards, inwards, own):
             return False
-        if (
-            values[i, JUMPS_OUTWARDS] != values[0, JUMPS_OUTWARDS]
-            or values[i, JUMPS_INWARDS] != values[0, JUMPS_INWARDS]
-        ):
+        if own[JUMPS_OUTWARDS] != values[0, JUMPS_OUTWARDS] or own[JUMPS_INWARDS] != values[0, JUMPS_INWARDS]:
             return False
     for row in range(LOSSES):
         total = miss = other = 0.0
         for i in range(GAUSS):
-            total += weights[i] * values[i, row]
-            miss += last[0, i] * values[i, row]
-            other += last[1, i] * values[i, row]
+            total += weights[i] * values[i + 2, row]
+            miss += last[0, i] * values[i + 2, row]
+            other += last[1, i] * values[i + 2, row]
         if row <= INWARDS and abs(miss) + abs(other) > _SMOOTH * abs(total):
             return False
-        sums[row] = total if row <= INWARDS or row == SHUT else values[0, row] * count
+        sums[row] = total + values[0, row] + values[1, row]
+    sums[JUMPS_OUTWARDS], sums[JUMPS_INWARDS] = count * values[0, JUMPS_OUTWARDS], count * values[0, JUMPS_INWARDS]
     return True
 
 
@@ -437,7 +437,7 @@ def _sum_waves(long: Long, curve: Curve, out: int, back: int, last: int, folds: 
     Return whether they are regular. Losses are not smooth next to where the bottoms are lowest and next to the end of
     `folds`: panels are as long as twice their distance from these, and halved where that proves too long.
     """
-    values, part = np.empty((GAUSS, LOSSES)), np.empty(LOSSES)
+    values, part = np.empty((GAUSS + 2, LOSSES)), np.empty(LOSSES)
     lowest = min(_guess(long, Sought(BOTTOM, curve, 0.0, curve)), back - 1.0)
     outer = folds - 1.0 if folds < long.most else 1e300
     left, longest, walked = min(out, back) + 1, 1e300, 0
@@ -446,7 +446,7 @@ def _sum_waves(long: Long, curve: Curve, out: int, back: int, last: int, folds: 
         inner = max(lowest, 0.5 * left) if inwards else 0.5 * left
         ahead = min(last + 1.0, 1.0 + (out if out >= left else back if back >= left else last)) - left
         count = int(min(2.0 * (left - inner), (outer - left) / 1.5, longest, ahead))
-        if count > 2 * GAUSS:
+        if count > 2 * GAUSS + 2:
             if not _panel(long, curve, left, count, outwards, inwards, values, part):
                 longest = 0.5 * count
                 continue

@@ -254,11 +254,12 @@ def no_value(out: Floats, i: int, status: float) -> None:
 
 
 @kernel
-def _no_contact(scenes: Floats, i: int, out: Floats) -> None:
-    """Store a cycle that turns before contact is made."""
+def put_no_contact(scenes: Floats, i: int, out: Floats) -> int:
+    """Store a cycle that turns before contact is made; return its status."""
     out[:, i] = 0.0
     out[PULL_OFF_RADIUS, i] = out[JUMP_OUT, i] = out[SNAP, i] = math.nan
     out[DEEPEST, i], out[STATUS, i] = scenes[TARGET, i], NO_CONTACT
+    return NO_CONTACT
 
 
 @kernel
@@ -405,7 +406,7 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
         if math.isnan(y):
             continue
         if y == 0.0:
-            _no_contact(scenes, i, out)
+            put_no_contact(scenes, i, out)
             continue
         own = lowest
         if y < farthest and (

@@ -14,9 +14,10 @@ from gradhesion.core.cycle.long import (
 from gradhesion.core.cycle.pull_off import lowest_load
 from gradhesion.core.jit import kernel
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE, TOO_MANY_WAVES
-from gradhesion.core.scenes.cycles import Task, curves_of, no_value, put_losses, put_pull_off
+from gradhesion.core.scenes.cycles import Task, curves_of, no_value, put_losses, put_no_contact, put_pull_off
 from gradhesion.core.scenes.reduced import (
     AT_A_LOAD,
+    AT_DEPTH,
     AT_RIM,
     LENGTH,
     RIM_Y,
@@ -28,11 +29,13 @@ from gradhesion.core.types import Floats
 
 
 @kernel
-def _solve(task: Task, long: Long, pull: Long, scenes: Floats, reduced: Floats, i: int, out: Floats) -> float:
-    """Store the results of scene i; return its status, SHORT if it must be walked."""
+def _solve(task: Task, long: Long, pull: Long, scenes: Floats, reduced: Floats, i: int, out: Floats) -> int:
+    """Store the results of scene i; return its status, -1 if it must be walked."""
     pair = curves_of(task, scenes, reduced, i, 0.0)
     closing, opening, same = pair.closing, pair.opening, pair.ratio == 1.0
     y = reduced[RIM_Y, i]
+    if task.punch.turn == AT_DEPTH and reduced[TARGET_VALUE, i] < 0.0:
+        return put_no_contact(scenes, i, out)
     if task.wanted.cycle or task.punch.turn != AT_RIM:
         folds = end_of_folds(long, closing)
         begun, starts = begin(long, closing, folds)
@@ -41,7 +44,7 @@ def _solve(task: Task, long: Long, pull: Long, scenes: Floats, reduced: Floats, 
             measured = Curve(closing.table, closing.B, closing.g, 1.0 - by_load, by_load)
             y = turn_far(long, closing, measured, reduced[TARGET_VALUE, i] / math.sqrt(pair.ratio), begun, y)
             if y == 0.0:
-                return SHORT
+                return -1
     lowest = lowest_load(Curve(task.by_load, opening.B, opening.g, 0.0, 1.0), y, task.filling)
     if not lowest.known:
         lowest = lowest_far(pull, Curve(task.by_load, opening.B, opening.g, 0.0, 1.0), y)
@@ -69,6 +72,6 @@ def solve_long(task: Task, long: Long, pull: Long, scenes: Floats, reduced: Floa
         if not is_valid(task.punch, scenes, reduced, i):
             continue
         status = _solve(task, long, pull, scenes, reduced, i, out)
-        if status == SHORT or status >= NO_VALUE:
-            no_value(out, i, status)
-        out[STATUS, i] = status
+        if status < 0 or status & NO_VALUE:
+            no_value(out, i, SHORT)
+        out[STATUS, i] = SHORT if status < 0 else status

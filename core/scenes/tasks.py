@@ -288,6 +288,7 @@ def _solve_far(
             _solve_long(punch, wanted, form, profile, chosen, own, found)
             out[:, far] = found
             left = np.setdiff1d(left, far[found[STATUS] != SHORT])
+            reduced[NEED] = np.minimum(reduced[NEED], most)  # what is left turns next to the centre
     while left.size:
         need = np.minimum(reduced[NEED, left] * factor, reduced[RIM_Y, left] * 1.01)
         possible = need[need <= most]
