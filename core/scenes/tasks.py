@@ -251,7 +251,8 @@ def _solve_long(
 ) -> None:
     """Solve scenes of one exponent, without pattern, that have more waves than are walked."""
     k = float(scenes[K, 0])
-    most = int(min(reduced[NEED].max() / (2.0 * math.pi) + 3.0, MOST + 8.0))
+    far = reduced[NEED].max() if punch.turn == AT_RIM else np.minimum(np.fmax(reduced[NEED], reduced[WINDOW]), reduced[RIM_Y]).max()
+    most = int(min(far / (2.0 * math.pi) + 3.0, MOST + 8.0))  # a jump may pass where a cycle turns
     task, long = _long_of(punch, wanted, k, EXACT if form == EXACT else BY_DEPTH, profile, most)
     pull = long
     if form != EXACT:
