@@ -167,7 +167,7 @@ that of Amdahl's law; it must not grow with the number of scenes.
 {threads.threads_table(10**5 if quick else 10**7)}"""
     yield f"""## Start-up
 
-Medians, except what is done once. Aims: 0.15, 0.25, 0.6, 0.4, 6, 12, 6, 40, 1.5 s.
+Medians, except what is done once. Aims: 0.15, 0.25, 0.6, 0.4, 6, 12, 6, 40 s.
 
 {start_up.start_up_table()}"""
     yield f"""## Estimates of a plan

@@ -15,7 +15,7 @@ import random
 from pathlib import Path
 from typing import Final
 
-from gradhesion.core.compiler.sources import CORE
+from gradhesion.core.jit import CORE
 
 SEED: Final = 20261123
 """Set before the functions were looked at."""

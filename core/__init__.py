@@ -24,24 +24,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
     from gradhesion.core.closed.applicability import validity
-    from gradhesion.core.compiler.cache import CACHE_FOLDER, place
-    from gradhesion.core.compiler.jit import watch_compilation
-    from gradhesion.core.compiler.marks import compiled_before
-    from gradhesion.core.compiler.sources import SOURCES
-    from gradhesion.core.curves import draw_curves
-    from gradhesion.core.kinds import (
-        APART,
-        CPU_SECONDS,
-        KERNELS,
-        KINDS,
-        MANY_SMOOTH,
-        NEEDS,
-        kind_of_curves,
-        kind_of_map,
-        kind_of_sensitivities,
-        kind_of_turning,
-        kinds_of_long,
-    )
+    from gradhesion.core.draw.draw import draw_curves
+    from gradhesion.core.jit import SOURCES, place
     from gradhesion.core.problem.control import CONTROLS, Loading
     from gradhesion.core.problem.names import (
         CURVES,
@@ -57,21 +41,14 @@ if TYPE_CHECKING:
     from gradhesion.core.problem.profile import Harmonic, Profile
     from gradhesion.core.problem.status import DOUBTFUL, FAILED, FLAGS, doubts_about
     from gradhesion.core.sweep import solve
-    from gradhesion.core.warmup import compile_kind
+    from gradhesion.core.warmup import warm_up
 
 __all__ = [
-    "APART",
-    "CACHE_FOLDER",
     "CONTROLS",
-    "CPU_SECONDS",
     "CURVES",
     "DOUBTFUL",
     "FAILED",
     "FLAGS",
-    "KERNELS",
-    "KINDS",
-    "MANY_SMOOTH",
-    "NEEDS",
     "OUTPUTS",
     "PARAMETERS",
     "RANGE",
@@ -84,36 +61,24 @@ __all__ = [
     "Harmonic",
     "Loading",
     "Profile",
-    "compile_kind",
-    "compiled_before",
     "doubts_about",
     "draw_curves",
-    "kind_of_curves",
-    "kind_of_map",
-    "kind_of_sensitivities",
-    "kind_of_turning",
-    "kinds_of_long",
     "place",
     "solve",
     "validity",
-    "watch_compilation",
+    "warm_up",
 ]
 
 _HOMES: Final = {
-    "compiler.jit": "watch_compilation",
-    "compiler.cache": "CACHE_FOLDER place",
-    "compiler.marks": "compiled_before",
-    "curves": "draw_curves",
-    "kinds": "APART CPU_SECONDS KERNELS KINDS MANY_SMOOTH NEEDS "
-    "kind_of_curves kind_of_map kind_of_sensitivities kind_of_turning kinds_of_long",
+    "draw.draw": "draw_curves",
+    "jit": "SOURCES place",
     "problem.control": "CONTROLS Loading",
     "problem.names": "CURVES OUTPUTS PARAMETERS RANGE REPORTS SENSITIVITIES SOLVERS TURNS VALIDITY",
     "problem.profile": "Harmonic Profile",
-    "compiler.sources": "SOURCES",
     "problem.status": "DOUBTFUL FAILED FLAGS doubts_about",
     "sweep": "solve",
     "closed.applicability": "validity",
-    "warmup": "compile_kind",
+    "warmup": "warm_up",
 }
 """What stands in each module."""
 _HOME_OF: Final = {name: home for home, names in _HOMES.items() for name in names.split()}

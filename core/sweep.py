@@ -79,7 +79,7 @@ def _checked(
     return turns[0] if turns else None
 
 
-def _request(
+def request_of(
     parameters: Mapping[str, ArrayLike],
     turn: str | None,
     profile: Profile,
@@ -134,7 +134,7 @@ def _solved(
     check_contact: bool,
 ) -> Results:
     """Return results of cycles by name, all as floats, and `status`, of the broadcast shape."""
-    request, shape = _request(parameters, turn, profile, loading, toughness)
+    request, shape = request_of(parameters, turn, profile, loading, toughness)
     cycle = bool({*outputs} - {*PULL_OFF, "turning_radius"})
     wanted = Wanted(
         cycle=cycle,
@@ -174,7 +174,7 @@ def _typed(name: str, values: NDArray[np.float64]) -> NDArray[Any]:
 
 
 def _roughness(parameters: Mapping[str, ArrayLike], profile: Profile, status: NDArray[Any]) -> NDArray[np.float64]:
-    """Return chi of scenes, of the shape of their `status`: how far unloading swings below the mean of the waves, over s."""
+    """Return chi of scenes, of the shape of `status`: how far unloading swings below the mean of the waves, over s."""
     from gradhesion.core.closed.envelope import chis  # noqa: PLC0415 (SciPy)
     from gradhesion.core.problem.material import stiffness  # noqa: PLC0415
 
@@ -310,7 +310,7 @@ def solve(
     if slopes:
         from gradhesion.core.scenes.slopes import sensitivities  # noqa: PLC0415 (kernels of their own)
 
-        request, shape = _request(parameters, turn, profile, loading, toughness)
+        request, shape = request_of(parameters, turn, profile, loading, toughness)
         found |= sensitivities(
             request, shape, slopes, [name for name in (*_COLUMNS, *TURNS) if name in parameters], threads
         )

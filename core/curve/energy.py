@@ -2,8 +2,8 @@
 
     e = +- int 2 pi a dgamma [kappa^2 - rho^2] da,   rho = (depth_H - depth)/stretch,   depth_H = depth + kappa stretch
 
-in units of 2 pi l^2 dgamma: int y (kappa^2 - rho^2) dy. Over a whole bin rho^2 is a form of the second degree in B, g and
-the depth, whose coefficients are moments about the centre of the bin, so that nothing cancels far out; over the two
+in units of 2 pi l^2 dgamma: int y (kappa^2 - rho^2) dy. Over a whole bin rho^2 is a form of the second degree in B, g
+and the depth, whose coefficients are moments about the centre of the bin, so that nothing cancels far out; over the two
 parts of bins at the ends, eight Gauss points. Under a load, or through a machine, the depth follows: that adds
 by_load/(by_depth + by_load T) fall^2/(1 + k), with the fall of the load at the place of landing (physics 9).
 """
@@ -109,15 +109,13 @@ def energy_between(curve: Curve, depth: float, low: float, high: float) -> float
 
 @kernel
 def jump_energy(curve: Curve, y: float, depth: float, load: float, landing: float) -> float:
-    """Return what a jump from a state dissipates that lands at another radius, at the same value of what is prescribed.
+    """Return what a jump dissipates from a state to another radius, at the same value of what is prescribed.
 
-    Outwards from y = 0 (of depth and load 0) or inwards to it. A dead load that lets go falls without end: its jump to 0
-    has no bounded energy, and is not asked for.
+    Outwards from y = 0 (of depth and load 0) or inwards to it. A dead load that lets go falls without end: its
+    jump to 0 has no bounded energy, and is not asked for.
     """
-    if landing > y:
-        lost = energy_between(curve, depth, y, landing)
-    else:
-        lost = -energy_between(curve, depth, landing, y)
+    outwards = landing > y
+    lost = energy_between(curve, depth, y, landing) if outwards else -energy_between(curve, depth, landing, y)
     if curve.by_load == 0.0:
         return lost
     k = curve.table.k

@@ -22,9 +22,11 @@ from gradhesion.core.curve.values import (
     bin_of,
     coordinate_of,
     depth_and_load,
+    level_at,
     radius_of,
     slope_at,
     slope_in,
+    slope_near,
 )
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.table.layout import BE, BP, BV, HALF, KE, QPOW, QUP, RLOW, RPOW, SLOPE, E, T, V, Y, end_of
@@ -62,7 +64,7 @@ def zero_in(curve: Curve, i: int, low: float, high: float, guess: float, rising:
         if not (low <= ahead <= high):
             ahead = 0.5 * (low + high)
             step = ahead - t
-        if abs(step) < near and abs(step * D2) < 4e-3 * abs(D1) or step == 0.0:
+        if (abs(step) < near and abs(step * D2) < 4e-3 * abs(D1)) or step == 0.0:
             if curve.by_load == 0.0:  # what the last step still changes
                 depth += step * (D + step * (0.5 * D1 + step * D2 / 6.0))
             return ahead, depth
@@ -76,9 +78,9 @@ def pair_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
 
     Return that, the place of the extremum and D there times the half width; (False, 0, inf) if there is none.
     """
-    _, D1, _, _ = slope_in(curve, i, -1.0)
+    _, D1, _, _ = slope_near(curve, i, -1.0)
     left = D1 * sign
-    _, D1, _, _ = slope_in(curve, i, 1.0)
+    _, D1, _, _ = slope_near(curve, i, 1.0)
     right = D1 * sign
     if left >= 0.0 or right <= 0.0:
         return False, 0.0, math.inf
@@ -86,7 +88,7 @@ def pair_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
     t = left / (left - right) * 2.0 - 1.0
     D = 0.0
     for _ in range(60):
-        D, D1, D2, _ = slope_in(curve, i, t)
+        D, D1, D2, _ = slope_near(curve, i, t)
         if D1 * sign > 0.0:
             high = t
         else:
@@ -103,11 +105,11 @@ def pair_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
 @kernel
 def _turn_of_slope(curve: Curve, i: int, low: float, high: float, sign: float) -> float:
     """Return the place between two where sign D' turns from positive to negative, or the reverse, by bisection."""
-    _, D1, _, _ = slope_in(curve, i, low)
+    _, D1, _, _ = slope_near(curve, i, low)
     rises = D1 * sign > 0.0
     for _ in range(40):
         t = 0.5 * (low + high)
-        _, D1, _, _ = slope_in(curve, i, t)
+        _, D1, _, _ = slope_near(curve, i, t)
         if (D1 * sign > 0.0) == rises:
             low = t
         else:
@@ -122,14 +124,14 @@ def detour_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
     Return that, and the places of the crest and of the trough between them. D' must be positive at both edges and
     negative somewhere between: at the least of D', which is looked for where D'' turns.
     """
-    _, left, left2, _ = slope_in(curve, i, -1.0)
-    _, right, right2, _ = slope_in(curve, i, 1.0)
+    _, left, left2, _ = slope_near(curve, i, -1.0)
+    _, right, right2, _ = slope_near(curve, i, 1.0)
     if left * sign <= 0.0 or right * sign <= 0.0 or left2 * sign >= 0.0 or right2 * sign <= 0.0:
         return False, 0.0, 0.0
     low, high, middle = -1.0, 1.0, 0.0
     for _ in range(40):
         middle = 0.5 * (low + high)
-        _, D1, D2, _ = slope_in(curve, i, middle)
+        _, D1, D2, _ = slope_near(curve, i, middle)
         if D1 * sign < 0.0:
             break
         if D2 * sign < 0.0:
@@ -140,14 +142,14 @@ def detour_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
         return False, 0.0, 0.0
     crest = _turn_of_slope(curve, i, -1.0, middle, sign)
     trough = _turn_of_slope(curve, i, middle, 1.0, sign)
-    top, _, _, _ = slope_in(curve, i, crest)
-    bottom, _, _, _ = slope_in(curve, i, trough)
+    top, _, _, _ = slope_near(curve, i, crest)
+    bottom, _, _, _ = slope_near(curve, i, trough)
     return top * sign > 0.0 and bottom * sign < 0.0, crest, trough
 
 
 @leaf
 def swing_in(curve: Curve, i: int) -> float:
-    """Return how far D can swing in bin i beyond its values at the edges: a bound of h^2/2 times its second derivative."""
+    """Return a bound of how far D swings in bin i beyond its edges: h^2/2 times its second derivative."""
     nodes = curve.table.nodes
     highest = 0.5 * (1.0 - curve.table.k) + (1.0 + curve.table.k if curve.by_load != 0.0 else 0.0)
     return curve.g * nodes[BV, i] + curve.B * nodes[BP, i] + highest * nodes[BE, i]
@@ -172,7 +174,7 @@ def _add_fold(curve: Curve, i: int, t: float, depth: float, rising: bool, trace:
 
 @leaf
 def _guess_of(older: float, before: float, after: float) -> float:
-    """Return where in a bin D is about 0, by the parabola through its values at three edges, the last two around the bin."""
+    """Return where in a bin D is about 0, by the parabola through three edges, the last two around the bin."""
     bend = after - 2.0 * before + older
     share = before / (before - after)
     share -= 0.5 * bend * share * (share - 1.0) / (after - before + bend * (share - 0.5))
@@ -180,19 +182,19 @@ def _guess_of(older: float, before: float, after: float) -> float:
 
 
 @kernel
-def scan(curve: Curve, first: int, last: int, count: int, slopes: Floats, trace: Floats) -> tuple[int, bool]:
+def scan(curve: Curve, first: int, last: int, count: int, trace: Floats) -> tuple[int, bool]:
     """Add the folds in the bins `first` to `last` - 1 to `count` branches.
 
-    `slopes` is room for CHUNK numbers. Return the number of branches (FULL: no room) and whether the bounds of the table
-    say that no fold follows.
+    Return the number of branches (FULL: no room) and whether the bounds of the table say that no fold follows.
     """
     table, nodes = curve.table, curve.table.nodes
     B, g, k = curve.B, curve.g, curve.table.k
     base = 0.5 * (1.0 - k)
     highest = base + (1.0 + k if curve.by_load != 0.0 else 0.0)
-    ends = table.exponent - 1.0 >= base  # else the power loses against the waves, and folds need not end
+    ends = g == 0.0 or table.exponent - 1.0 >= base  # else the power loses against the waves: folds need not end
     before = slope_at(curve, first)
     older, start = before, first
+    slopes = np.zeros(CHUNK)
     places, values = np.zeros(4), np.zeros(4)  # the ends of the pieces of a bin on which D has one fold, and D there
     while start < last:
         if ends and B * nodes[RPOW, start] + g * nodes[RLOW, start] > highest / nodes[Y, start]:
@@ -209,7 +211,9 @@ def scan(curve: Curve, first: int, last: int, count: int, slopes: Floats, trace:
         for j in range(size):
             i, after = start + j, slopes[j]
             half = nodes[HALF, i]
-            terms = B * nodes[SLOPE, i] + highest * nodes[E, i]
+            terms = B * nodes[SLOPE, i] + abs(g * nodes[V, i]) + base * nodes[E, i]
+            if curve.by_load != 0.0:
+                terms += level_at(curve, i) * nodes[KE, i]
             places[0], places[1], values[0], values[1], pieces = -1.0, 1.0, before * half, after * half, 1
             if (before > 0.0) != (after > 0.0):
                 if abs(after - before) < 4.0 * swing_in(curve, i):  # D may turn twice on its way
@@ -267,10 +271,10 @@ def close_end(curve: Curve, last: int, count: int, trace: Floats) -> None:
 
 
 @kernel
-def find_folds(curve: Curve, y_end: float, slopes: Floats, trace: Floats) -> int:
+def find_folds(curve: Curve, y_end: float, trace: Floats) -> int:
     """Fill the trace with all branches that begin below a radius, and return their number, FULL or TOO_SHORT.
 
-    `slopes` is room for CHUNK numbers. The last branch is endless (END = inf) if no fold follows at all.
+    The last branch is endless (END = inf) if no fold follows at all.
     """
     table = curve.table
     first = first_bin(curve)
@@ -282,7 +286,7 @@ def find_folds(curve: Curve, y_end: float, slopes: Floats, trace: Floats) -> int
         trace[START_LEVEL, 0] = coordinate_of(curve, depth, 0.0)
         trace[END, 0], trace[END_LEVEL, 0], trace[UNLOADED, 0] = math.inf, math.inf, math.nan
         count = 1
-    count, ended = scan(curve, first, last, count, slopes, trace)
+    count, ended = scan(curve, first, last, count, trace)
     if ended or count < 0:
         return count
     if last == table.bins and y_end > end_of(table):

@@ -13,6 +13,7 @@ from gradhesion.core.curve.values import (
     radius_of,
     slope_at,
     slope_in,
+    slope_near,
     softness,
 )
 from gradhesion.core.jit import kernel, leaf
@@ -42,7 +43,7 @@ def _bin_with(curve: Curve, level: float, i: int, j: int) -> int:
 
 @leaf
 def _guess(curve: Curve, i: int, level: float) -> float:
-    """Return where in bin i the level is about: a step from the chord by the cubic through values and slopes at edges."""
+    """Return where in bin i the level is about: a step from the chord, by the cubic through values and slopes."""
     nodes = curve.table.nodes
     low, high = coordinate_at(curve, i), coordinate_at(curve, i + 1)
     width = 2.0 * nodes[HALF, i]
@@ -130,7 +131,7 @@ def polished(curve: Curve, y: float, level: float) -> float:
         return y
     i, t = place_of(curve.table, y)
     if math.isnan(level):
-        D, D1, _, _ = slope_in(curve, i, t)
+        D, D1, _, _ = slope_near(curve, i, t)
         step = D / D1
     else:
         value, D, _ = _value_in(curve, i, t)

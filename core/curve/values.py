@@ -104,6 +104,13 @@ def depth_and_load(curve: Curve, i: int, t: float) -> tuple[float, float]:
 
 
 @kernel
+def state_in(curve: Curve, y: float) -> tuple[float, float]:
+    """Return depth and load at a radius within the table."""
+    i, t = place_of(curve.table, y)
+    return depth_and_load(curve, i, t)
+
+
+@kernel
 def state_at(curve: Curve, source: Source, y: float) -> tuple[float, float]:
     """Return depth and load at a radius, also beyond the table of an interface without pattern."""
     if y > end_of(curve.table):
@@ -130,7 +137,7 @@ def softness(curve: Curve, stiffness: float) -> float:
 
 @leaf
 def level_at(curve: Curve, i: int) -> float:
-    """Return (1+k) tau/(1+tau) at the lower edge of bin i: the share of the load in the level of the folds (physics 9)."""
+    """Return (1+k) tau/(1+tau) at the lower edge of bin i: the share of the load in the level of folds."""
     x = curve.by_load * curve.table.nodes[T, i]
     return (1.0 + curve.table.k) * x / (curve.by_depth + x)
 
@@ -180,6 +187,12 @@ def slope_in(curve: Curve, i: int, t: float) -> tuple[float, float, float, float
     own, own1 = stretch + waves / y, -power * x * stretch + (waves1 - waves * x) / y
     weight = (1.0 + k) * half
     return D - weight * share * own, D1 - weight * (share * own1 + change * own), D2, depth
+
+
+@kernel
+def slope_near(curve: Curve, i: int, t: float) -> tuple[float, float, float, float]:
+    """Return what `slope_in` does, where it is seldom wanted: compiled once, not into its callers."""
+    return slope_in(curve, i, t)
 
 
 @leaf

@@ -226,8 +226,8 @@ def loading_is_one_disc(
 ) -> bool:
     """Return whether no jump of loading up to a rim leaves a contact that is no disc; `curve` is without pattern.
 
-    `limits` (2,) are the radii up to which that is so, and from which on it is not, for all rims of a curve: (0, -1), for
-    unknown, at first.
+    `limits` (2,) are the radii up to which that is so, and from which on it is not, for all rims of a curve: (0, -1),
+    for unknown, at first.
     """
     if rim <= limits[0] or rim >= limits[1] > 0.0:
         return rim <= limits[0]

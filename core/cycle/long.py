@@ -15,7 +15,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from gradhesion.core.curve.energy import energy_between, jump_energy
-from gradhesion.core.curve.folds import CHUNK, find_folds, scan
+from gradhesion.core.curve.folds import find_folds, scan
 from gradhesion.core.curve.levels import BEYOND, at_level
 from gradhesion.core.curve.levels import LANDING as ACCURACY
 from gradhesion.core.curve.trace import (
@@ -43,7 +43,7 @@ from gradhesion.core.curve.values import (
     place_of,
     slope_at,
     softness,
-    state_at,
+    state_in,
 )
 from gradhesion.core.cycle.disc import Disc, gap_is_open, loading_is_one_disc
 from gradhesion.core.cycle.path import (
@@ -54,6 +54,7 @@ from gradhesion.core.cycle.path import (
     fill_unloading,
     inner_branch,
     load_to,
+    snap_in,
     start_state,
     started_within,
     unload_from,
@@ -62,12 +63,12 @@ from gradhesion.core.cycle.path import (
     walk_on,
 )
 from gradhesion.core.cycle.pull_off import Lowest, deeper
-from gradhesion.core.cycle.ties import loading_is_tied, unloading_is_tied
+from gradhesion.core.cycle.ties import loading_is_tied, rim_is_tied, target_is_tied, unloading_is_tied
 from gradhesion.core.cycle.turning import turning_radius
 from gradhesion.core.cycle.waves import GAUSS, Waves, fill_from_zero, fill_rule, start_of, wave_of, waves_from
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.table.basis import room_of
-from gradhesion.core.table.layout import Source, Table, end_of
+from gradhesion.core.table.layout import Table, end_of
 from gradhesion.core.types import Floats, Integers
 
 NEAR: Final = 24
@@ -97,20 +98,18 @@ class Space(NamedTuple):
     measured: Floats
     visited: Integers
     stack: Integers
-    slopes: Floats
 
 
 def space_for(bins: int) -> Space:
     """Return room for that many bins."""
     columns = [np.empty(bins + 8, dtype=np.int64) for _ in range(2)]
-    return Space(*room_of(bins), room_for(bins), room_for(bins), *columns, np.empty(CHUNK))
+    return Space(*room_of(bins), room_for(bins), room_for(bins), *columns)
 
 
 class Long(NamedTuple):
     """What long curves of one exponent are walked with.
 
     table     from 0 to beyond wave `near`
-    source    what bins are filled from
     waves     those of the table
     near      the last wave next to the centre, NEAR
     most      the first wave that is not looked at
@@ -121,7 +120,6 @@ class Long(NamedTuple):
     """
 
     table: Table
-    source: Source
     waves: Waves
     near: int
     most: int
@@ -150,7 +148,8 @@ class Loading(NamedTuple):
     state     where it jumps from: a top next to the centre, or no contact
     lost, jumps   by then
     below     the energy below that state, at its depth
-    first, last   the first and the last landing by then, inf if there was none
+    snap      the pull after the jump-in
+    last      the last landing by then, inf if there was none
     one_disc, tied   of its jumps and decisions
     """
 
@@ -160,7 +159,7 @@ class Loading(NamedTuple):
     lost: float
     jumps: float
     below: float
-    first: float
+    snap: float
     last: float
     one_disc: bool
     tied: bool
@@ -183,12 +182,16 @@ class Leaving(NamedTuple):
 
 
 class Looped(NamedTuple):
-    """A cycle up to a rim, as path.py has it, and the first and the last landing of loading, and two flags."""
+    """A cycle up to a rim, as path.py has it.
+
+    reach   where loading lands last
+    snap    the pull after the jump-in
+    """
 
     loaded: Loaded
     unloaded: Unloaded
-    first: float
-    last: float
+    reach: float
+    snap: float
     one_disc: bool
     tied: bool
 
@@ -200,7 +203,7 @@ def on(curve: Curve, table: Table) -> Curve:
 
 
 @kernel
-def _trace(curve: Curve, per: int, slopes: Floats, trace: Floats) -> tuple[int, int, int]:
+def _trace(curve: Curve, per: int, trace: Floats) -> tuple[int, int, int]:
     """Trace a few waves; return the numbers of branches that begin in the first, in the first two, and in all of them.
 
     A branch that comes from below them begins where they do.
@@ -215,7 +218,7 @@ def _trace(curve: Curve, per: int, slopes: Floats, trace: Floats) -> tuple[int, 
         trace[UNLOADED, 0] = math.nan
         count = 1
     for wave in range(curve.table.bins // per):
-        count, _ = scan(curve, wave * per, (wave + 1) * per, count, slopes, trace)
+        count, _ = scan(curve, wave * per, (wave + 1) * per, count, trace)
         if wave == 0:
             first = count
         if wave == 1:
@@ -227,7 +230,7 @@ def _trace(curve: Curve, per: int, slopes: Floats, trace: Floats) -> tuple[int, 
 def _trace_waves(long: Long, curve: Curve, number: float, space: Space) -> tuple[Curve, int, int, int]:
     """Fill a space with the waves from one on, and trace them; return the curve on them, and what `_trace` returns."""
     piece = on(curve, waves_from(long.waves, number, space.nodes, space.polys))
-    first, second, count = _trace(piece, long.waves.per, space.slopes, space.trace)
+    first, second, count = _trace(piece, long.waves.per, space.trace)
     return piece, first, second, count
 
 
@@ -268,7 +271,7 @@ def _turn_in(long: Long, sought: Sought, number: int) -> float:
     visited[0], visits = top, count - count + 1
     visits = walk_on(curve, trace, top + 1, count, visited, visits, end_state(trace, top))
     measured = on(sought.measured, curve.table)
-    rising = _trace(measured, long.waves.per, space.slopes, space.measured)[2]
+    rising = _trace(measured, long.waves.per, space.measured)[2]
     return turning_radius(measured, sought.level, trace, visited, visits, space.measured, rising)
 
 
@@ -474,27 +477,27 @@ def begin(long: Long, curve: Curve, folds: int) -> tuple[Loading, int]:
     space, start, near = long.start, on(curve, long.table), start_of(long.waves, float(long.near))
     trace, visited = space.trace, space.visited
     y_end = start_of(long.waves, long.near + 1.0) - 0.5 * long.waves.width
-    count = find_folds(start, y_end, space.slopes, trace)
+    count = find_folds(start, y_end, trace)
     if count > 0 and folds <= long.near + 1:
         trace[END, count - 1] = trace[END_LEVEL, count - 1] = math.inf
     visits = walk_loading(start, trace, count, visited)
-    state, lost, jumps, below, first, last = State(0.0, 0.0, 0.0), 0.0, 0.0, 0.0, math.inf, math.inf
+    state, lost, jumps, below, snap, last = State(0.0, 0.0, 0.0), 0.0, 0.0, 0.0, 0.0, math.inf
     if visits > 0:
         j = visited[visits - 1]
         state, lost, jumps = end_state(trace, j), trace[LOADED, j], trace[LOADING_JUMPS, j]
-        first, last = trace[LANDING, visited[0]], trace[LANDING, j]
-    tied = loading_is_tied(start, long.source, y_end, trace, count)
+        snap, last = snap_in(start, trace[LANDING, visited[0]]), trace[LANDING, j]
+    tied = loading_is_tied(start, y_end, trace, count)
     one_disc = True
     if long.contact:
         limits, end = np.array([0.0, -1.0]), near if state.y < near else last
         one_disc = loading_is_one_disc(start, long.disc, trace, visited, visits, end, limits)
     if state.y > near:
-        return Loading(long.near, True, state, lost, jumps, 0.0, first, last, one_disc, tied), count
+        return Loading(long.near, True, state, lost, jumps, 0.0, snap, last, one_disc, tied), count
     if visits > 0:
         below = energy_between(start, state.depth, 0.0, state.y)
     level = coordinate_of(curve, state.depth, state.load)
     wave = _first_wave(long, Sought(LEVEL, curve, level, curve), long.near + 1, long.most)
-    return Loading(wave, False, state, lost, jumps, below, first, last, one_disc, tied), count
+    return Loading(wave, False, state, lost, jumps, below, snap, last, one_disc, tied), count
 
 
 @kernel
@@ -508,11 +511,11 @@ def land(long: Long, curve: Curve, before: Loading) -> tuple[Loading, int]:
     visits = walk_on(piece, trace, none, count, visited, none, State(0.0, before.state.depth, before.state.load))
     if visits == 0:
         return before, visits
-    j, first = visited[visits - 1], trace[LANDING, visited[0]]
+    j = visited[visits - 1]
     one_disc = before.one_disc and (not long.contact or _jumps_are_open(long, piece, space, visits, trace[LANDING, j]))
-    tied = before.tied or loading_is_tied(piece, long.source, end_of(piece.table), trace, count)
+    tied = before.tied or loading_is_tied(piece, end_of(piece.table), trace, count)
     lost, jumps = before.lost + trace[LOADED, j] - before.below, before.jumps + trace[LOADING_JUMPS, j]
-    first = first if before.jumps == 0.0 else before.first
+    snap = snap_in(piece, trace[LANDING, visited[0]]) if before.jumps == 0.0 else before.snap
     return Loading(
         before.wave, True, end_state(trace, j), lost, jumps, 0.0, first, trace[LANDING, j], one_disc, tied
     ), visits
@@ -549,14 +552,14 @@ def leave(long: Long, curve: Curve, starts: int, last: int) -> Leaving:
         first = started_within(trace, starts, start_of(long.waves, float(wave)))
         low = _lowest(trace, first, starts) if first < starts else starts - 1
         fill_unloading(start, trace, low, long.start.stack)
-        tied = unloading_is_tied(start, long.source, trace[START, low], trace, starts)
+        tied = unloading_is_tied(start, trace[START, low], trace, starts)
         depth = trace[START_DEPTH, int(trace[LAST, low])]
         return Leaving(wave, trace[UNLOADED, low], trace[UNLOADING_JUMPS, low], depth, tied)
     space = long.window
     piece, first, second, count = _trace_waves(long, curve, wave - 1.0, space)
     _from_zero(long, wave - 1, space)
     after = space.trace[START, _lowest(space.trace, second, count)]
-    tied = unloading_is_tied(piece, long.source, after, space.trace, count)
+    tied = unloading_is_tied(piece, after, space.trace, count)
     left = _leave_far(long, piece, start_state(space.trace, _lowest(space.trace, first, second)), starts)
     return Leaving(wave, left.lost, left.jumps, left.last, tied)
 
@@ -596,7 +599,7 @@ def finish_loading(
 
     `before` has what is lost by the top of wave `last`, the first one in `ends`, if it has landed by then.
     """
-    space, source = long.ends, long.source
+    space = long.ends
     trace, visited = space.trace, space.visited
     known = before.landed and before.wave <= last
     if known:
@@ -625,8 +628,8 @@ def finish_loading(
         state, lost, jumps = end_state(trace, j), trace[LOADED, j], trace[LOADING_JUMPS, j]
         landings = before.first if before.jumps > 0.0 else trace[LANDING, visited[0]], trace[LANDING, j]
     one_disc = before.one_disc and (not long.contact or _jumps_are_open(long, piece, space, n, rim))
-    tied = before.tied or loading_is_tied(piece, source, rim, trace, count)
-    loaded = load_to(piece, source, rim, trace, visited, visits, wants_depth)
+    tied = before.tied or loading_is_tied(piece, rim, trace, count)
+    loaded = load_to(piece, rim, trace, visited, visits, wants_depth)
     if not loaded.known or n == 0:  # the endless branch is far out, or nothing is met within the rim
         if n > 0:
             _from_zero(long, last, space)
@@ -645,9 +648,9 @@ def finish_unloading(
 
     `after` has what is lost from the bottom of wave `last` on, the first one in `ends`, if it leaves no later.
     """
-    space, source = long.ends, long.source
+    space = long.ends
     trace, within = space.trace, started_within(space.trace, count, rim)
-    tied = after.tied or unloading_is_tied(piece, source, rim, trace, count)
+    tied = after.tied or unloading_is_tied(piece, rim, trace, count)
     left = Unloaded(after.lost, after.jumps, after.depth)
     if after.wave <= last:
         low = _lowest(trace, 0, started_within(trace, count, start_of(long.waves, last + 1.0)))
@@ -657,10 +660,10 @@ def finish_unloading(
             left = _leave_far(long, piece, start_state(trace, low), starts)
     trace[UNLOADED, low], trace[UNLOADING_JUMPS, low], trace[LAST, low] = left.lost, left.jumps, low
     if within == 0 or trace[END, within - 1] < rim:
-        depth, load = state_at(piece, source, rim)
+        depth, load = state_in(piece, rim)
         if inner_branch(trace, within - 1, coordinate_of(piece, depth, load)) < 0:
             return _leave_far(long, piece, State(rim, depth, load), starts), tied
-    unloaded = unload_from(piece, source, rim, trace, count, space.stack)
+    unloaded = unload_from(piece, rim, trace, count, space.stack)
     return Unloaded(unloaded.lost, unloaded.jumps, left.last), tied
 
 
@@ -671,7 +674,7 @@ def turn_far(long: Long, curve: Curve, measured: Curve, target: float, before: L
     0: next to the centre, within two waves beyond those that are walked there, or before contact is made.
     """
     start, space = on(measured, long.table), long.start
-    rising = find_folds(start, end_of(long.table), space.slopes, space.measured)
+    rising = find_folds(start, end_of(long.table), space.measured)
     visits = int(before.jumps)
     found = turning_radius(start, target, space.trace, space.visited, visits, space.measured, rising)
     if found < math.inf or target < 0.0:
@@ -680,7 +683,7 @@ def turn_far(long: Long, curve: Curve, measured: Curve, target: float, before: L
         space = long.window
         visits = land(long, curve, before)[1]
         piece = on(measured, waves_from(long.waves, before.wave - 2.0, space.nodes, space.polys))
-        rising = _trace(piece, long.waves.per, space.slopes, space.measured)[2]
+        rising = _trace(piece, long.waves.per, space.measured)[2]
         found = turning_radius(piece, target, space.trace, space.visited, visits, space.measured, rising)
         if found < math.inf:
             return min(found, rim)

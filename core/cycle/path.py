@@ -7,6 +7,8 @@ branch. Energies are in 2 pi l^2 dgamma, depths and loads in the units of the cu
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from gradhesion.core.curve.energy import jump_energy
 from gradhesion.core.curve.levels import BEYOND, at_level
 from gradhesion.core.curve.levels import LANDING as ACCURACY
@@ -26,9 +28,9 @@ from gradhesion.core.curve.trace import (
     UNLOADED,
     UNLOADING_JUMPS,
 )
-from gradhesion.core.curve.values import Curve, coordinate_of, softness, state_at
+from gradhesion.core.curve.values import Curve, coordinate_of, softness, state_in
 from gradhesion.core.jit import kernel, leaf
-from gradhesion.core.table.layout import Source, end_of
+from gradhesion.core.table.layout import end_of
 from gradhesion.core.types import Floats, Integers
 
 
@@ -97,9 +99,19 @@ def walk_on(curve: Curve, trace: Floats, first: int, count: int, visited: Intege
 
 @kernel
 def walk_loading(curve: Curve, trace: Floats, count: int, visited: Integers) -> int:
-    """Let loading go from no contact over all branches; return the number of those visited, whose columns are `visited`."""
-    none = count - count  # not the number 0, for which numba would compile another copy
+    """Let loading go from no contact over all branches; return how many it visits, whose columns are `visited`."""
+    none = np.int64(0)  # a plain 0 would be a type of its own, for which callees are compiled once more
     return walk_on(curve, trace, none, count, visited, none, State(0.0, 0.0, 0.0))
+
+
+@kernel
+def snap_in(closing: Curve, landing: float) -> float:
+    """Return the pull after the jump from zero contact to a radius, at the coordinate 0, in loads of closing."""
+    if landing > end_of(closing.table):
+        return math.nan
+    depth, load = state_in(closing, landing)
+    stiffness = landing ** (1.0 + closing.table.k)
+    return stiffness * coordinate_of(closing, depth, load) / softness(closing, stiffness) - load
 
 
 @leaf
@@ -170,14 +182,12 @@ def started_within(trace: Floats, count: int, rim: float) -> int:
 
 
 @kernel
-def load_to(
-    curve: Curve, source: Source, rim: float, trace: Floats, visited: Integers, visits: int, wants_depth: bool
-) -> Loaded:
-    """Return what loading up to a rim loses, and how deep it gets (if the rim is beyond the table, only if wanted)."""
+def load_to(curve: Curve, rim: float, trace: Floats, visited: Integers, visits: int) -> Loaded:
+    """Return what loading up to a rim loses, and how deep it gets: inf if the rim is beyond the table."""
     depth = load = level = math.inf
     inside = rim <= end_of(curve.table)  # else the rim is on the endless branch
-    if inside or (wants_depth and rim < math.inf):
-        depth, load = state_at(curve, source, rim)
+    if inside:
+        depth, load = state_in(curve, rim)
         level = coordinate_of(curve, depth, load)
     n = visited_within(trace, visited, visits, rim)
     if not inside and (n == 0 or trace[END, visited[n - 1]] < rim):
@@ -198,12 +208,12 @@ def load_to(
 
 
 @kernel
-def unload_from(curve: Curve, source: Source, rim: float, trace: Floats, count: int, stack: Integers) -> Unloaded:
+def unload_from(curve: Curve, rim: float, trace: Floats, count: int, stack: Integers) -> Unloaded:
     """Return what unloading from a rim loses, and where it ends."""
     j = started_within(trace, count, rim) - 1
     lost, jumps, last = 0.0, 0.0, 0.0
     if j < 0 or trace[END, j] < rim:
-        depth, load = state_at(curve, source, rim)
+        depth, load = state_in(curve, rim)
         j = inner_branch(trace, j, coordinate_of(curve, depth, load))
         lost, jumps, last = _leave(curve, State(rim, depth, load), j, trace), 1.0, depth
     if j >= 0:

@@ -9,16 +9,10 @@ from typing import Final, NamedTuple
 from gradhesion.core.curve.folds import pair_in, swing_in, zero_in
 from gradhesion.core.curve.values import Curve, bin_of, depth_and_load, load_curve, place_of, radius_of, slope_at
 from gradhesion.core.jit import kernel, leaf
-from gradhesion.core.table.basis import Basis, mix_bins
 from gradhesion.core.table.layout import U1, E, P, T, U, Y
-from gradhesion.core.types import Floats, Integers
 
 _MARGIN: Final = 0.002
 """Of the crest: how far the estimate of a trough may be off (measured: 0.0007)."""
-ALL: Final = -1
-"""In the place of a first bin: the whole table is filled."""
-_AHEAD: Final = 12
-"""Bins that are filled at once."""
 
 
 class Lowest(NamedTuple):
@@ -29,14 +23,6 @@ class Lowest(NamedTuple):
     second: float
     second_y: float
     known: bool  # False: the table is too short
-
-
-class Filling(NamedTuple):
-    """From what bins of a table are filled where the search arrives."""
-
-    basis: Basis
-    weights: Floats  # of its exponents, (NODES,)
-    filled: Integers  # (2,): the bins filled[0] to filled[1] - 1 are filled; filled[0] = ALL: all of them
 
 
 @leaf
@@ -66,7 +52,7 @@ def _load_at(curve: Curve, i: int) -> float:
 
 @kernel
 def _trough(curve: Curve, crest: float, i: int, before: float, after: float, rim: float, best: Lowest) -> Lowest:
-    """Take in the trough of bin i, at whose edges D is `before` and `after`, if it has one that may be among the lowest."""
+    """Take in the trough of bin i, at whose edges D is `before` and `after`, if it may be among the lowest."""
     nodes = curve.table.nodes
     low, high = -1.0, 1.0
     if before < 0.0 <= after:
@@ -97,60 +83,49 @@ def _trough(curve: Curve, crest: float, i: int, before: float, after: float, rim
 
 
 @leaf
-def _fill(curve: Curve, filling: Filling, first: int, last: int) -> None:
-    """See to it that the bins `first` to `last` - 1 are filled."""
-    table, filled = curve.table, filling.filled
-    if filled[0] == filled[1]:
-        filled[0] = filled[1] = first
-    if last > filled[1]:
-        mix_bins(filling.basis, table.k, filling.weights, filled[1], last, table.nodes, table.polys)
-        filled[1] = last
-    if first < filled[0]:
-        mix_bins(filling.basis, table.k, filling.weights, first, filled[0], table.nodes, table.polys)
-        filled[0] = first
+def envelope_place(curve: Curve) -> float:
+    """Return the radius at which the envelope of the load is least."""
+    table = curve.table
+    crest, power = 1.0 - curve.g * table.lowest, table.exponent - 0.5 * (1.0 - table.k)
+    return (crest * 0.5 * (3.0 + table.k) / (curve.B * table.exponent)) ** (1.0 / power)
 
 
 @kernel
-def lowest_load(curve: Curve, rim: float, filling: Filling) -> Lowest:
-    """Return the lowest load for 0 < y <= rim; bins are filled where they are not (`filling`)."""
+def lowest_load(curve: Curve, rim: float, first: int, last: int) -> Lowest:
+    """Return the lowest load for 0 < y <= rim, where the bins `first` to `last` - 1 of the table are filled.
+
+    The bin of a rim within the table is filled as well. `known` is False if others were needed.
+    """
     curve = load_curve(curve)
-    table, nodes = curve.table, curve.table.nodes
+    table = curve.table
     crest = 1.0 - curve.g * table.lowest
-    power = table.exponent - 0.5 * (1.0 - table.k)
-    middle = (crest * 0.5 * (3.0 + table.k) / (curve.B * table.exponent)) ** (1.0 / power)
-    lazy = filling.filled[0] != ALL
     end = table.start + (table.bins - table.geometric) * table.width
-    last = table.bins
-    if rim <= end:
-        last = bin_of(table, rim) + 1
-    elif middle > end:
-        return Lowest(0.0, 0.0, 0.0, 0.0, False)
-    start = min(bin_of(table, middle), last - 1)
-    if lazy:
-        _fill(curve, filling, max(start - _AHEAD // 2, 0), min(start + _AHEAD // 2, last))
+    middle, limit = envelope_place(curve), table.bins
     best = Lowest(0.0, 0.0, 0.0, 0.0, True)
     if rim <= end:
-        if lazy and not (filling.filled[0] < last <= filling.filled[1]):
-            mix_bins(filling.basis, table.k, filling.weights, last - 1, last, nodes, table.polys)
         i, t = place_of(table, rim)
-        best = deeper(best, depth_and_load(curve, i, t)[1], rim)
+        best, limit = deeper(best, depth_and_load(curve, i, t)[1], rim), i + 1
+    unknown = Lowest(0.0, 0.0, 0.0, 0.0, False)
+    if rim > end and middle > end:
+        return unknown
+    start = min(bin_of(table, middle), limit - 1)
+    if not first <= start < last:
+        return unknown
     i = start
     before = first_slope = slope_at(curve, start)
-    while i < last and (i == start or _envelope(curve, crest, i) <= best.load):
-        if lazy and i + 1 > filling.filled[1]:
-            _fill(curve, filling, filling.filled[0], min(i + _AHEAD, last))
+    while i < limit and (i == start or _envelope(curve, crest, i) <= best.load):
+        if i >= last:
+            return unknown
         after = slope_at(curve, i + 1)
         best = _trough(curve, crest, i, before, after, rim, best)
         before = after
         i += 1
     if i >= table.bins and rim > end and _envelope(curve, crest, table.bins) <= best.load:
-        return Lowest(0.0, 0.0, 0.0, 0.0, False)
+        return unknown
     i, after = start - 1, first_slope
-    while i >= 0:
-        if lazy and i < filling.filled[0]:
-            _fill(curve, filling, max(i - _AHEAD + 1, 0), filling.filled[1])
-        if _envelope(curve, crest, i + 1) > best.load:
-            break
+    while i >= 0 and _envelope(curve, crest, i + 1) <= best.load:
+        if i < first:
+            return unknown
         before = slope_at(curve, i)
         best = _trough(curve, crest, i, before, after, rim, best)
         after = before

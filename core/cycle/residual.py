@@ -6,10 +6,10 @@ from gradhesion.core.curve.energy import GAUSS, GAUSS_WEIGHTS
 from gradhesion.core.curve.levels import LANDING as ACCURACY
 from gradhesion.core.curve.levels import at_level
 from gradhesion.core.curve.trace import END, END_LEVEL, LANDING, START, START_LEVEL
-from gradhesion.core.curve.values import Curve, bin_of, coordinate_of, depth_and_load, slope_in, softness, state_at
+from gradhesion.core.curve.values import Curve, bin_of, coordinate_of, depth_and_load, slope_near, softness, state_in
 from gradhesion.core.cycle.path import inner_branch, started_within, visited_within
 from gradhesion.core.jit import kernel
-from gradhesion.core.table.layout import HALF, YC, Source, end_of
+from gradhesion.core.table.layout import HALF, YC, end_of
 from gradhesion.core.types import Floats, Integers
 
 
@@ -26,7 +26,7 @@ def _along(curve: Curve, low: float, high: float) -> float:
         b = min(1.0, (high - centre) / half)
         for j in range(GAUSS.size):
             t = 0.5 * (a + b) + 0.5 * (b - a) * GAUSS[j]
-            slope, _, _, _ = slope_in(curve, i, t)
+            slope, _, _, _ = slope_near(curve, i, t)
             _, load = depth_and_load(curve, i, t)
             stiffness = (centre + half * t) ** (1.0 + table.k)
             total += 0.5 * (b - a) * GAUSS_WEIGHTS[j] * load * slope * softness(curve, stiffness)
@@ -37,7 +37,6 @@ def _along(curve: Curve, low: float, high: float) -> float:
 def work_of_cycle(
     closing: Curve,
     opening: Curve,
-    source: Source,
     rim: float,
     loading: Floats,
     visits: int,
@@ -60,9 +59,9 @@ def work_of_cycle(
         work += ratio * _along(closing, loading[LANDING, j], min(loading[END, j], rim))
         top = loading[END_LEVEL, j]
         if loading[END, j] >= rim:
-            depth, load = state_at(closing, source, rim)
+            depth, load = state_in(closing, rim)
             top = coordinate_of(closing, depth, load)
-    depth, load = state_at(opening, source, rim)
+    depth, load = state_in(opening, rim)
     level = coordinate_of(opening, depth, load)
     fall = math.sqrt(ratio) * top - level  # while the edge is pinned at the rim, where the load is linear
     stiffness = rim ** (1.0 + opening.table.k)

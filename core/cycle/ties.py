@@ -4,9 +4,9 @@ import math
 
 from gradhesion.core.curve.folds import CLOSE
 from gradhesion.core.curve.trace import CLOSE_PAIR, END, END_LEVEL, START, START_LEVEL
-from gradhesion.core.curve.values import Curve, bin_of, coordinate_of, place_of, slope_in, state_at, terms_at
+from gradhesion.core.curve.values import Curve, bin_of, coordinate_of, place_of, slope_near, state_in, terms_at
 from gradhesion.core.jit import kernel, leaf
-from gradhesion.core.table.layout import HALF, Source, end_of
+from gradhesion.core.table.layout import HALF, end_of
 from gradhesion.core.types import Floats
 
 
@@ -22,16 +22,16 @@ def rim_is_tied(curve: Curve, rim: float) -> bool:
     if rim > end_of(curve.table):
         return False
     i, t = place_of(curve.table, rim)
-    D, D1, _, _ = slope_in(curve, i, t)  # the distance of the fold by a step of Newton's method
+    D, D1, _, _ = slope_near(curve, i, t)  # the distance of the fold by a step of Newton's method
     return abs(D) * curve.table.nodes[HALF, i] <= 2.0 * CLOSE * rim * abs(D1)
 
 
 @leaf
-def _level_at(curve: Curve, source: Source, rim: float) -> float:
+def _level_at(curve: Curve, rim: float) -> float:
     """Return what is prescribed at a rim, inf beyond the table, where it is on the endless branch."""
     if rim > end_of(curve.table):
         return math.inf
-    depth, load = state_at(curve, source, rim)
+    depth, load = state_in(curve, rim)
     return coordinate_of(curve, depth, load)
 
 
@@ -42,7 +42,7 @@ def _pair_is_close(rim: float, trace: Floats, count: int) -> bool:
 
 
 @kernel
-def loading_is_tied(curve: Curve, source: Source, rim: float, trace: Floats, count: int) -> bool:
+def loading_is_tied(curve: Curve, rim: float, trace: Floats, count: int) -> bool:
     """Return whether it is close which branches exist, or which of them reach higher than those before."""
     if _pair_is_close(rim, trace, count):
         return True
@@ -52,7 +52,7 @@ def loading_is_tied(curve: Curve, source: Source, rim: float, trace: Floats, cou
             return False
         top, y = trace[END_LEVEL, j], trace[END, j]
         if y >= rim:
-            top, y = _level_at(curve, source, rim), rim
+            top, y = _level_at(curve, rim), rim
         if top < math.inf and _are_close(curve, top, highest, y):
             return True
         highest = max(highest, top)
@@ -60,14 +60,14 @@ def loading_is_tied(curve: Curve, source: Source, rim: float, trace: Floats, cou
 
 
 @kernel
-def unloading_is_tied(curve: Curve, source: Source, rim: float, trace: Floats, count: int) -> bool:
+def unloading_is_tied(curve: Curve, rim: float, trace: Floats, count: int) -> bool:
     """Return whether it is close which branches exist, or which of them start lower than those after."""
     if _pair_is_close(rim, trace, count):
         return True
     j = count - 1
     while j >= 0 and trace[START, j] > rim:
         j -= 1
-    level, y = _level_at(curve, source, rim), rim
+    level, y = _level_at(curve, rim), rim
     if j >= 0 and trace[END, j] >= rim:
         level, y = trace[START_LEVEL, j], trace[START, j]
         j -= 1
@@ -82,7 +82,7 @@ def unloading_is_tied(curve: Curve, source: Source, rim: float, trace: Floats, c
 
 @kernel
 def target_is_tied(measured: Curve, target: float, rim: float, branches: Floats, count: int) -> bool:
-    """Return whether a depth or load at which a cycle turns is close to the top of a branch of it; arguments as there."""
+    """Return whether the depth or load at which a cycle turns is close to the top of a branch of it."""
     for j in range(count):
         if branches[START, j] > rim:
             return False

@@ -11,7 +11,7 @@ from gradhesion.core.types import Floats, Integers
 
 
 @leaf
-def _value_at(curve: Curve, y: float) -> float:
+def value_at(curve: Curve, y: float) -> float:
     """Return what a curve prescribes at a radius within its table."""
     i, t = place_of(curve.table, y)
     depth, load = depth_and_load(curve, i, t)
@@ -25,20 +25,20 @@ def turning_radius(
     """Return where loading first reaches a target of depth or load, inf if it does not within the table.
 
     `measured` is the curve with that depth or load prescribed, and `branches` the trace of it, with `count` branches:
-    where it is what the cycle prescribes, the `trace` of loading itself, whose `visits` branches are `visited`. A target
-    that is passed within a jump is reached where the jump ends.
+    where it is what the cycle prescribes, the `trace` of loading itself, whose `visits` branches are `visited`. A
+    target that is passed within a jump is reached where the jump ends.
     """
     first, end = 0, end_of(measured.table)
     for v in range(visits):
         low, high = trace[LANDING, visited[v]], min(trace[END, visited[v]], end)
-        if _value_at(measured, low) >= target:
+        if value_at(measured, low) >= target:
             return low
         while first < count and branches[END, first] <= low:
             first += 1
         b = first
         while b < count and branches[START, b] < high:
             top = min(high, branches[END, b])
-            if _value_at(measured, top) >= target:
+            if value_at(measured, top) >= target:
                 return at_level(measured, target, max(low, branches[START, b]), top, EXACTLY)
             b += 1
     return math.inf

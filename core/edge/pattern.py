@@ -1,8 +1,8 @@
 """A toughness that varies with the radius (physics 16): the table of one scene.
 
 With t(y) the pattern and kappa = t or its root, depth = B y^m + g U - kappa y E = B y^m + (g U - W) - y E, where
-W = (kappa - 1) y E: waves of their own, of size 1. Only what the edge of a contact loses, kappa^2 - rho^2, and the share
-of the load in the fold function, kappa E, know of kappa.
+W = (kappa - 1) y E: waves of their own, of size 1. Only what the edge of a contact loses, kappa^2 - rho^2, and the
+share of the load in the fold function, kappa E, know of kappa.
 """
 
 import math
@@ -178,7 +178,7 @@ def edge_area(table: Table, pattern: Pattern, y: float) -> float:
 
 
 def bounds_of(rows: Floats, amplitude: Floats, of_work: bool) -> tuple[Floats, Floats, Floats]:
-    """Return, for amplitudes, the least value of a pattern, a bound of kappa, and of its slope by the phase of its wave.
+    """Return, for amplitudes, the least value of a pattern, a bound of kappa, and of its slope by the phase.
 
     `rows` are those of `rows_by_number`; the least value is looked for at 64 phases of the shortest wave.
     """
@@ -196,7 +196,7 @@ def bounds_of(rows: Floats, amplitude: Floats, of_work: bool) -> tuple[Floats, F
 
 
 def bins_of_wave(rows: Floats, amplitude: Floats, of_work: bool, least: Floats) -> Floats:
-    """Return how many bins a wave of each pattern needs: 8 of the shortest wave; of a root more, where t nearly vanishes.
+    """Return how many bins a wave of each pattern needs: 8 of the shortest; of a root more, where t nearly vanishes.
 
     A root is smooth only as far as the nearest complex phase at which t is 0: half of the strip in which it is not.
     """

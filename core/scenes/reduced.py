@@ -96,7 +96,7 @@ def mean_of(waves: Floats) -> float:
 
 @kernel
 def reduce_scene(punch: Punch, scenes: Floats, i: int, theta: float, depth_factor: float, reduced: Floats) -> None:
-    """Fill the units, sizes and targets of scene i; theta and depth factor are those of its exponent and Poisson's ratio."""
+    """Fill the units, sizes and targets of scene i, of a given theta and depth factor."""
     k, m = scenes[K, i], punch.exponent
     eta = 0.5 * (1.0 - k)
     M = theta * scenes[MODULUS, i] / scenes[C0, i] ** k
@@ -134,8 +134,10 @@ def fill_reach(punch: Punch, i: int, crest: float, steepest: float, mean: float,
     reduced[PULL, i] = (front * of_load) ** (1.0 / (m - eta)) * 1.2 + 20.0
     steep, power = g * steepest + reduced[STEEP, i], m - 1.0 - eta
     window = math.inf
-    if power > 0.0:
-        window = (steep / (B * m)) ** (1.0 / power) * 1.15 + 60.0 if steep > 0.0 else 0.0
+    if steep == 0.0:
+        window = 0.0
+    elif power > 0.0:
+        window = (steep / (B * m)) ** (1.0 / power) * 1.15 + 60.0
     elif power == 0.0 and steep < B * m:
         window = 60.0
     reduced[WINDOW, i] = max(smooth, window)
@@ -152,7 +154,7 @@ def fill_reach(punch: Punch, i: int, crest: float, steepest: float, mean: float,
 
 @kernel
 def reduce_scenes(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats) -> None:
-    """Fill the reduced numbers of all scenes but MOST and STEEP; neighbours that share an exponent share its functions."""
+    """Fill the reduced numbers of all scenes but MOST and STEEP; neighbours share what depends on k alone."""
     k = nu = theta = depth_factor = crest = steepest = math.nan
     mean = mean_of(punch.waves)
     for i in range(scenes.shape[1]):
@@ -164,7 +166,7 @@ def reduce_scenes(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats) -
                 depth_factor, crest = depth_factor_of(k, punch.exponent), crest_of(k, punch.waves)
                 node = between(basis, k)
                 steepest = 1.05 * max(basis.crest[node], basis.crest[node + 1])
-        if not (scenes[NU, i] == nu):
+        if scenes[NU, i] != nu:
             nu = scenes[NU, i]
             theta = theta_of(k, nu)
         reduce_scene(punch, scenes, i, theta, depth_factor, reduced)

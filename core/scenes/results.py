@@ -4,7 +4,6 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from gradhesion.core.curve.folds import CHUNK
 from gradhesion.core.curve.trace import room_for
 from gradhesion.core.table.basis import room_of
 from gradhesion.core.table.layout import LANES
@@ -51,31 +50,23 @@ class Wanted(NamedTuple):
 
 
 class Rooms(NamedTuple):
-    """Room for the curves of one task, so that nothing is allocated in its loops.
+    """Room for the curves of one task, so that little is allocated in its loops.
 
-    closing, opening, measured   traces
-    visited, stack               columns of branches, (bins,)
-    closing_nodes, closing_polys, opening_nodes, opening_polys   tables of interfaces with a pattern
-    slopes                       (CHUNK,)
-    limits                       (2,), those of `loading_is_one_disc`
+    traces      of closing, of opening, and of what is measured for the turn, (3, ROWS, branches)
+    columns     those that loading visits, and a stack of unloading, (2, branches)
+    nodes       of the tables of closing and of opening of interfaces with a pattern, (2, ROWS, bins + 1)
+    polys       their polynomials, (2, bins, LANES + 1, N)
     """
 
-    closing: Floats
-    opening: Floats
-    measured: Floats
-    visited: Integers
-    stack: Integers
-    closing_nodes: Floats
-    closing_polys: Floats
-    opening_nodes: Floats
-    opening_polys: Floats
-    slopes: Floats
-    limits: Floats
+    traces: Floats
+    columns: Integers
+    nodes: Floats
+    polys: Floats
 
 
 def rooms_for(bins: int, patterned: bool) -> Rooms:
     """Return room for tables of that many bins."""
-    closing, opening = (room_of(bins if patterned else 0, LANES + 1) for _ in range(2))
-    traces = [room_for(bins) for _ in range(3)]
-    columns = [np.empty(bins + 8, dtype=np.int64) for _ in range(2)]
-    return Rooms(*traces, *columns, *closing, *opening, np.empty(CHUNK), np.empty(2))
+    nodes, polys = room_of(bins if patterned else 0, LANES + 1)
+    traces = np.empty((3, *room_for(bins).shape))
+    columns = np.empty((2, traces.shape[2]), dtype=np.int64)
+    return Rooms(traces, columns, np.stack((nodes, nodes)), np.stack((polys, polys)))

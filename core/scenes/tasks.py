@@ -9,23 +9,25 @@ import threading
 from collections import OrderedDict
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from typing import Final, NamedTuple
+from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.core.curve.values import Curve, bin_of
 from gradhesion.core.cycle.disc import disc_of, profile_of
-from gradhesion.core.cycle.long import MOST, NEAR, Long, space_for
-from gradhesion.core.cycle.pull_off import ALL, Filling
-from gradhesion.core.cycle.waves import Waves, reach_of, waves_of
+from gradhesion.core.cycle.pull_off import envelope_place, lowest_load
 from gradhesion.core.edge.pattern import bins_of_wave, bounds_of, rows_by_number
 from gradhesion.core.jit import kernel
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.processors import processors
-from gradhesion.core.scenes.cycles import Task, solve_cycles, solve_forces
-from gradhesion.core.scenes.long import solve_long
+from gradhesion.core.scenes.cycles import Task, no_value, put_force, solve_cycles
 from gradhesion.core.scenes.reduced import (
     AT_RIM,
+    BY_POWER,
+    BY_WAVES,
+    CLOSING,
+    DEPTH,
     NEED,
     PATTERN_AMPLITUDE,
     PATTERN_WAVELENGTH,
@@ -35,9 +37,10 @@ from gradhesion.core.scenes.reduced import (
     K,
     Punch,
     depth_factor_of,
+    is_valid,
     reduced_of,
 )
-from gradhesion.core.scenes.results import RESULT_ROWS, SHORT, STATUS, Rooms, Wanted, rooms_for
+from gradhesion.core.scenes.results import DEEPEST, RESULT_ROWS, SHORT, STATUS, Rooms, Wanted, rooms_for
 from gradhesion.core.table.basis import (
     NODES,
     Basis,
@@ -46,10 +49,28 @@ from gradhesion.core.table.basis import (
     empty_table,
     fill_table,
     fill_weights,
+    mix_bins,
     room_of,
 )
-from gradhesion.core.table.filling import fill_bins, source_of, width_of, with_bounds
-from gradhesion.core.table.layout import BY_DEPTH, BY_LOAD, EXACT, FIRST, GEOMETRIC, PER_WAVE, Source, Table, end_of
+from gradhesion.core.table.filling import fill_bins, source_of, waves_at, width_of, with_bounds
+from gradhesion.core.table.layout import (
+    BY_LOAD,
+    EXACT,
+    FIRST,
+    GEOMETRIC,
+    LANES,
+    PER_WAVE,
+    ROWS,
+    U1,
+    E,
+    N,
+    Source,
+    Table,
+    U,
+    Y,
+    end_of,
+    span_of,
+)
 from gradhesion.core.table.leading import crests_of
 from gradhesion.core.types import Floats, Integers
 
@@ -57,55 +78,118 @@ _MOST_BINS: Final = 130_000
 """Bins of a table, at most: 76 MB."""
 _KEPT_BINS: Final = 260_000
 """Bins of all long tables that are kept between calls."""
-_WALKED: Final = 300
-"""Waves that are walked; scenes of more are summed."""
-_WALKED_BINS: Final = 40_000
-"""Bins that are walked at most, where waves have many: 23 MB."""
-_BINS_OF_A_WAVE: Final = 1024
-"""Bins of a wave at most, where waves are summed: 5 MB for each doubling of their number."""
-_KEPT_WAVES: Final = 64e6
-"""Bytes of all waves (cycle/waves.py) that are kept between calls."""
+_AROUND: Final = 6
+"""Bins around the lowest place of the envelope that are filled at once for a pull-off."""
+_LONGEST: Final = 30.0
+"""By which a table may be longer than what was asked for at first."""
 _SCENES: Final = 1024
 """Scenes of a part, at least: a millisecond or more."""
 _MOST_SCENES: Final = 32768
 """And at most: some megabytes."""
+Group: TypeAlias = Callable[[int, Floats, Floats, Floats], None]
+"""What solves scenes of one fineness of bins: takes that, scenes, their reduced numbers, and room for results."""
 
 
 @kernel
-def source_for(punch: Punch, basis: Basis, k: float, needed: bool) -> Source:
-    """Return what is needed of an exponent at rims beyond a near table: its functions; of any exponent if it is not."""
-    no_waves = np.zeros((0, 3))
-    return source_of(k if needed else 0.5, punch.exponent, punch.waves if needed else no_waves, basis.width, 0.0, EXACT)
+def near_forces(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats, out: Floats) -> None:
+    """Solve the pull-off alone of scenes in the order of their exponents; bins are filled where the search arrives."""
+    most = basis.values.shape[0] - 1
+    nodes, polys = np.zeros((ROWS, most + 1)), np.zeros((most, LANES, N))
+    weights, k, first, last = np.zeros(NODES), math.nan, 0, 0
+    for i in range(scenes.shape[1]):
+        if not is_valid(punch, scenes, reduced, i):
+            no_value(out, i, NO_VALUE)
+            continue
+        if scenes[K, i] != k:
+            k, first, last = scenes[K, i], 0, 0
+            fill_weights(basis.k, k, weights)
+        table = empty_table(basis, k, nodes, polys)
+        curve, rim = Curve(table, reduced[BY_POWER, i], reduced[BY_WAVES, i], 0.0, 1.0), reduced[RIM_Y, i]
+        place = bin_of(table, min(envelope_place(curve), rim))
+        if rim <= end_of(table):
+            j = bin_of(table, rim)
+            mix_bins(basis, k, weights, j, j + 1, nodes, polys)
+        around = _AROUND
+        while True:
+            low, high = max(place - around, 0), min(place + around, most)
+            if first == last:
+                first = last = low
+            if low < first:
+                mix_bins(basis, k, weights, low, first, nodes, polys)
+            if high > last:
+                mix_bins(basis, k, weights, last, high, nodes, polys)
+            first, last = min(low, first), max(high, last)
+            lowest = lowest_load(curve, rim, first, last)
+            if lowest.known or (low == 0 and high == most):
+                break
+            around *= 3
+        put_force(lowest, reduced, i, out)
 
 
 @kernel
-def near_forces(
+def end_of_exponent(scenes: Floats, first: int) -> int:
+    """Return the end of the scenes that share the exponent of the first one."""
+    last = first + 1
+    while last < scenes.shape[1] and scenes[K, last] == scenes[K, first]:
+        last += 1
+    return last
+
+
+class NearRooms(NamedTuple):
+    """Room for near tables and the curves on them.
+
+    rooms       for curves
+    nodes, polys  of the table and, of leading terms, of that of its loads, (2, ROWS, .) and (2, .)
+    weights     (NODES,)
+    """
+
+    rooms: Rooms
+    nodes: Floats
+    polys: Floats
+    weights: Floats
+
+
+def near_rooms(basis: Basis, punch: Punch, tables: int = 1) -> NearRooms:
+    """Return room for that many tables of a basis."""
+    bins, patterned = basis.values.shape[0] - 1, punch.rows.shape[1] > 0
+    nodes, polys = (np.stack([room] * tables) for room in room_of(bins))
+    return NearRooms(rooms_for(bins, patterned), nodes, polys, np.zeros(NODES))
+
+
+@kernel
+def near_task(
     punch: Punch,
     wanted: Wanted,
     basis: Basis,
+    by_load: Basis,
     profile: Floats,
-    rooms: Rooms,
-    nodes: Floats,
-    polys: Floats,
+    near: NearRooms,
     scenes: Floats,
     reduced: Floats,
-    out: Floats,
-) -> None:
-    """Solve the pull-off of scenes in the order of their exponents; bins are filled where the search arrives."""
-    weights, filled = np.zeros(NODES), np.zeros(2, np.int64)
-    source, disc = source_for(punch, basis, 0.5, False), disc_of(0.5, 2.0, 1.0, punch.waves, profile)
-    first = 0
-    while first < scenes.shape[1]:
-        k, last = scenes[K, first], first + 1
-        while last < scenes.shape[1] and scenes[K, last] == k:
-            last += 1
-        filled[:] = 0
-        fill_weights(basis.k, k, weights)
-        table = empty_table(basis, k, nodes, polys)
-        filling = Filling(basis, weights, filled)
-        task = Task(punch, wanted, table, table, 0.0, source, disc, filling, rooms, math.inf)
-        solve_forces(task, scenes, reduced, first, last, out)
-        first = last
+    first: int,
+    last: int,
+) -> Task:
+    """Return what the scenes `first` to `last` - 1, of one exponent, are solved with, tables filled as they need.
+
+    `by_load` is the basis of the pull-off, which is that of the cycle but for the leading terms of short waves.
+    """
+    most = basis.values.shape[0] - 1
+    reach = basis.start + (most - 2 - GEOMETRIC) * basis.width
+    k, far = scenes[K, first], 0.0
+    for i in range(first, last):
+        if reduced[NEED, i] <= reach:
+            far = max(far, reduced[NEED, i])
+    if not (far > 0.0 and 0.0 <= k <= 1.0):
+        k = 0.5  # none can be solved here
+    bins = min(GEOMETRIC + max(16, int((far - basis.start) / basis.width) + 2), most)
+    table = fill_table(basis, k, near.weights, bins, near.nodes[0], near.polys[0])
+    pull = table
+    if by_load.form != basis.form:
+        pull = fill_table(by_load, k, near.weights, bins, near.nodes[1], near.polys[1])
+    node = between(basis, k)
+    crest = 1.01 * max(basis.crest[node], basis.crest[node + 1])
+    disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
+    return Task(punch, wanted, table, pull, crest, disc, near.rooms, reach)
 
 
 @kernel
@@ -115,74 +199,47 @@ def near_cycles(
     basis: Basis,
     by_load: Basis,
     profile: Floats,
-    rooms: Rooms,
-    nodes: Floats,
-    polys: Floats,
-    load_nodes: Floats,
-    load_polys: Floats,
+    near: NearRooms,
     scenes: Floats,
     reduced: Floats,
     out: Floats,
 ) -> None:
-    """Solve the cycles of scenes in the order of their exponents; those that reach beyond the basis are left as SHORT.
-
-    `by_load` is the basis of the pull-off, which is that of the cycle but for the leading terms of short waves.
-    """
-    weights, filled = np.zeros(NODES), np.array([ALL, ALL])
-    reach = basis.start + (basis.values.shape[0] - 3 - GEOMETRIC) * basis.width
-    first = 0
+    """Solve cycles in the order of their exponents; scenes that reach beyond the basis are left as SHORT."""
+    first = np.int64(0)  # a plain 0 would be a type of its own, for which callees are compiled once more
     while first < scenes.shape[1]:
-        k, last = scenes[K, first], first + 1
-        while last < scenes.shape[1] and scenes[K, last] == k:
-            last += 1
-        far, at_far_rim = 0.0, False
-        for i in range(first, last):
-            if reduced[NEED, i] <= reach:
-                far = max(far, reduced[NEED, i])
-                at_far_rim = at_far_rim or (wanted.depth and reduced[NEED, i] < reduced[RIM_Y, i] < math.inf)
-        if not (far > 0.0 and 0.0 <= k <= 1.0):
-            k = 0.5  # none can be solved here
-        bins = GEOMETRIC + max(16, int((far - basis.start) / basis.width) + 2)
-        table = fill_table(basis, k, weights, min(bins, basis.values.shape[0] - 1), nodes, polys)
-        pull = table
-        if load_nodes.shape[1] > 1:
-            pull = fill_table(by_load, k, weights, table.bins, load_nodes, load_polys)
-        source = source_for(punch, basis, k, at_far_rim)
-        node = between(basis, k)
-        crest = 1.01 * max(basis.crest[node], basis.crest[node + 1])
-        disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
-        task = Task(punch, wanted, table, pull, crest, source, disc, Filling(basis, weights, filled), rooms, reach)
+        last = end_of_exponent(scenes, first)
+        task = near_task(punch, wanted, basis, by_load, profile, near, scenes, reduced, first, last)
         solve_cycles(task, scenes, reduced, first, last, out)
         first = last
+
+
+@kernel
+def far_rims(punch: Punch, width: float, form: int, scenes: Floats, reduced: Floats, out: Floats) -> None:
+    """Fill the depths at rims that are beyond the tables of their scenes, on the endless branch."""
+    source = source_of(0.5, punch.exponent, punch.waves, width, 0.0, form)
+    for i in range(scenes.shape[1]):
+        y = reduced[RIM_Y, i]
+        if out[DEEPEST, i] == math.inf and y < math.inf:
+            if source.k != scenes[K, i]:
+                source = source_of(scenes[K, i], punch.exponent, punch.waves, width, 0.0, form)
+            u, _ = waves_at(source, y)
+            flat = reduced[BY_POWER, i] * y**punch.exponent + reduced[BY_WAVES, i] * u
+            stretch = math.sqrt(reduced[CLOSING, i]) * y ** (0.5 * (1.0 - scenes[K, i]))
+            out[DEEPEST, i] = (flat - stretch) * reduced[DEPTH, i]
 
 
 def _solve_near(
     punch: Punch, wanted: Wanted, form: int, finer: int, profile: Floats, scenes: Floats, reduced: Floats, out: Floats
 ) -> None:
     """Solve near scenes of one fineness of bins."""
-    basis = basis_of(punch.exponent, punch.waves, EXACT if form == EXACT else BY_DEPTH, finer)
-    patterned = punch.rows.shape[1] > 0
-    bins = basis.values.shape[0] - 1
-    plain = punch.turn == AT_RIM and not patterned
-    if not wanted.cycle and plain:
-        pull = basis if form == EXACT else basis_of(punch.exponent, punch.waves, BY_LOAD, finer)
-        near_forces(punch, wanted, pull, profile, rooms_for(1, patterned=False), *room_of(bins), scenes, reduced, out)
-        return
+    basis = basis_of(punch.exponent, punch.waves, form, finer)
     by_load = basis if form == EXACT else basis_of(punch.exponent, punch.waves, BY_LOAD, finer)
-    second = room_of(0 if form == EXACT else bins)
-    near_cycles(
-        punch,
-        wanted,
-        basis,
-        by_load,
-        profile,
-        rooms_for(bins, patterned),
-        *room_of(bins),
-        *second,
-        scenes,
-        reduced,
-        out,
-    )
+    patterned = punch.rows.shape[1] > 0
+    if not wanted.cycle and punch.turn == AT_RIM and not patterned:
+        near_forces(punch, by_load, scenes, reduced, out)
+        return
+    rooms = near_rooms(basis, punch, 1 if form == EXACT else 2)
+    near_cycles(punch, wanted, basis, by_load, profile, rooms, scenes, reduced, out)
 
 
 _tables: OrderedDict[tuple[object, ...], tuple[Table, Source, float]] = OrderedDict()
@@ -197,7 +254,7 @@ def long_table(punch: Punch, k: float, form: int, finer: int, y_end: float) -> t
     width = width_of(punch.waves, finer)
     key = (punch.exponent, punch.waves.tobytes(), k, form, finer)
     with _lock:
-        if key in _tables and end_of.py_func(_tables[key][0]) >= y_end:
+        if key in _tables and span_of(_tables[key][0]) >= y_end:
             _tables.move_to_end(key)
             return _tables[key]
         crest, wave, cut = crests_of(k, punch.waves)
@@ -215,100 +272,55 @@ def long_table(punch: Punch, k: float, form: int, finer: int, y_end: float) -> t
         return _tables[key]
 
 
+@kernel
+def far_forces(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
+    """Solve the pull-off alone of the scenes `first` to `last` - 1 of one exponent."""
+    table = task.by_load
+    for i in range(first, last):
+        curve = Curve(table, reduced[BY_POWER, i], reduced[BY_WAVES, i], 0.0, 1.0)
+        put_force(lowest_load(curve, reduced[RIM_Y, i], 0, table.bins), reduced, i, out)
+
+
 def _lowest(nodes: Floats, crest: float) -> float:
     """Return a bound below (U - U1)/(y E): that of the leading term, or 2 % more than the values near the centre."""
-    from gradhesion.core.table.layout import U1, E, U, Y  # noqa: PLC0415
-
     near = nodes[:, GEOMETRIC - 20 : GEOMETRIC + 512]
     return min(crest, 1.02 * float(((near[U] - near[U1]) / (near[E] * near[Y])).min()))
 
 
-_waves: OrderedDict[tuple[object, ...], Waves] = OrderedDict()
-
-
-def _long_of(punch: Punch, wanted: Wanted, k: float, form: int, profile: Floats, most: int) -> tuple[Task, Long]:
-    """Return what scenes of an exponent are summed with, up to a number of waves."""
-    y_end = 2.0 * math.pi * (NEAR + 3)
-    table, source, crest = long_table(punch, k, form, 1, y_end)
-    key = (punch.exponent, punch.waves.tobytes(), k, form)
-    with _lock:
-        waves = _waves.pop(key, None)
-        if waves is None or most + 8 > reach_of(waves):
-            waves = waves_of(table, source, crest, crests_of(k, punch.waves)[2], most + 8.0)
-        _waves[key] = waves
-        while len(_waves) > 1 and sum(own.values.nbytes for own in _waves.values()) > _KEPT_WAVES:
-            _waves.popitem(last=False)
-    disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
-    filling = Filling(basis_of(punch.exponent, punch.waves, form, 1), np.zeros(NODES), np.array([ALL, ALL]))
-    task = Task(punch, wanted, table, table, crest, source, disc, filling, rooms_for(8, patterned=False), math.inf)
-    per = waves.per
-    rooms = (space_for(bins) for bins in (table.bins, 2 * per, 3 * per, 5 * per))
-    return task, Long(table, source, waves, NEAR, most, disc, wanted.contact, *rooms)
-
-
-def _solve_long(
-    punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes: Floats, reduced: Floats, out: Floats
+def solve_far(
+    punch: Punch,
+    wanted: Wanted,
+    form: int,
+    finer: int,
+    profile: Floats,
+    scenes: Floats,
+    reduced: Floats,
+    out: Floats,
+    most_bins: int = _MOST_BINS,
+    solve: Callable[[Task, Floats, Floats, int, int, Floats], None] = solve_cycles,
 ) -> None:
-    """Solve scenes of one exponent, without pattern, that have more waves than are walked."""
-    k = float(scenes[K, 0])
-    far = reduced[NEED].max() if punch.turn == AT_RIM else np.minimum(np.fmax(reduced[NEED], reduced[WINDOW]), reduced[RIM_Y]).max()
-    most = int(min(far / (2.0 * math.pi) + 3.0, MOST + 8.0))  # a jump may pass where a cycle turns
-    task, long = _long_of(punch, wanted, k, EXACT if form == EXACT else BY_DEPTH, profile, most)
-    pull = long
-    if form != EXACT:
-        by_load, pull = _long_of(punch, wanted, k, BY_LOAD, profile, most)
-        task = task._replace(by_load=by_load.table)
-    solve_long(task, long, pull, scenes, reduced, out)
+    """Solve scenes of one exponent beyond near tables, on tables that are tripled where they prove too short.
 
-
-def _may_be_summed(punch: Punch) -> bool:
-    """Return whether scenes of many waves can be summed: not those with a pattern, or of a great many bins a wave."""
-    return punch.rows.shape[1] == 0 and bool(PER_WAVE * punch.waves[:, 0].max() <= _BINS_OF_A_WAVE)
-
-
-def _walked(punch: Punch) -> float:
-    """Return the radius up to which scenes are walked that may be summed."""
-    per = PER_WAVE * punch.waves[:, 0].max()
-    return float(2.0 * math.pi * min(_WALKED, max(_WALKED_BINS / per, 64.0)))
-
-
-def _solve_far(
-    punch: Punch, wanted: Wanted, form: int, finer: int, profile: Floats, scenes: Floats, reduced: Floats, out: Floats
-) -> None:
-    """Solve scenes of one exponent that reach beyond near tables, on tables that are tripled where they prove too short."""
-    k, most = float(scenes[K, 0]), (_MOST_BINS - GEOMETRIC) * width_of(punch.waves, finer)
-    filling_basis = basis_of(punch.exponent, punch.waves, EXACT if form == EXACT else BY_DEPTH, finer)
-    filling = Filling(filling_basis, np.zeros(NODES), np.array([ALL, ALL]))
+    `solve` takes a task and scenes as `solve_cycles` does. Tables have `most_bins` bins at most.
+    """
+    k, most = float(scenes[K, 0]), (most_bins - GEOMETRIC) * width_of(punch.waves, finer)
     left, factor = np.arange(scenes.shape[1]), 1.0
-    if _may_be_summed(punch):
-        most = _walked(punch)
-        far = np.flatnonzero(reduced[NEED] > most)
-        if far.size:
-            found = np.empty((RESULT_ROWS, far.size))
-            chosen, own = np.ascontiguousarray(scenes[:, far]), np.ascontiguousarray(reduced[:, far])
-            _solve_long(punch, wanted, form, profile, chosen, own, found)
-            out[:, far] = found
-            left = np.setdiff1d(left, far[found[STATUS] != SHORT])
-            reduced[NEED] = np.minimum(reduced[NEED], most)  # what is left turns next to the centre
     while left.size:
         need = np.minimum(reduced[NEED, left] * factor, reduced[RIM_Y, left] * 1.01)
         possible = need[need <= most]
-        if not possible.size and factor > 1.0:
-            break
         y_end = float(possible.max()) if possible.size else most
-        table, source, crest = long_table(punch, k, EXACT if form == EXACT else BY_DEPTH, finer, min(y_end, most))
-        pull = table if form == EXACT else long_table(punch, k, BY_LOAD, finer, min(y_end, most))[0]
+        table, _, crest = long_table(punch, k, form, finer, y_end)
+        pull = table if form == EXACT else long_table(punch, k, BY_LOAD, finer, y_end)[0]
         disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
         rooms = rooms_for(table.bins, punch.rows.shape[1] > 0)
-        task = Task(punch, wanted, table, pull, crest, source, disc, filling, rooms, math.inf)
+        task = Task(punch, wanted, table, pull, crest, disc, rooms, math.inf)
         chosen, own = np.ascontiguousarray(scenes[:, left]), np.ascontiguousarray(reduced[:, left])
-        found = np.empty((RESULT_ROWS, left.size))
-        solve = solve_cycles if wanted.cycle or punch.turn != AT_RIM or punch.rows.shape[1] else solve_forces
+        found = np.empty((len(out), left.size))
         solve(task, chosen, own, 0, left.size, found)
         out[:, left] = found
         left = left[found[STATUS] == SHORT]
         factor *= 3.0
-        if factor > 30.0 or y_end >= most:
+        if factor > _LONGEST or y_end >= most:
             break
     out[STATUS, left] = NO_VALUE | TOO_MANY_WAVES
 
@@ -323,9 +335,11 @@ def _finer_bins(punch: Punch, scenes: Floats, least: Floats) -> Integers:
         return 2 ** np.clip(np.nan_to_num(np.ceil(np.log2(ratio))), 0, 12).astype(np.int64)
 
 
-def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes: Floats) -> Floats:
-    """Return the results of scenes in the order of their exponents, of one thread."""
-    out = np.full((RESULT_ROWS, scenes.shape[1]), np.nan)
+def prepared(punch: Punch, form: int, scenes: Floats) -> tuple[Floats, Integers]:
+    """Return the reduced numbers of scenes, (REDUCED_ROWS, scenes), and by how much their bins are to be narrower.
+
+    The latter are of one item, or one a scene.
+    """
     most, steep = np.ones(scenes.shape[1]), np.zeros(scenes.shape[1])
     finer = np.ones(1, dtype=np.int64)
     if punch.rows.shape[1] > 0:
@@ -334,38 +348,62 @@ def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes
         allowed = (least > 0.0) if punch.of_work else (least >= -1e-14)
         most = np.where(allowed, most, np.nan)
         finer = _finer_bins(punch, scenes, least)
-    basis = basis_of(punch.exponent, punch.waves, EXACT if form == EXACT else BY_DEPTH)
-    reduced = reduced_of(punch, basis, scenes, most, steep)
-    if wanted.saturation:  # all folds are needed, wherever the rim is
+    basis = basis_of(punch.exponent, punch.waves, form)
+    return reduced_of(punch, basis, scenes, most, steep), finer
+
+
+def in_groups(
+    punch: Punch, form: int, scenes: Floats, rows: int, near: Group, far: Group, *, whole: bool = False
+) -> Floats:
+    """Return the results of scenes in the order of their exponents, (rows, scenes), those of STATUS among them.
+
+    `near` solves scenes of one fineness of bins, `far` those of one exponent that it leaves as SHORT; each takes the
+    fineness, scenes, their reduced numbers, and room for results. `whole`: all folds are needed, wherever the rim is.
+    """
+    out = np.full((rows, scenes.shape[1]), np.nan)
+    reduced, finer = prepared(punch, form, scenes)
+    if whole:
         reduced[NEED] = np.fmax(reduced[NEED], reduced[WINDOW])
-    groups = (
-        [(int(finer[0]), slice(None))]
-        if (finer == finer[0]).all()
-        else [(int(value), np.flatnonzero(finer == value)) for value in np.unique(finer)]
-    )
-    for value, chosen in groups:
-        own = np.ascontiguousarray(scenes[:, chosen])
-        found = np.empty((RESULT_ROWS, own.shape[1]))
-        _solve_near(punch, wanted, form, value, profile, own, np.ascontiguousarray(reduced[:, chosen]), found)
+
+    def put(solve: Group, value: int, chosen: slice | Integers) -> None:
+        """Solve chosen scenes."""
+        own, numbers = (np.ascontiguousarray(array[:, chosen]) for array in (scenes, reduced))
+        found = np.full((rows, own.shape[1]), np.nan)
+        solve(value, own, numbers, found)
         out[:, chosen] = found
+
+    if (finer == finer[0]).all():
+        put(near, int(finer[0]), slice(None))
+    else:
+        for value in np.unique(finer):
+            put(near, int(value), np.flatnonzero(finer == value))
     short = np.flatnonzero(out[STATUS] == SHORT)
     finer = np.broadcast_to(finer, scenes.shape[1])
     for value in np.unique(finer[short]):
         for k in np.unique(scenes[K, short]):
             index = short[(scenes[K, short] == k) & (finer[short] == value)]
             if index.size:
-                found = np.empty((RESULT_ROWS, index.size))
-                _solve_far(
-                    punch,
-                    wanted,
-                    form,
-                    int(value),
-                    profile,
-                    np.ascontiguousarray(scenes[:, index]),
-                    np.ascontiguousarray(reduced[:, index]),
-                    found,
-                )
-                out[:, index] = found
+                put(far, int(value), index)
+    return out
+
+
+def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes: Floats) -> Floats:
+    """Return the results of scenes in the order of their exponents, of one thread."""
+    cycles = wanted.cycle or punch.turn != AT_RIM or punch.rows.shape[1] > 0
+
+    def near(finer: int, own: Floats, reduced: Floats, out: Floats) -> None:
+        """Solve near scenes."""
+        _solve_near(punch, wanted, form, finer, profile, own, reduced, out)
+
+    def far(finer: int, own: Floats, reduced: Floats, out: Floats) -> None:
+        """Solve others."""
+        solve = solve_cycles if cycles else far_forces
+        solve_far(punch, wanted, form, finer, profile, own, reduced, out, _MOST_BINS, solve)
+
+    out = in_groups(punch, form, scenes, RESULT_ROWS, near, far, whole=wanted.saturation)
+    if wanted.depth:
+        reduced, _ = prepared(punch, form, scenes)
+        far_rims(punch, width_of(punch.waves), form, scenes, reduced, out)
     return out
 
 
@@ -407,7 +445,7 @@ def scenes_of(columns: list[Floats], first: int, last: int) -> Floats:
 
 
 def run_parts(count: int, work: Callable[[int, int], None], threads: int | None) -> None:
-    """Do the work on parts of `count` scenes, from a first one to a last one, on threads that each take the next part."""
+    """Do the work on parts of `count` scenes, first to last, on threads that each take the next part."""
     workers = 1 if count < 2 * _SCENES else min(threads or processors(), -(-count // _SCENES))
     size = max(_SCENES, min(_MOST_SCENES, -(-count // (4 * workers)))) if workers > 1 else _MOST_SCENES
     parts = [(first, min(first + size, count)) for first in range(0, count, size)]

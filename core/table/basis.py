@@ -62,6 +62,7 @@ class Basis(NamedTuple):
     """The bins of one power, series and form at the exponents `k`.
 
     exponent    m, the power of the punch
+    form        exact, or leading terms (layout.py)
     start, width  of the uniform bins, as of a table
     k           the exponents, (NODES,)
     values      what depends on k, powers of the radius taken out, (bins, NODES, SIZE)
@@ -71,6 +72,7 @@ class Basis(NamedTuple):
     """
 
     exponent: float
+    form: int
     start: float
     width: float
     k: Floats
@@ -111,7 +113,9 @@ def make_basis(exponent: float, waves: Floats, form: int = EXACT, finer: int = 1
         crest[node], wave, _ = crests_of(k, waves)
         near = ((nodes[U] - nodes[U1]) / (nodes[E] * nodes[Y]))[GEOMETRIC - 20 :].min()
         lowest[node] = min(-wave, 1.02 * near)
-    return Basis(exponent, FIRST * width, width, ends, values, nodes[list(FIXED)], polys[:, PP].copy(), crest, lowest)
+    return Basis(
+        exponent, form, FIRST * width, width, ends, values, nodes[list(FIXED)], polys[:, PP].copy(), crest, lowest
+    )
 
 
 _bases: OrderedDict[tuple[object, ...], Basis] = OrderedDict()

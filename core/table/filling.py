@@ -221,7 +221,7 @@ def fill_edge(m: float, poly: Floats, centre: float, half: float, t: float, colu
 
 @leaf
 def bend_of(poly: Floats, half: float) -> float:
-    """Return a bound of how far U' swings beyond its values at the edges of a bin: h^2/2 sup of its second derivative."""
+    """Return a bound of how far U' swings beyond the edges of a bin: h^2/2 sup of its second derivative."""
     top = bottom = 0.0
     sign = -1.0
     for n in range(3, N):

@@ -154,7 +154,7 @@ def _pair(functions: Functions, which: int, z: float, sine: float, cosine: float
 
 @kernel
 def pairs_at(functions: Functions, z: float) -> tuple[float, float, float, float]:
-    """Return S0, C0 (K = k) and S1, C1 (K = k + 2) at z > 0; accurate to 1e-15 of their amplitude, and of z's rounding."""
+    """Return S0, C0 (K = k) and S1, C1 (K = k + 2) at z > 0, to 1e-15 of their amplitude and the rounding of z."""
     sine = cosine = power = 0.0
     if z >= LAST:
         sine, cosine, power = math.sin(z), math.cos(z), z ** (-0.5 * (1.0 + functions.k))

@@ -119,3 +119,8 @@ EXACT, BY_DEPTH, BY_LOAD = range(3)
 def end_of(table: Table) -> float:
     """Return the y at which a table ends."""
     return table.nodes[Y, table.bins]
+
+
+def span_of(table: Table) -> float:
+    """Return the y at which a table ends, outside kernels."""
+    return float(table.nodes[Y, table.bins])

@@ -3,8 +3,8 @@
     depth ~ B y^m + g mean + (g S(y) - 1) y E,     load ~ T [depth - mu B y^m - g mean]
 
 with S(y) = sum_n size_n [cos_n sin x_n + sin_n cos x_n], x_n = n y - (1+k) pi/4, and size_n = n^((1-k)/2) 2^((k-1)/2)
-G((1+k)/2). The slopes of these two are no multiples of each other, so that the pull-off has a table of its own (BY_LOAD):
-any U whose derivative is d load/(g T dy), with U - U1 = y E S.
+G((1+k)/2). The slopes of these two are no multiples of each other, so that the pull-off has a table of its own
+(BY_LOAD): any U whose derivative is d load/(g T dy), with U - U1 = y E S.
 """
 
 import math
@@ -44,7 +44,7 @@ def crests_of(k: float, waves: Floats) -> tuple[float, float, float]:
 
 @leaf
 def leading_at(k: float, waves: Floats, form: int, y: float) -> tuple[float, float]:
-    """Return U and U1 of the depth's leading terms at y; by load U' in place of U1's role: d load/(g T dy) and y E S."""
+    """Return U and U1 of the leading terms of the depth at y; of the load d load/(g T dy) and y E S instead."""
     size = 2.0 ** (0.5 * (k - 1.0)) * math.gamma(0.5 * (1.0 + k))
     wave = slope = mean = 0.0
     for i in range(len(waves)):

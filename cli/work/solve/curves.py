@@ -99,7 +99,7 @@ def _is_steep(study: Study, found: Mapping[str, NDArray[Any]]) -> bool:
 
 def _of_states(study: Study, scene: Mapping[str, float], curves: Sequence[str]) -> tuple[dict[str, NDArray[Any]], int]:
     """Draw the curves of the states of one scene: those of given radii, or the named ones of its cycle."""
-    from gradhesion.core.curves import states  # noqa: PLC0415 (300 ms for SciPy)
+    from gradhesion.core.draw import states  # noqa: PLC0415 (300 ms for SciPy)
 
     if study.states:
         chosen, status = states.equilibrium_states(scene, study.states, study.profile), 0

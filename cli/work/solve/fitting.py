@@ -7,7 +7,6 @@ from typing import Any, Final
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.fit.loop_file import LoopFile
 from gradhesion.cli.study.fit.study import FitStudy
-from gradhesion.core import kind_of_map
 from gradhesion.core.closed.applicability import validity
 from gradhesion.core.closed.reduced import parameters_from
 from gradhesion.core.loops.fit import fit_loop
@@ -31,11 +30,6 @@ class Fit:
     loop: LoopFile
     found: FittedLoop | None
     problem: str = ""
-
-
-def kinds_of_fit(study: FitStudy) -> tuple[str, ...]:
-    """Give the kinds of work of a fit (core/kinds.py)."""
-    return (kind_of_map(["dissipated_energy"], "exact", study.profile, study.loading), "loops")
 
 
 def fitted(study: FitStudy, loop: LoopFile) -> FittedLoop:

@@ -12,7 +12,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core.closed.reduced import parameters_from
-from gradhesion.core.curves import draw_curves
+from gradhesion.core.draw.draw import draw_curves
 from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.path import LoopModel, LoopPath
 from gradhesion.core.loops.search.starts import best_of, carried, coarse, roughly, shares_of

@@ -7,7 +7,7 @@ import pytest
 
 import gradhesion.core
 
-LIGHT = {"CONTROLS", "CURVES", "DOUBTFUL", "FAILED", "FLAGS", "OUTPUTS", "PARAMETERS", "REPORTS", "SOLVERS", "SOURCES"}
+LIGHT = {"CONTROLS", "CURVES", "DOUBTFUL", "FAILED", "FLAGS", "OUTPUTS", "PARAMETERS", "REPORTS", "SOLVERS"}
 LIGHT |= {"Harmonic", "Loading", "Profile", "doubts_about"}
 
 
