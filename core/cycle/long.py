@@ -517,7 +517,7 @@ def land(long: Long, curve: Curve, before: Loading) -> tuple[Loading, int]:
     lost, jumps = before.lost + trace[LOADED, j] - before.below, before.jumps + trace[LOADING_JUMPS, j]
     snap = snap_in(piece, trace[LANDING, visited[0]]) if before.jumps == 0.0 else before.snap
     return Loading(
-        before.wave, True, end_state(trace, j), lost, jumps, 0.0, first, trace[LANDING, j], one_disc, tied
+        before.wave, True, end_state(trace, j), lost, jumps, 0.0, snap, trace[LANDING, j], one_disc, tied
     ), visits
 
 
@@ -565,46 +565,50 @@ def leave(long: Long, curve: Curve, starts: int, last: int) -> Leaving:
 
 
 @kernel
-def _far_landing(long: Long, curve: Curve, before: Loading, rim: float, loaded: Loaded) -> tuple[Loaded, float]:
-    """Return what loading loses that jumps from a state to the endless branch far out, or to the rim, and where it lands.
+def _far_landing(long: Long, curve: Curve, before: Loading, rim: float) -> tuple[Loaded, Loading]:
+    """Return what loading loses that jumps to the endless branch far out, or to the rim, and how it stands there.
 
-    It lands no earlier than in wave before.wave; `loaded` has what is known of the state at the rim.
+    It lands no earlier than in wave before.wave.
     """
-    state, space, start = before.state, long.window, on(curve, long.table)
+    state, space = before.state, long.window
     level = coordinate_of(curve, state.depth, state.load)
     wave = _first_wave(long, Sought(LEVEL, curve, level, curve), before.wave, long.most)
-    if float(wave) > wave_of(long.waves, rim):
+    at_rim = float(wave) > wave_of(long.waves, rim)
+    if at_rim:
         wave = int(wave_of(long.waves, rim))
     elif wave == long.most:
-        return loaded, rim
+        return Loaded(0.0, 0.0, 0.0, False, False), before
     piece = on(curve, waves_from(long.waves, float(wave), space.nodes, space.polys))
     _from_zero(long, wave, space)
-    landing = at_level(piece, level, piece.table.start, math.inf, ACCURACY) if slope_at(piece, 0) > 0.0 else BEYOND
-    landing = rim if landing == BEYOND else min(landing, rim)
-    lost = jump_energy(piece, 0.0, state.depth, state.load, landing)
-    deepest = math.inf
-    if rim < math.inf:
-        deepest, load = state_at(start, long.source, rim)
-        fall = level - coordinate_of(curve, deepest, load) if landing == rim else 0.0
+    landing = BEYOND if at_rim else at_level(piece, level, piece.table.start, math.inf, ACCURACY)
+    at_rim = landing == BEYOND or landing > rim
+    landing, deepest = rim if at_rim else landing, math.inf
+    if at_rim:
+        deepest, load = state_in(piece, rim)
+        fall = level - coordinate_of(curve, deepest, load)
         deepest += fall / softness(curve, rim ** (1.0 + curve.table.k))
-    in_to_rim = landing == rim and before.jumps == 0.0
-    return Loaded(before.lost + lost - before.below, before.jumps + 1.0, deepest, in_to_rim, True), landing
+    lost, jumps = (
+        before.lost + jump_energy(piece, 0.0, state.depth, state.load, landing) - before.below,
+        before.jumps + 1.0,
+    )
+    snap = snap_in(piece, landing) if before.jumps == 0.0 else before.snap
+    loaded = Loaded(lost, jumps, deepest, at_rim and before.jumps == 0.0, True)
+    return loaded, Loading(wave, True, state, lost, jumps, 0.0, snap, landing, before.one_disc, before.tied)
 
 
 @kernel
 def finish_loading(
-    long: Long, piece: Curve, count: int, before: Loading, last: int, rim: float, wants_depth: bool
+    long: Long, piece: Curve, count: int, before: Loading, last: int, rim: float, edge: float
 ) -> tuple[Loaded, Loading]:
-    """Let loading go over the `count` branches at the end; return what it loses, and its landings and flags.
+    """Let loading go over the `count` branches at the end, up to a rim; return what it loses, and how it stands there.
 
-    `before` has what is lost by the top of wave `last`, the first one in `ends`, if it has landed by then.
+    `before` has what is lost by the top of wave `last`, the first one in `ends`, if it has landed by then. `edge` is the
+    rim of the punch.
     """
     space = long.ends
     trace, visited = space.trace, space.visited
-    known = before.landed and before.wave <= last
-    if known:
-        first = started_within(trace, count, start_of(long.waves, last + 1.0))
-        top = _highest(trace, 0, first)
+    if before.landed:
+        top = _highest(trace, 0, started_within(trace, count, start_of(long.waves, last + 1.0)))
         trace[LANDING, top] = min(before.last, trace[START, top])
         trace[LOADED, top], trace[LOADING_JUMPS, top] = before.lost, before.jumps
         visited[0], visits = top, count - count + 1
@@ -615,29 +619,32 @@ def finish_loading(
         for v in range(visits):
             trace[LOADED, visited[v]] += before.lost - before.below
             trace[LOADING_JUMPS, visited[v]] += before.jumps
-    state, lost, jumps, below, landings = (
+    n = visited_within(trace, visited, visits, rim)
+    one_disc = before.one_disc and (not long.contact or _jumps_are_open(long, piece, space, n, rim))
+    if long.contact and one_disc and rim < edge and rim < end_of(piece.table):
+        one_disc = gap_is_open(piece, long.disc, rim, state_in(piece, rim)[0], min(edge, end_of(piece.table)))
+    tied = before.tied or rim_is_tied(piece, rim) or loading_is_tied(piece, rim, trace, count)
+    state, lost, jumps, below, snap, landing = (
         before.state,
         before.lost,
         before.jumps,
         before.below,
-        (before.first, before.last),
+        before.snap,
+        before.last,
     )
-    n = visited_within(trace, visited, visits, rim)
     if n > 0:
         j = visited[n - 1]
-        state, lost, jumps = end_state(trace, j), trace[LOADED, j], trace[LOADING_JUMPS, j]
-        landings = before.first if before.jumps > 0.0 else trace[LANDING, visited[0]], trace[LANDING, j]
-    one_disc = before.one_disc and (not long.contact or _jumps_are_open(long, piece, space, n, rim))
-    tied = before.tied or loading_is_tied(piece, rim, trace, count)
-    loaded = load_to(piece, rim, trace, visited, visits, wants_depth)
-    if not loaded.known or n == 0:  # the endless branch is far out, or nothing is met within the rim
-        if n > 0:
-            _from_zero(long, last, space)
-            below = energy_between(piece, state.depth, 0.0, state.y)
-        after = Loading(last, False, state, lost, jumps, below, landings[0], landings[1], one_disc, tied)
-        loaded, landing = _far_landing(long, piece, after, rim, loaded)
-        landings = landings[0] if jumps > 0.0 else landing, landing
-    return loaded, Loading(last, True, state, lost, jumps, below, landings[0], landings[1], one_disc, tied)
+        state, lost, jumps, landing = end_state(trace, j), trace[LOADED, j], trace[LOADING_JUMPS, j], trace[LANDING, j]
+        snap = snap if before.jumps > 0.0 else snap_in(piece, trace[LANDING, visited[0]])
+    loaded = load_to(piece, rim, trace, visited, visits)
+    if loaded.known and n > 0:
+        return loaded, Loading(last, True, state, lost, jumps, 0.0, snap, landing, one_disc, tied)
+    if n > 0:
+        _from_zero(long, last, space)
+        below = energy_between(piece, state.depth, 0.0, state.y)
+    return _far_landing(
+        long, piece, Loading(last, False, state, lost, jumps, below, snap, landing, one_disc, tied), rim
+    )
 
 
 @kernel
@@ -668,32 +675,37 @@ def finish_unloading(
 
 
 @kernel
-def turn_far(long: Long, curve: Curve, measured: Curve, target: float, before: Loading, rim: float) -> float:
-    """Return where loading first reaches a target of what is measured, a rim at most; inf: not within long.most waves.
+def turn_far(
+    long: Long, curve: Curve, measured: Curve, target: float, before: Loading, rim: float
+) -> tuple[float, bool]:
+    """Return where loading first reaches a target of what is measured, a rim at most, and whether that is close to a jump.
 
-    0: next to the centre, within two waves beyond those that are walked there, or before contact is made.
+    0: next to the centre, where waves are walked; inf: not within long.most waves.
     """
     start, space = on(measured, long.table), long.start
     rising = find_folds(start, end_of(long.table), space.measured)
     visits = int(before.jumps)
     found = turning_radius(start, target, space.trace, space.visited, visits, space.measured, rising)
-    if found < math.inf or target < 0.0:
-        return 0.0
+    if found < math.inf:
+        return 0.0, False
+    space = long.window
     if not before.landed and before.wave < long.most:
-        space = long.window
         visits = land(long, curve, before)[1]
         piece = on(measured, waves_from(long.waves, before.wave - 2.0, space.nodes, space.polys))
         rising = _trace(piece, long.waves.per, space.measured)[2]
         found = turning_radius(piece, target, space.trace, space.visited, visits, space.measured, rising)
-        if found < math.inf:
-            return min(found, rim)
-    high = int(min(float(long.most), wave_of(long.waves, rim) + 1.0))
-    sought = Sought(TURN, curve, target, measured)
-    wave = _first_wave(long, sought, min(before.wave + 1, high), high)
-    if wave == high:
-        return rim if high < long.most else math.inf
-    found = _turn_in(long, sought, wave)
-    return min(found, rim) if found >= start_of(long.waves, long.near + 2.0) else 0.0
+    if found == math.inf:
+        high = int(min(float(long.most), wave_of(long.waves, rim) + 1.0))
+        sought = Sought(TURN, curve, target, measured)
+        wave = _first_wave(long, sought, min(before.wave + 1, high), high)
+        if wave == high:
+            return rim if high < long.most else math.inf, False
+        found = _turn_in(long, sought, wave)
+        piece = on(measured, waves_from(long.waves, wave - 1.0, space.nodes, space.polys))
+        rising = _trace(piece, long.waves.per, space.measured)[2]
+    if found < start_of(long.waves, long.near + 2.0):
+        return 0.0, False
+    return min(found, rim), target_is_tied(piece, target, found, space.measured, rising)
 
 
 @kernel
@@ -717,6 +729,27 @@ def lowest_far(long: Long, curve: Curve, rim: float) -> Lowest:
 
 
 @kernel
+def last_fold(long: Long, curve: Curve) -> float:
+    """Return the radius of the outermost fold, 0 if there is none; NaN: not within long.most waves."""
+    folds, trace = end_of_folds(long, curve), long.ends.trace
+    if folds == long.most:
+        return math.nan
+    piece, _, _, count = _trace_waves(long, curve, max(folds - 2.0, float(long.near)), long.ends)
+    if count == 0 or trace[START, 0] == piece.table.start:
+        trace = long.start.trace
+        count = find_folds(on(curve, long.table), start_of(long.waves, long.near + 1.0), trace)
+    if count <= 0:
+        return 0.0
+    return trace[END, count - 1] if trace[END, count - 1] < math.inf else trace[START, count - 1]
+
+
+@kernel
+def _end_wave(long: Long, folds: int, rim: float) -> int:
+    """Return the wave before the last two of a path, which ends at its rim or on the endless branch."""
+    return int(max(min(folds - 1.0, wave_of(long.waves, rim)) - 2.0, float(long.near)))
+
+
+@kernel
 def loop_far(
     long: Long,
     closing: Curve,
@@ -726,39 +759,36 @@ def loop_far(
     begun: Loading,
     starts: int,
     rim: float,
-    depth: bool,
+    edge: float,
 ) -> Looped:
-    """Return the cycle up to a rim; `same`: closing and opening are one curve; `depth`: the depth at far rims is wanted.
+    """Return the cycle up to a rim of a punch that ends at an `edge`; `same`: closing and opening are one curve.
 
     `folds`, `begun` and `starts` are those of `end_of_folds` and `begin` of closing.
     """
     unknown = Looped(Loaded(0.0, 0.0, 0.0, False, False), Unloaded(0.0, 0.0, 0.0), 0.0, 0.0, True, False)
-    last = int(max(min(folds - 1.0, wave_of(long.waves, rim)) - 2.0, float(long.near)))
+    last, total = _end_wave(long, folds, rim), np.zeros(LOSSES)
     if last > MOST:
         return unknown
-    total = np.zeros(LOSSES)
     if not begun.landed and begun.wave <= last:
         begun, _ = land(long, closing, begun)
-    left = Leaving(last + 1, 0.0, 0.0, 0.0, False)
-    if same:
-        left = leave(long, opening, starts, last)
+    left = leave(long, opening, starts, last) if same else Leaving(last + 1, 0.0, 0.0, 0.0, False)
     from_top = begun.wave if begun.landed else last
     if not _sum_waves(long, closing, from_top, min(left.wave, last), last, folds, total):
         return unknown
     if begun.landed:
         one_disc = begun.one_disc and total[SHUT] == 0.0
         lost, jumps = begun.lost + total[OUTWARDS], begun.jumps + total[JUMPS_OUTWARDS]
-        begun = Loading(begun.wave, True, begun.state, lost, jumps, 0.0, begun.first, begun.last, one_disc, begun.tied)
+        begun = Loading(begun.wave, True, begun.state, lost, jumps, 0.0, begun.snap, begun.last, one_disc, begun.tied)
     piece, _, _, count = _trace_waves(long, closing, float(last), long.ends)
     if not begun.landed or left.wave > last:
         _from_zero(long, last, long.ends)
-    loaded, ended = finish_loading(long, piece, count, begun, last, rim, depth)
+    loaded, ended = finish_loading(long, piece, count, begun, last, rim, edge)
     if not loaded.known:
         return unknown
     if not same:
         folds = end_of_folds(long, opening)
         _, starts = begin(long, opening, folds)
-        last = int(max(min(folds - 1.0, wave_of(long.waves, rim)) - 2.0, float(long.near)))
+        last = _end_wave(long, folds, rim)
         left = leave(long, opening, starts, last)
         total[:] = 0.0
         if not _sum_waves(long, opening, last, min(left.wave, last), last, folds, total):
@@ -767,6 +797,6 @@ def loop_far(
         if left.wave > last:
             _from_zero(long, last, long.ends)
     lost, jumps = left.lost + total[INWARDS], left.jumps + total[JUMPS_INWARDS]
-    left = Leaving(left.wave, lost, jumps, left.depth, left.tied)
+    left = Leaving(left.wave, lost, jumps, left.depth, left.tied or (not same and rim_is_tied(piece, rim)))
     unloaded, tied = finish_unloading(long, piece, count, left, starts, last, rim)
-    return Looped(loaded, unloaded, ended.first, ended.last, ended.one_disc, ended.tied or tied)
+    return Looped(loaded, unloaded, ended.last, ended.snap, ended.one_disc, ended.tied or tied)

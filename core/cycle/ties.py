@@ -43,19 +43,19 @@ def _pair_is_close(rim: float, trace: Floats, count: int) -> bool:
 
 @kernel
 def loading_is_tied(curve: Curve, rim: float, trace: Floats, count: int) -> bool:
-    """Return whether it is close which branches exist, or which of them reach higher than those before."""
+    """Return whether it is close which branches exist, or which of them reach higher than those before.
+
+    On the branch of the rim that does not matter: there is one jump, to it or to the rim.
+    """
     if _pair_is_close(rim, trace, count):
         return True
     highest = 0.0
     for j in range(count):
-        if trace[START, j] > rim:
+        if trace[END, j] >= rim:
             return False
-        top, y = trace[END_LEVEL, j], trace[END, j]
-        if y >= rim:
-            top, y = _level_at(curve, rim), rim
-        if top < math.inf and _are_close(curve, top, highest, y):
+        if _are_close(curve, trace[END_LEVEL, j], highest, trace[END, j]):
             return True
-        highest = max(highest, top)
+        highest = max(highest, trace[END_LEVEL, j])
     return False
 
 

@@ -323,7 +323,7 @@ def reach_of(waves: Waves) -> int:
 
 def waves_of(table: Table, source: Source, steepest: float, cut: float, most: float) -> Waves:
     """Return the waves of a table up to number `most`, given the y at which wave 0 begins."""
-    per = int(round(2.0 * math.pi / table.width))
+    per = round(2.0 * math.pi / table.width)
     doublings = max(1, math.ceil(math.log2(max(most, 1.0) / FIRST_WAVE)))
     values, sums = np.zeros((doublings, per + 1, PLACES, SIZE)), np.zeros((doublings, 3))
     waves = Waves(table.k, table.exponent, table.share, table.width, table.lowest, steepest, cut, per, values, sums)

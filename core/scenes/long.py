@@ -3,65 +3,60 @@
 import math
 
 from gradhesion.core.curve.values import Curve
-from gradhesion.core.cycle.long import (
-    Long,
-    begin,
-    end_of_folds,
-    loop_far,
-    lowest_far,
-    turn_far,
-)
+from gradhesion.core.cycle.long import Long, begin, end_of_folds, last_fold, loop_far, lowest_far, turn_far
 from gradhesion.core.cycle.pull_off import lowest_load
 from gradhesion.core.jit import kernel
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE, TOO_MANY_WAVES
-from gradhesion.core.scenes.cycles import Task, curves_of, no_value, put_losses, put_no_contact, put_pull_off
-from gradhesion.core.scenes.reduced import (
-    AT_A_LOAD,
-    AT_DEPTH,
-    AT_RIM,
-    LENGTH,
-    RIM_Y,
-    TARGET_VALUE,
-    is_valid,
+from gradhesion.core.scenes.cycles import (
+    Cycle,
+    Task,
+    curve_of,
+    measured_curve,
+    no_value,
+    pattern_of,
+    put_losses,
+    put_no_contact,
+    put_pull_off,
 )
-from gradhesion.core.scenes.results import SHORT, STATUS, TURN
+from gradhesion.core.scenes.reduced import AT_DEPTH, AT_RIM, CLOSING, LENGTH, RIM_Y, TARGET_VALUE, WINDOW, is_valid
+from gradhesion.core.scenes.results import SATURATION, SHORT, STATUS, TURN
 from gradhesion.core.types import Floats
 
 
 @kernel
 def _solve(task: Task, long: Long, pull: Long, scenes: Floats, reduced: Floats, i: int, out: Floats) -> int:
     """Store the results of scene i; return its status, -1 if it must be walked."""
-    pair = curves_of(task, scenes, reduced, i, 0.0)
-    closing, opening, same = pair.closing, pair.opening, pair.ratio == 1.0
-    y = reduced[RIM_Y, i]
-    if task.punch.turn == AT_DEPTH and reduced[TARGET_VALUE, i] < 0.0:
+    ratio, edge, turn, tied = reduced[CLOSING, i], reduced[RIM_Y, i], task.punch.turn, False
+    if turn == AT_DEPTH and reduced[TARGET_VALUE, i] < 0.0:
         return put_no_contact(scenes, i, out)
-    if task.wanted.cycle or task.punch.turn != AT_RIM:
-        folds = end_of_folds(long, closing)
-        begun, starts = begin(long, closing, folds)
-        if task.punch.turn != AT_RIM:
-            by_load = 1.0 if task.punch.turn == AT_A_LOAD else 0.0
-            measured = Curve(closing.table, closing.B, closing.g, 1.0 - by_load, by_load)
-            y = turn_far(long, closing, measured, reduced[TARGET_VALUE, i] / math.sqrt(pair.ratio), begun, y)
-            if y == 0.0:
-                return -1
-    lowest = lowest_load(Curve(task.by_load, opening.B, opening.g, 0.0, 1.0), y, task.filling)
+    y, same, root, which = edge, ratio == 1.0, math.sqrt(ratio), 1
+    pattern = pattern_of(task.punch, scenes, reduced, i)
+    closing = curve_of(task, pattern, reduced, i, root, y, which)
+    opening = curve_of(task, pattern, reduced, i, 1.0, y, which)
+    folds = end_of_folds(long, closing)
+    begun, starts = begin(long, closing, folds)
+    if turn != AT_RIM:
+        y, tied = turn_far(long, closing, measured_curve(closing, turn), reduced[TARGET_VALUE, i] / root, begun, edge)
+    if y < 2.0 * math.pi * (long.near + 4.0):
+        return -1
+    load = Curve(task.by_load, opening.B, opening.g, 0.0, 1.0)
+    lowest = lowest_load(load, y, 0, task.by_load.bins)
     if not lowest.known:
-        lowest = lowest_far(pull, Curve(task.by_load, opening.B, opening.g, 0.0, 1.0), y)
-    if not lowest.known or not lowest.load < 0.0:
+        lowest = lowest_far(pull, load, y)
+    if not (lowest.known and lowest.load < 0.0):
         return NO_VALUE | TOO_MANY_WAVES
     bits = put_pull_off(lowest, y, reduced, i, out)
     out[TURN, i] = y * reduced[LENGTH, i]
-    if not task.wanted.cycle and task.punch.turn == AT_RIM:
+    if not task.wanted.cycle and turn == AT_RIM:
         return bits
-    looped = loop_far(long, closing, opening, same, folds, begun, starts, y, task.wanted.depth)
+    looped = loop_far(long, closing, opening, same, folds, begun, starts, y, edge)
     if not looped.loaded.known:
         return NO_VALUE | TOO_MANY_WAVES
-    landings = min(looped.first, reduced[RIM_Y, i]), looped.last
-    bits |= put_losses(task, pair, looped.loaded, looped.unloaded, y, landings, reduced, i, out)
+    cycle = Cycle(looped.loaded, looped.unloaded, y, looped.reach, looped.snap)
+    bits |= put_losses(cycle, opening, pattern, ratio, reduced, i, out)
     if not looped.one_disc:
         bits |= LOADING_NOT_ONE_DISC
-    return bits | (CLOSE_TO_A_JUMP if looped.tied else 0)
+    return bits | (CLOSE_TO_A_JUMP if tied or looped.tied else 0)
 
 
 @kernel
@@ -75,3 +70,16 @@ def solve_long(task: Task, long: Long, pull: Long, scenes: Floats, reduced: Floa
         if status < 0 or status & NO_VALUE:
             no_value(out, i, SHORT)
         out[STATUS, i] = SHORT if status < 0 else status
+
+
+@kernel
+def fill_saturation(task: Task, long: Long, scenes: Floats, reduced: Floats, out: Floats) -> None:
+    """Store the radii of the outermost folds of opening, of scenes that have a value."""
+    for i in range(scenes.shape[1]):
+        if out[STATUS, i] < NO_VALUE or not int(out[STATUS, i]) & NO_VALUE:
+            curve = curve_of(task, pattern_of(task.punch, scenes, reduced, i), reduced, i, 1.0, math.inf, 1)
+            y = last_fold(long, curve) if reduced[WINDOW, i] < math.inf else math.inf
+            if math.isnan(y):
+                no_value(out, i, NO_VALUE | TOO_MANY_WAVES)
+            else:
+                out[SATURATION, i] = y * reduced[LENGTH, i]
