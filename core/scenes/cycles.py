@@ -443,7 +443,9 @@ def _may_be_solved(task: Task, scenes: Floats, reduced: Floats, i: int, out: Flo
 def curve_end(task: Task, scenes: Floats, reduced: Floats, start: int, last: int, out: Floats) -> int:
     """Return the end of the scenes from `start` on that share its curve; `start` if it cannot be solved (stored)."""
     end = start
-    while end < last and same_curve(scenes, reduced, start, end) and _may_be_solved(task, scenes, reduced, end, out):
+    while end < last and (end == start or same_curve(scenes, reduced, start, end)):  # NaN is no curve, not even its own
+        if not _may_be_solved(task, scenes, reduced, end, out):
+            return end
         end += 1
     return end
 
