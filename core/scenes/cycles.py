@@ -251,7 +251,8 @@ def _loading_keeps_one_disc(task: Task, walked: Walked, y: float, reduced: Float
 def _is_tied(task: Task, walked: Walked, opened: int, y: float, reduced: Floats, i: int) -> bool:
     """Return whether a decision of the cycle of scene i, which turns at y, is close."""
     traces, closing, opening = task.rooms.traces, walked.closing, walked.opening
-    if rim_is_tied(closing, y) or loading_is_tied(closing, y, traces[CLOSING_TRACE], walked.branches):
+    at_rim = y >= reduced[RIM_Y, i]
+    if rim_is_tied(closing, y) or loading_is_tied(closing, y, at_rim, traces[CLOSING_TRACE], walked.branches):
         return True
     if walked.ratio < 1.0 and rim_is_tied(opening, y):
         return True
