@@ -358,7 +358,7 @@ def end_of_folds(long: Long, curve: Curve) -> int:
 
 @kernel
 def _jumps_are_open(long: Long, curve: Curve, space: Space, visits: int, rim: float) -> bool:
-    """Return whether the contact is one disc during all jumps between branches that are visited, and from them to a rim."""
+    """Return whether the contact is one disc during all jumps between visited branches, and from them to a rim."""
     for v in range(1, visits + 1):
         state = end_state(space.trace, space.visited[v - 1])
         if state.y >= rim:
@@ -408,8 +408,8 @@ def _panel(
 ) -> bool:
     """Put the sums of what some waves lose into `sums` (LOSSES,); return whether it is smooth.
 
-    The first and the last wave are looked at themselves, before all others, for there the jumps differ most. `values` is
-    room, (GAUSS + 2, LOSSES).
+    The first and the last wave are looked at themselves, before all others, for there the jumps differ most. `values`
+    is room, (GAUSS + 2, LOSSES).
     """
     places, weights, last = np.empty(GAUSS), np.empty(GAUSS), np.empty((2, GAUSS))
     fill_rule(count - 2.0, places, weights, last)
@@ -418,7 +418,8 @@ def _panel(
         own = values[i + 2]
         if not _wave_losses(long, curve, first + place, outwards, inwards, own):
             return False
-        if own[JUMPS_OUTWARDS] != values[0, JUMPS_OUTWARDS] or own[JUMPS_INWARDS] != values[0, JUMPS_INWARDS]:
+        out, back = own[JUMPS_OUTWARDS], own[JUMPS_INWARDS]
+        if out != values[0, JUMPS_OUTWARDS] or back != values[0, JUMPS_INWARDS]:
             return False
     for row in range(LOSSES):
         total = miss = other = 0.0
@@ -502,7 +503,7 @@ def begin(long: Long, curve: Curve, folds: int) -> tuple[Loading, int]:
 
 @kernel
 def land(long: Long, curve: Curve, before: Loading) -> tuple[Loading, int]:
-    """Let loading jump to its first wave; return how it stands there, and the number of branches visited in `window`."""
+    """Let loading jump to its first wave; return how it stands there, and how many branches it visits in `window`."""
     space = long.window
     trace, visited = space.trace, space.visited
     piece, _, _, count = _trace_waves(long, curve, before.wave - 2.0, space)
@@ -543,7 +544,7 @@ def _leave_far(long: Long, curve: Curve, state: State, starts: int) -> Unloaded:
 
 @kernel
 def leave(long: Long, curve: Curve, starts: int, last: int) -> Leaving:
-    """Find the wave of the lowest bottom, and what unloading loses from there on, if it is no later than wave `last`."""
+    """Find the wave of the lowest bottom, and what unloading loses from there on, if it is no later than `last`."""
     wave = _first_wave(long, Sought(BOTTOM, curve, 0.0, curve), long.near, last + 1)
     if wave > last:
         return Leaving(wave, 0.0, 0.0, 0.0, False)
@@ -602,8 +603,8 @@ def finish_loading(
 ) -> tuple[Loaded, Loading]:
     """Let loading go over the `count` branches at the end, up to a rim; return what it loses, and how it stands there.
 
-    `before` has what is lost by the top of wave `last`, the first one in `ends`, if it has landed by then. `edge` is the
-    rim of the punch.
+    `before` has what is lost by the top of wave `last`, the first one in `ends`, if it has landed by then. `edge` is
+    the rim of the punch.
     """
     space = long.ends
     trace, visited = space.trace, space.visited
@@ -651,7 +652,7 @@ def finish_loading(
 def finish_unloading(
     long: Long, piece: Curve, count: int, after: Leaving, starts: int, last: int, rim: float
 ) -> tuple[Unloaded, bool]:
-    """Let unloading go from a rim over the `count` branches at the end; return what it loses, and if a decision is close.
+    """Let unloading go from a rim over the `count` branches at the end; return what it loses, and if that is close.
 
     `after` has what is lost from the bottom of wave `last` on, the first one in `ends`, if it leaves no later.
     """
@@ -678,7 +679,7 @@ def finish_unloading(
 def turn_far(
     long: Long, curve: Curve, measured: Curve, target: float, before: Loading, rim: float
 ) -> tuple[float, bool]:
-    """Return where loading first reaches a target of what is measured, a rim at most, and whether that is close to a jump.
+    """Return where loading first reaches a target of what is measured, a rim at most, and whether that is close.
 
     0: next to the centre, where waves are walked; inf: not within long.most waves.
     """

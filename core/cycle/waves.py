@@ -165,9 +165,9 @@ def _fill_doubling(source: Source, index: int, doubling: int, values: Floats, no
 
 
 @quadrature
-def mix_wave(waves: Waves, number: float, bins: int, column: int, nodes: Floats, polys: Floats) -> None:
-    """Put the first bins of a wave into the columns from `column` on, and the edge after them."""
-    k, width, y = waves.k, waves.width, start_of(waves, number)
+def mix_wave(waves: Waves, number: float, column: int, nodes: Floats, polys: Floats) -> None:
+    """Put the bins of a wave into the columns from `column` on, and the edge after them."""
+    k, bins, width, y = waves.k, waves.per, waves.width, start_of(waves, number)
     place = max(math.log2(number / FIRST_WAVE), 0.0)
     doubling = min(int(place), waves.values.shape[0] - 1)
     scales, weights, mixed = np.empty(SIZE), np.empty(PLACES), np.empty(SIZE)
@@ -221,14 +221,14 @@ def waves_from(waves: Waves, number: float, nodes: Floats, polys: Floats) -> Tab
     """Return a table of as many waves, from one on, as the given room holds."""
     bins = len(polys)
     for j in range(bins // waves.per):
-        mix_wave(waves, number + j, waves.per, j * waves.per, nodes, polys)
+        mix_wave(waves, number + j, j * waves.per, nodes, polys)
     start = start_of(waves, number)
     return Table(waves.k, waves.exponent, waves.share, start, waves.width, waves.lowest, 0.0, 0, bins, nodes, polys)
 
 
 @kernel
 def fill_rule(count: float, places: Floats, weights: Floats, last: Floats) -> None:
-    """Fill Gauss's rule for sums over 0, 1, ..., count - 1 (count > GAUSS), exact for polynomials of degree 2 GAUSS - 1.
+    """Fill Gauss's rule for sums over 0, 1, ..., count - 1 (count > GAUSS), exact up to degree 2 GAUSS - 1.
 
     `last` (2, GAUSS) are the two orthonormal polynomials of the highest degrees below GAUSS, times the weights: what
     they find in the values is what the rule would begin to miss.
@@ -261,7 +261,7 @@ def fill_rule(count: float, places: Floats, weights: Floats, last: Floats) -> No
 @kernel
 def _add_integrals(waves: Waves, number: float, weight: float, nodes: Floats, polys: Floats, sums: Floats) -> None:
     """Add the integrals of y^k times U, y^m U and U^2 over a wave, with a weight, to `sums` (3,); the rest is room."""
-    mix_wave(waves, number, waves.per, 0, nodes, polys)
+    waves_from(waves, number, nodes, polys)
     for i in range(waves.per):
         sums[0] += weight * nodes[KU, i]
         sums[1] += weight * (nodes[KUU, i] + nodes[PC, i] * nodes[KU, i])
@@ -300,12 +300,12 @@ def fill_waves(waves: Waves, table: Table, source: Source) -> None:
     """Fill the values and sums of waves; `table` reaches beyond FIRST_WAVE and begins at 0."""
     per = waves.per
     nodes, polys = np.zeros((ROWS, per + 1)), np.zeros((per, LANES, N))
-    index = int(round(waves.cut / waves.width - source.shift))
+    index = round(waves.cut / waves.width - source.shift)
     for doubling in range(waves.values.shape[0]):
         _fill_doubling(source, index, doubling, waves.values, nodes, polys)
     sums = np.zeros(3)
     sums[0], sums[1], sums[2] = table.nodes[HU, 0], table.nodes[HPU, 0], table.nodes[HUU, 0]
-    end = table.geometric + int(round((start_of(waves, float(FIRST_WAVE)) - table.start) / table.width))
+    end = table.geometric + round((start_of(waves, float(FIRST_WAVE)) - table.start) / table.width)
     for i in range(end):
         sums[0] += table.nodes[KU, i]
         sums[1] += table.nodes[KUU, i] + table.nodes[PC, i] * table.nodes[KU, i]

@@ -71,7 +71,7 @@ def leading_at(k: float, waves: Floats, form: int, y: float) -> tuple[float, flo
 def fill_far_leading(
     k: float, waves: Floats, form: int, width: float, shift: float, far_waves: Floats, far_mean: Floats
 ) -> None:
-    """Fill the expansions of filling.fill_far with the leading terms; those of U1's role by load have a factor y more."""
+    """Fill the expansions of filling.fill_far with the leading terms; by load those of U1 are over y."""
     size = 2.0 ** (0.5 * (k - 1.0)) * math.gamma(0.5 * (1.0 + k))
     for h in range(len(waves)):
         n, cos, sin = waves[h]
