@@ -43,7 +43,7 @@ def test_similarity_and_the_material_are_sum_rules(kind: Kind) -> None:
         total = sum(powers[name] * of[name] for name in scaled)
         size = sizes(kind, scenes, found, value) * (1 + sum(np.abs(of[name]) for name in scaled))
         by_m = of["modulus"] - of.get("machine_stiffness", 0.0)
-        assert np.isfinite(total[sure]).mean() > 0.9
+        assert np.isfinite(total[sure & (found[value] > 0)]).all()  # a loading may gain more than all other jumps lose
         for off in (total - powers[value], of["c0_over_R"] + scenes["k"] * by_m):
             assert np.nanmax((np.abs(off) / size)[sure]) <= SENSITIVITY, (value, np.nanargmax(np.abs(off / size)))
 
