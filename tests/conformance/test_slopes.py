@@ -52,7 +52,8 @@ def test_similarity_and_the_material_are_sum_rules(kind: Kind) -> None:
 def test_central_differences(kind: Kind) -> None:
     """Fourth order, with a step of a part of the fastest phase; where no count, pull-off or turn steps within it."""
     scenes, found, sure, slopes = solved(kind)
-    h = 3e-3 / (1 + phase_of(kind, scenes, np.nan_to_num(found["turning_radius"])))
+    end = np.nan_to_num(found["turning_radius"])
+    h = 3e-3 / (1 + phase_of(kind, scenes, end) + 4 * np.pi * end / scenes.get("toughness_wavelength_over_R", np.inf))
     ratios = [name for name in slopes[VALUES[0]] if name != "closing_ratio"]  # one-sided at 1, a root of it at 0
     checked = 0
     for name in {"A", "k", *rng_of(f"differences {kind.name}").choice(ratios, 3, replace=False)}:
