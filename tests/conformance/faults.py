@@ -17,9 +17,10 @@ OF_SLOPES: Final = (
     ),
 )
 OF_TIES: Final = (
-    "close_to_a_jump is missing on ties of cycles with two works that turn, and of patterns",
+    "close_to_a_jump is missing on ties in the unloading of cycles with two works, and on some of patterns and turns",
     (
         "pattern of toughness",
+        "exponent 1.5, machine, turned",
         "pattern of work, machine, two works, turned",
         "cosine, two works, turned at a load",
         "sines, machine, two works, turned",

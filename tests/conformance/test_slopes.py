@@ -43,7 +43,7 @@ def test_similarity_and_the_material_are_sum_rules(kind: Kind) -> None:
         total = sum(powers[name] * of[name] for name in scaled)
         size = sizes(kind, scenes, found, value) * (1 + sum(np.abs(of[name]) for name in scaled))
         by_m = of["modulus"] - of.get("machine_stiffness", 0.0)
-        assert np.isfinite(total[sure]).mean() > 0.9
+        assert np.isfinite(total[sure & (found[value] > 0)]).all()  # a loading may gain more than all other jumps lose
         for off in (total - powers[value], of["c0_over_R"] + scenes["k"] * by_m):
             assert np.nanmax((np.abs(off) / size)[sure]) <= SENSITIVITY, (value, np.nanargmax(np.abs(off / size)))
 
@@ -52,7 +52,8 @@ def test_similarity_and_the_material_are_sum_rules(kind: Kind) -> None:
 def test_central_differences(kind: Kind) -> None:
     """Fourth order, with a step of a part of the fastest phase; where no count, pull-off or turn steps within it."""
     scenes, found, sure, slopes = solved(kind)
-    h = 3e-3 / (1 + phase_of(kind, scenes, np.nan_to_num(found["turning_radius"])))
+    end = np.nan_to_num(found["turning_radius"])
+    h = 3e-3 / (1 + phase_of(kind, scenes, end) + 4 * np.pi * end / scenes.get("toughness_wavelength_over_R", np.inf))
     ratios = [name for name in slopes[VALUES[0]] if name != "closing_ratio"]  # one-sided at 1, a root of it at 0
     checked = 0
     for name in {"A", "k", *rng_of(f"differences {kind.name}").choice(ratios, 3, replace=False)}:
