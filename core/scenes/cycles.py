@@ -51,7 +51,6 @@ from gradhesion.core.scenes.reduced import (
     TARGET,
     TARGET_VALUE,
     UNIT_OF_FORCE,
-    WINDOW,
     Punch,
     is_valid,
 )
@@ -173,13 +172,12 @@ def _walk(task: Task, scenes: Floats, reduced: Floats, i: int, y_end: float) -> 
     """Trace the curve of closing of scene i up to y_end, and let loading go along it."""
     rooms, turn = task.rooms, task.punch.turn
     ratio = reduced[CLOSING, i]
-    filled = y_end if y_end < math.inf else reduced[WINDOW, i]
     pattern = pattern_of(task.punch, scenes, reduced, i)
     nodes, polys, table, crest = rooms.nodes, rooms.polys, task.table, task.crest
-    closing = curve_of(table, crest, pattern, reduced, i, math.sqrt(ratio), filled, nodes[0], polys[0])
+    closing = curve_of(table, crest, pattern, reduced, i, math.sqrt(ratio), y_end, nodes[0], polys[0])
     opening = closing
     if ratio != 1.0:
-        opening = curve_of(table, crest, pattern, reduced, i, 1.0, filled, nodes[1], polys[1])
+        opening = curve_of(table, crest, pattern, reduced, i, 1.0, y_end, nodes[1], polys[1])
     trace = rooms.traces[CLOSING_TRACE]
     count = find_folds(closing, y_end, trace)
     visits, measured = 0, -1
