@@ -2,7 +2,7 @@ PYTHON ?= python3
 sources := $(shell find api cli core twin -name '*.py')
 drawing := $(wildcard figures/*.py api/*.mplstyle)
 # Not the pictures that are drawn here: to check the sources would draw them anew, where a clone dates them before these.
-checked := $(sources) $(drawing) $(shell find tests benchmarks docs configs wheels -type f -not -path '*/__pycache__/*' -not -name '*.png' -not -name '*.svg' 2>/dev/null) README.md CITATION.cff Makefile
+checked := $(sources) $(drawing) $(shell find tests benchmarks docs configs -type f -not -path '*/__pycache__/*' -not -name '*.png' -not -name '*.svg' 2>/dev/null) README.md CITATION.cff Makefile
 pictures := $(addprefix fig,1 2a 2b 3a 3b 3c 4a 4b 4c 5a 5b 5c 6 7a 7b 7c 8 9)
 pictures += $(addprefix extra_,amplitudes rim energy_map energy_exponent energy_amplitude energy_wavelength roughness best_exponent best_wavelength error_bars front closing split speed)
 
@@ -36,9 +36,6 @@ adversary: .venv/complete faults ## those, kills at system calls, disks, 10,000 
 
 bench: .venv/complete ## measure time and error (minutes), and write docs/benchmarks.md and its figures
 	.venv/bin/python -m benchmarks
-
-wheel: .venv/complete ## build a wheel that carries the compiled solver into dist/ (minutes)
-	.venv/bin/python -m wheels
 
 clean: ## remove the virtual environment and what was built (outputs stay)
 	rm -rf .venv build dist .mypy_cache .ruff_cache .pytest_cache
@@ -91,7 +88,7 @@ build/types/gradhesion: api
 build/tested: $(checked) .venv/complete | build/types/gradhesion
 	.venv/bin/ruff check
 	.venv/bin/ruff format --check
-	.venv/bin/mypy & .venv/bin/python -m tests.compile && wait $$! # side by side
+	.venv/bin/mypy & .venv/bin/gradhesion warmup --all --quiet && wait $$! # side by side: tests find all compiled
 	.venv/bin/pytest -n auto --dist loadfile --no-loadscope-reorder --max-worker-restart 0
 	touch $@
 
@@ -107,4 +104,4 @@ build/lowest/tested build/before/tested: build/%/tested: $(sources) $(shell find
 	build/$*/.venv/bin/pytest -n auto --dist loadfile -m 'not slow' -W ignore::DeprecationWarning -W ignore::FutureWarning -W 'ignore:numpy.ndarray size changed:RuntimeWarning' tests/api tests/cli tests/core
 	touch $@
 
-.PHONY: docs lowest reference help maps figures docs-figures test stress faults adversary bench wheel clean
+.PHONY: docs lowest reference help maps figures docs-figures test stress faults adversary bench clean

@@ -11,8 +11,7 @@ import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.names.scenes import SCENE
 from gradhesion.cli.study.reading import study_from
-from gradhesion.cli.work.kernels.compiling import prepare
-from gradhesion.cli.work.kernels.kernels import kinds_of
+from gradhesion.cli.work.compiling import prepare
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.toughness import Toughness
@@ -125,7 +124,7 @@ def solve(
     given = given_in("gr.solve", parameters, more, settings)
     given.check_threads(threads)
     study = given.study()
-    prepare(kinds_of(study))
+    prepare(study)
     return solved(replace(study, text=given.text(study)), given.parameters(study), threads)
 
 

@@ -19,7 +19,7 @@ from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.work.solve.given import driven_by, physical_of, solved_by
 from gradhesion.core import PARAMETERS
-from gradhesion.core.variables.reduced import parameters_from, scales_in_si, sources_of
+from gradhesion.core.closed.reduced import parameters_from, scales_in_si, sources_of
 
 Arrays = Mapping[str, float | xarray.DataArray]
 """By name; a number is the same in all scenes."""

@@ -16,8 +16,8 @@ from gradhesion.cli.dataset.writer import write
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.work import probe
+from gradhesion.cli.work.compiling import compile_for
 from gradhesion.cli.work.estimate import estimate
-from gradhesion.cli.work.kernels.kernels import compile_kinds, kinds_of
 
 BOTH: Final = ["pull_off_force", "dissipated_energy"]
 FORCE: Final = ["pull_off_force"]
@@ -97,7 +97,7 @@ def measured(study: Study, repeat: int, *, wall: bool) -> tuple[float, float]:
 
 
 def _measured(study: Study, threads: int | None, repeat: int, clock: Callable[[], float]) -> tuple[float, float]:
-    compile_kinds(kinds_of(study), lambda _: None)
+    compile_for(study)
     foretold, taken = [], []
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "study.nc"

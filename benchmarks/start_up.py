@@ -1,4 +1,4 @@
-"""Start-up of the command: help, a study checked, run and described; the first run ever, which compiles or need not."""
+"""Start-up of the command: help, a study checked, run and described; the first run ever, which compiles."""
 
 import argparse
 import os
@@ -28,16 +28,6 @@ def run(*arguments: str, **changes: str) -> float:
     return time.perf_counter() - start
 
 
-def from_a_wheel(folder: Path, *arguments: str) -> float:
-    """Return the wall time of the first run of a wheel with the compiled kernels of cycles, its cache empty."""
-    wheel, installed = folder / "wheel", folder / "installed"
-    build = [sys.executable, "-m", "wheels", "--kinds", "energy", "--target", wheel, "--kept", folder / "kept"]
-    subprocess.run(build, cwd=ROOT, check=True, capture_output=True)
-    pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index", "--target", installed]
-    subprocess.run([*pip, *wheel.iterdir()], check=True)
-    return run(*arguments, PYTHONPATH=str(installed), XDG_CACHE_HOME=str(folder / "none"))
-
-
 def start_up_table(repeat: int = 9) -> str:
     """Return medians, and what is done once: the first runs."""
     with tempfile.TemporaryDirectory() as folder:
@@ -61,7 +51,6 @@ def start_up_table(repeat: int = 9) -> str:
             "first run ever": run(*smoke, XDG_CACHE_HOME=empty),
             "first run of curves after that": run(*curve, XDG_CACHE_HOME=empty),
             "everything compiled ahead, `gradhesion warmup --all`": run("warmup", "--all", XDG_CACHE_HOME=third),
-            "first run ever, of a wheel with compiled kernels": from_a_wheel(Path(folder), *smoke),
         }
     lines: list[list[object]] = [[f"`{words}`", statistics.median(own)] for words, own in times.items()]
     lines += [[words, seconds] for words, seconds in first.items()]

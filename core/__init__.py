@@ -2,21 +2,7 @@
 
 A name is imported when it is first used: neither a name of a parameter nor a profile needs the compiler.
 
-Arrays of the kernels, by the names that they have throughout:
-
-    table       the functions of one gradient exponent, a record (struve/layout.py); with others a `basis`
-    series      (harmonics, 3)         n, cos and sin of each harmonic, in units of A (curve/general.py)
-    curve       a NamedTuple           of one cosine, of any profile and control, or of a short wave (face.py)
-    trace       (ROWS, branches)       the branches of a curve and the cycle on them, one row per quantity (branches.py)
-    long        a tuple of two arrays  what all rims of a long curve share: numbers, and `sums` (path/cosine_long.py)
-    sums        (2, panels, columns)   sums over waves up to any of them, outwards and inwards (waves/cosine_running.py)
-    rims        (1 or curves, rims)    radii a_max/R up to which a curve is solved; x is the same over the wavelength
-    targets     as `rims`              depths in R or loads in 1.5 pi R dgamma at which cycles turn (turning/cosine.py)
-    index       (scenes of a task,)    numbers of the curves of one exponent, out of all
-    stiffness, stretch, wavelength, amplitude, compliance    (curves,)    M, s, lambda/R, A, and K/S of each curve
-    slots       (RESULTS + 3,)         the row of `out` for each result, -1 for those not requested (results.py)
-    out         (results, curves, rims), status of the same curves and rims: what is returned
-    work, values, scratch              room, so that kernels allocate nothing in their loops
+The arrays of the kernels are listed in docs/architecture.md; where they are made, each row is named.
 """
 
 from importlib import import_module
@@ -24,24 +10,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
     from gradhesion.core.closed.applicability import validity
-    from gradhesion.core.compiler.cache import CACHE_FOLDER, place
-    from gradhesion.core.compiler.jit import watch_compilation
-    from gradhesion.core.compiler.marks import compiled_before
-    from gradhesion.core.compiler.sources import SOURCES
-    from gradhesion.core.curves import draw_curves
-    from gradhesion.core.kinds import (
-        APART,
-        CPU_SECONDS,
-        KERNELS,
-        KINDS,
-        MANY_SMOOTH,
-        NEEDS,
-        kind_of_curves,
-        kind_of_map,
-        kind_of_sensitivities,
-        kind_of_turning,
-        kinds_of_long,
-    )
+    from gradhesion.core.draw.draw import draw_curves
+    from gradhesion.core.jit import SOURCES, place
     from gradhesion.core.problem.control import CONTROLS, Loading
     from gradhesion.core.problem.names import (
         CURVES,
@@ -57,21 +27,14 @@ if TYPE_CHECKING:
     from gradhesion.core.problem.profile import Harmonic, Profile
     from gradhesion.core.problem.status import DOUBTFUL, FAILED, FLAGS, doubts_about
     from gradhesion.core.sweep import solve
-    from gradhesion.core.warmup import compile_kind
+    from gradhesion.core.warmup import warm_up
 
 __all__ = [
-    "APART",
-    "CACHE_FOLDER",
     "CONTROLS",
-    "CPU_SECONDS",
     "CURVES",
     "DOUBTFUL",
     "FAILED",
     "FLAGS",
-    "KERNELS",
-    "KINDS",
-    "MANY_SMOOTH",
-    "NEEDS",
     "OUTPUTS",
     "PARAMETERS",
     "RANGE",
@@ -84,36 +47,24 @@ __all__ = [
     "Harmonic",
     "Loading",
     "Profile",
-    "compile_kind",
-    "compiled_before",
     "doubts_about",
     "draw_curves",
-    "kind_of_curves",
-    "kind_of_map",
-    "kind_of_sensitivities",
-    "kind_of_turning",
-    "kinds_of_long",
     "place",
     "solve",
     "validity",
-    "watch_compilation",
+    "warm_up",
 ]
 
 _HOMES: Final = {
-    "compiler.jit": "watch_compilation",
-    "compiler.cache": "CACHE_FOLDER place",
-    "compiler.marks": "compiled_before",
-    "curves": "draw_curves",
-    "kinds": "APART CPU_SECONDS KERNELS KINDS MANY_SMOOTH NEEDS "
-    "kind_of_curves kind_of_map kind_of_sensitivities kind_of_turning kinds_of_long",
+    "draw.draw": "draw_curves",
+    "jit": "SOURCES place",
     "problem.control": "CONTROLS Loading",
     "problem.names": "CURVES OUTPUTS PARAMETERS RANGE REPORTS SENSITIVITIES SOLVERS TURNS VALIDITY",
     "problem.profile": "Harmonic Profile",
-    "compiler.sources": "SOURCES",
     "problem.status": "DOUBTFUL FAILED FLAGS doubts_about",
     "sweep": "solve",
     "closed.applicability": "validity",
-    "warmup": "compile_kind",
+    "warmup": "warm_up",
 }
 """What stands in each module."""
 _HOME_OF: Final = {name: home for home, names in _HOMES.items() for name in names.split()}

@@ -1,26 +1,19 @@
-"""Arrays of scenes: requests are checked, passed to the solver concerned, and their results named.
+"""Arrays of scenes: requests are checked, passed to the solver concerned, and their results named."""
 
-Solvers of other profiles and controls are imported on request: that takes half as long as a small map.
-"""
-
-from __future__ import annotations  # those of inner functions would be made anew in every call: 15 us each
+from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.arrays.cosine import SLOPES, solve_cosine, turning_cosine
-from gradhesion.core.arrays.reach import radius_of, slope_at
-from gradhesion.core.arrays.turned import Results, turned_results
-from gradhesion.core.compiler.marks import note_compiled
-from gradhesion.core.kinds import kind_of_map, kind_of_sensitivities, kind_of_turning
-from gradhesion.core.problem.control import BY_DISPLACEMENT, Loading
+from gradhesion.core.problem.control import BY_DISPLACEMENT, CONTROLS, Loading
 from gradhesion.core.problem.names import (
     CLOSING,
     CONTACT_SLOPE,
     EDGE,
+    GIVEN_UP,
     OUTPUTS,
     PARAMETERS,
     PATTERN,
@@ -28,7 +21,6 @@ from gradhesion.core.problem.names import (
     RATE,
     REACH,
     REPORTS,
-    RESULTS,
     SENSITIVITIES,
     SOLVERS,
     SPEED,
@@ -36,14 +28,24 @@ from gradhesion.core.problem.names import (
     WITHOUT_LOAD,
 )
 from gradhesion.core.problem.profile import WAVY, Profile
-from gradhesion.core.problem.results import WHOLE_CYCLE
-from gradhesion.core.problem.shape import equivalent_wave
-from gradhesion.core.problem.status import NO_VALUE
-from gradhesion.core.scene.cosine_report import NEEDED
+from gradhesion.core.problem.reach import radius_of, slope_at
+from gradhesion.core.problem.shape import in_own_wavelength, starts_downwards
+from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE
+from gradhesion.core.problem.toughness import rows_of_pattern
+from gradhesion.core.scenes.results import INTEGERS, NAMES, Wanted
+from gradhesion.core.scenes.tasks import Request, solve_all
+from gradhesion.core.table.layout import BY_DEPTH, EXACT
 
 if TYPE_CHECKING:
     from gradhesion.core.problem.rate import Rate
     from gradhesion.core.problem.toughness import Toughness
+
+Results: TypeAlias = dict[str, NDArray[Any]]
+_GAINS: Final = {"adhesion_gain": "pull_off_force", "energy_gain": "dissipated_energy"}
+"""Results compared with those of the smooth punch on the same interface."""
+_COLUMNS: Final = (*PARAMETERS, "machine_stiffness", "target", CLOSING, *PATTERN)
+"""The rows of parameters in the order of scenes/reduced.py; `target` is the one of `TURNS` that is given."""
+_DEFAULTS: Final = {"machine_stiffness": np.inf, "target": 0.0, CLOSING: 1.0, PATTERN[0]: 1.0, PATTERN[1]: 1.0}
 
 
 def _checked(
@@ -54,6 +56,9 @@ def _checked(
     slopes = [name for name in outputs if name in SENSITIVITIES]
     unknown = [name for name in outputs if name not in (*OUTPUTS, *EDGE, *RATE, REACH, *reports, *slopes)]
     missing = [name for name in PARAMETERS if name not in parameters]
+    lost = [name for name in outputs if name in GIVEN_UP]
+    if lost:
+        raise ValueError(f"{lost[0]} is given up: {GIVEN_UP[lost[0]]}")
     if unknown or missing or solver not in SOLVERS:
         raise ValueError(f"unknown outputs {unknown}, missing parameters {missing}, solver {solver!r}")
     turns = [name for name in TURNS if name in parameters]
@@ -74,75 +79,114 @@ def _checked(
     return turns[0] if turns else None
 
 
-def _as_one_wave(
-    parameters: Mapping[str, ArrayLike], wavelengths_a_wave: int, amplitude_factor: float
-) -> dict[str, ArrayLike]:
-    """Return the parameters of the paraboloid with one cosine wave that a profile is (equivalent_wave)."""
-    return {
-        **parameters,
-        "lambda_over_R": np.asarray(parameters["lambda_over_R"], dtype=float) / wavelengths_a_wave,
-        "A": np.asarray(parameters["A"], dtype=float) * amplitude_factor,
-    }
+def request_of(
+    parameters: Mapping[str, ArrayLike],
+    turn: str | None,
+    profile: Profile,
+    loading: Loading,
+    toughness: Toughness | None,
+) -> tuple[Request, tuple[int, ...]]:
+    """Return what is to be solved, and the shape of the scenes."""
+    factor, waves = in_own_wavelength(profile)
+    given = {**_DEFAULTS, **parameters}
+    if turn is not None:
+        given["target"] = parameters[turn]
+    arrays = [np.asarray(given[name], dtype=float) for name in _COLUMNS]
+    wavelength, amplitude = PARAMETERS.index("lambda_over_R"), PARAMETERS.index("A")
+    arrays[wavelength] = arrays[wavelength] / factor
+    arrays[amplitude] = arrays[amplitude] * (factor if len(waves) else 0.0)
+    if not len(waves):
+        waves = np.array([[1.0, 1.0, 0.0]])
+    pattern = np.zeros((0, 3)) if toughness is None else rows_of_pattern(toughness)
+    request = Request(
+        arrays=arrays,
+        exponent=profile.exponent,
+        waves=waves,
+        control=CONTROLS.index(loading.control),
+        turn=0 if turn is None else 1 + TURNS.index(turn),
+        pattern=pattern,
+        of_work=toughness is not None and toughness.of == "work",
+    )
+    return request, np.broadcast_shapes(*(array.shape for array in arrays))
 
 
-def wanted_for(outputs: Sequence[str], *, turned: bool) -> Sequence[str]:
-    """Return the results to solve for: sensitivities start from values."""
-    if not set(outputs) & {*SENSITIVITIES}:
-        return outputs
-    from gradhesion.core.sensitivities.sensitivity import wanted_for as all_wanted  # noqa: PLC0415 (kernels of their own)
-
-    return all_wanted(outputs, turned=turned)
-
-
-class How(NamedTuple):
-    """How scenes are solved, beside their parameters: `solver` to `loading` are arguments of `solve`."""
-
-    solver: str
-    check_contact: bool
-    threads: int | None
-    profile: Profile
-    loading: Loading
-    is_one_wave: bool  # whether the parameters are those of a paraboloid with one cosine under displacement control
-    toughness: Toughness | None = None
+def _without_adhesion(found: Results, ratio: NDArray[np.float64], downwards: NDArray[np.bool_]) -> None:
+    """Remove the jump of a point from the loading of scenes that close without adhesion."""
+    bare = (ratio == 0.0) & ~downwards
+    jumps = found["loading_jumps"]
+    found["loading_jumps"] = np.where(bare & (jumps > 0.0), jumps - 1.0, jumps)
+    none = bare & (jumps == 1.0)
+    lost = np.where(none, found["loading_energy"], 0.0)
+    found["loading_energy"] = found["loading_energy"] - lost
+    found["dissipated_energy"] = found["dissipated_energy"] - lost
 
 
-def up_to_rims(
-    scenes: Mapping[str, ArrayLike],
-    wanted: Sequence[str],
-    how: How,
-    slopes: tuple[bool, int] | None = None,
+def _solved(
+    parameters: Mapping[str, ArrayLike],
+    outputs: Sequence[str],
+    turn: str | None,
+    profile: Profile,
+    loading: Loading,
+    toughness: Toughness | None,
+    solver: str,
+    threads: int | None,
     *,
-    turned: bool = False,
+    check_contact: bool,
 ) -> Results:
-    """Solve scenes up to a_max: results by name and `status`, of the broadcast shape.
+    """Return results of cycles by name, all as floats, and `status`, of the broadcast shape."""
+    request, shape = request_of(parameters, turn, profile, loading, toughness)
+    cycle = bool({*outputs} - {*PULL_OFF, "turning_radius"})
+    wanted = Wanted(
+        cycle=cycle,
+        depth="delta_max" in outputs,
+        contact=cycle and check_contact,
+        residual="energy_residual" in outputs,
+        saturation="saturation_radius" in outputs,
+    )
+    needed = {*outputs}
+    if cycle and CLOSING in parameters:
+        needed |= {"loading_energy", "loading_jumps", "dissipated_energy"}
+    if cycle and solver == "asymptotic":
+        needed |= {"dissipated_energy"}
+    names = [name for name in NAMES if name in needed]
+    form = BY_DEPTH if solver == "asymptotic" else EXACT
+    rows, status = solve_all(request, wanted, form, [NAMES.index(name) for name in names], threads)
+    found: Results = {name: row.reshape(shape) for name, row in zip(names, rows, strict=True)}
+    status = status.reshape(shape)
+    if "dissipated_energy" in found:  # NaN is beyond all numbers, and a gain a contact that is no larger than a wave
+        lost = found["dissipated_energy"]
+        none = (np.isnan(lost) | ((form != EXACT) & (lost < 0.0))) & ((status & NO_VALUE) == 0)
+        status = np.where(none, NO_VALUE, status)
+        found = {name: np.where(none, np.nan, values) for name, values in found.items()}
+    ratio = np.broadcast_to(np.asarray(parameters.get(CLOSING, 1.0), dtype=float), shape)
+    if cycle and CLOSING in parameters and (ratio == 0.0).any():
+        _without_adhesion(found, ratio, starts_downwards(parameters, profile))
+    if "snap_in_force" in found:
+        none = (ratio == 0.0) | ((found["snap_in_force"] < 0.0) & (loading.control == "machine"))
+        found["snap_in_force"] = np.where(none, np.nan, found["snap_in_force"])
+    return found | {"status": status}
 
-    `slopes` and `turned` are as those of `solve_general` (arrays/general.py).
-    """
-    solver, check_contact, threads, profile, loading, is_one_wave, toughness = how
-    wanted = [name for name in wanted if name != "turning_radius"]
-    if solver == "asymptotic":
-        from gradhesion.core.arrays.short_wave import solve_short_waves  # noqa: PLC0415 (kernels of their own)
 
-        return solve_short_waves(scenes, wanted, profile, threads)
-    if solver == "envelope" and not is_one_wave:
-        from gradhesion.core.closed.general_envelope import solve_envelope  # noqa: PLC0415 (SciPy)
+def _typed(name: str, values: NDArray[np.float64]) -> NDArray[Any]:
+    """Return values as the type of their result: counts as int32, -1 for NaN, 2^31 - 1 for more."""
+    if name not in INTEGERS:
+        return values
+    return np.where(np.isnan(values), -1.0, np.minimum(values, np.iinfo(np.int32).max)).astype(np.int32)
 
-        return solve_envelope(scenes, PARAMETERS, wanted, profile)
-    checks: Any = {"check_contact": check_contact, "turned": turned, "slopes": slopes}
-    if is_one_wave:
-        return solve_cosine(scenes, wanted, solver, threads, **checks)
-    from gradhesion.core.arrays.general import solve_general  # noqa: PLC0415 (kernels of their own)
 
-    results = [name for name in wanted if name in (*RESULTS, REACH)]
-    reports = [name for name in wanted if name in REPORTS]
-    results += [NEEDED[name] for name in reports if name in NEEDED]
-    found = solve_general(scenes, results, profile, loading, threads, toughness=toughness, **checks)
-    if not reports:
-        return found
-    from gradhesion.core.arrays.general_report import report_general  # noqa: PLC0415 (kernels of their own)
+def _roughness(parameters: Mapping[str, ArrayLike], profile: Profile, status: NDArray[Any]) -> NDArray[np.float64]:
+    """Return chi of scenes, of the shape of `status`: how far unloading swings below the mean of the waves, over s."""
+    from gradhesion.core.closed.envelope import chis  # noqa: PLC0415 (SciPy)
+    from gradhesion.core.problem.material import stiffness  # noqa: PLC0415
 
-    known: Any = {"turned": turned, "toughness": toughness}
-    return found | report_general(scenes, reports, found, profile, loading, threads, **known)
+    names = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A")
+    k, nu, modulus, c0, wavelength, amplitude = (
+        np.broadcast_to(np.asarray(parameters[name], dtype=float), status.shape).ravel() for name in names
+    )
+    with np.errstate(all="ignore"):
+        stretch = np.sqrt(2.0 ** (1.0 + k) * np.pi / stiffness(k, nu, modulus, c0))
+        _, down = chis(k, stretch, wavelength, amplitude, profile)
+    return np.where(status & NO_VALUE, np.nan, down.reshape(status.shape))
 
 
 def solve(
@@ -170,14 +214,13 @@ def solve(
         displacement-controlled loading to full contact and unloading in R^2 dgamma, loading_jumps and unloading_jumps
         (including jump-in and jump-out), delta_max and delta_jump_out in R: the depths at which full contact is reached
         and from which contact ends, under any control; loading_energy and unloading_energy in R^2 dgamma, the two parts
-        of dissipated_energy. With the exact solver also those of `REPORTS`: pull_off_force_error and
-        dissipated_energy_error, estimates in the unit of the value (of rounding, and of the sum over waves);
-        energy_residual, the energy less the loop integral of the load, whose own rounding is that of the load (NaN
-        beyond 2,000 waves); roughness_parameter chi = r/s; saturation_radius in R, beyond which there is no fold;
-        adhesion_gain and energy_gain over the smooth punch of the same material and rim; and pull_off_force_sensitivity
-        and dissipated_energy_sensitivity, d ln(value)/d ln p of every parameter, for k and nu d ln(value)/dp. And
-        contact_slope, (a/R)^(m-1) at the largest radius on which the other outputs depend (arrays/reach.py); of an
-        unbounded punch to about 1e-12, by the asymptotic solver 1e-6.
+        of dissipated_energy. With the exact solver also those of `REPORTS`: energy_residual, the energy less the loop
+        integral of the load, whose own rounding is that of the load (NaN beyond 2,000 waves); roughness_parameter
+        chi = r/s; saturation_radius in R, beyond which there is no fold; adhesion_gain and energy_gain over the smooth
+        punch of the same material and rim; and pull_off_force_sensitivity and dissipated_energy_sensitivity,
+        d ln(value)/d ln p of every parameter, for k and nu d ln(value)/dp. And contact_slope, (a/R)^(m-1) at the
+        largest radius on which the other outputs depend (problem/reach.py); of an unbounded punch to about 1e-12, by
+        the asymptotic solver 1e-6.
     solver
         One of `SOLVERS`.
     check_contact
@@ -195,9 +238,10 @@ def solve(
     Returns
     -------
     An array of the broadcast shape for each output (float64; int32 for jumps, 2^31 - 1 for more) and `status` (int8,
-    int16 where cycles turn at a depth; bits of status.FLAGS). Sensitivities have an additional last axis: the
-    parameters in the order of `PARAMETERS`, machine_stiffness and the one of `TURNS` if they are given. A scene outside
-    the ranges has NaN (-1 jumps) and the bit no_value; delta_max of an unbounded punch is inf.
+    int16 where cycles turn at a depth and where there is a pattern or a scene with too many waves; bits of
+    status.FLAGS). Sensitivities have an additional last axis: the parameters in the order of `PARAMETERS`,
+    machine_stiffness and the one of `TURNS` if they are given. A scene outside the ranges has NaN (-1 jumps) and the
+    bit no_value; delta_max of an unbounded punch is inf.
 
     Raises
     ------
@@ -207,9 +251,9 @@ def solve(
 
     Notes
     -----
-    Sections 2-5 of Jin, Guo & Wan (2013) as corrected in docs/theory.md. On 2,184 scenes solved to 30 digits by another
-    method (tests/twin) the force is accurate to 2e-15, the energy to 4e-15 where every wave is traced and to 2e-13
-    where waves are summed (on longer curves 1e-12, up to 4 10^15 waves), and all counts of jumps are correct.
+    Sections 2-5 of Jin, Guo & Wan (2013) as corrected in docs/theory.md. Values are exact to 1e-12 of the sizes of
+    their terms up to 1,000 waves within the contact, a digit less for each decade more, up to a million
+    (docs/accuracy.md).
 
     Examples
     --------
@@ -221,14 +265,14 @@ def solve(
     """
     profile = WAVY if profile is None else profile
     loading = BY_DISPLACEMENT if loading is None else loading
+    known: dict[str, Any] = {"solver": solver, "check_contact": check_contact, "threads": threads}
+    known |= {"profile": profile, "loading": loading, "toughness": toughness, "rate": rate}
     if CONTACT_SLOPE in outputs:
-        known: Any = {"solver": solver, "check_contact": check_contact, "threads": threads}
-        known |= {"profile": profile, "loading": loading, "toughness": toughness, "rate": rate}
         others = [name for name in outputs if name != CONTACT_SLOPE]
         radius = radius_of(others, parameters)
         found = solve(parameters, [*others, radius], **known)
-        slope = {CONTACT_SLOPE: slope_at(found, radius, parameters, profile)}
-        return {name: (found | slope)[name] for name in (*outputs, "status")}
+        found |= {CONTACT_SLOPE: slope_at(found, radius, parameters, profile)}
+        return {name: found[name] for name in (*outputs, "status")}
     turn = _checked(parameters, outputs, solver, loading, toughness)
     if rate is not None:
         from gradhesion.core.rate.cycle import KNOWN, solve_at_speed  # noqa: PLC0415 (seldom wanted)
@@ -239,64 +283,51 @@ def solve(
                 f"an edge with a speed needs {SPEED}, control 'displacement' or 'machine' and no pattern of toughness, "
                 f"and {absent} are not known of it"
             )
-        how = How(solver, check_contact, threads, profile, loading, is_one_wave=False)
-        return solve_at_speed(parameters, outputs, how, rate)
-    plain = solver != "asymptotic" and loading == BY_DISPLACEMENT and toughness is None
-    alike = equivalent_wave(profile) if plain else None
-    if alike is not None and profile != WAVY:
-        parameters = _as_one_wave(parameters, *alike)
-    how = How(solver, check_contact, threads, profile if alike is None else WAVY, loading, alike is not None, toughness)
-    if CLOSING in parameters or {*outputs} & {*EDGE}:
-        from gradhesion.core.works.cycle import solve_two_works  # noqa: PLC0415 (seldom wanted)
+        return solve_at_speed(parameters, outputs, rate, known)
+    slopes = [name for name in outputs if name in SENSITIVITIES]
+    gains = [name for name in outputs if name in _GAINS]
+    values = [name for name in outputs if name not in (*slopes, *gains, "roughness_parameter")]
+    values = list(dict.fromkeys([*values, *(_GAINS[name] for name in gains)]))
+    if solver == "envelope":
+        from gradhesion.core.closed.envelope import solve_envelope  # noqa: PLC0415 (SciPy)
 
-        found = solve_two_works(parameters, outputs, how)
-        return {name: found[name] for name in (*outputs, "status")}
-    requested = outputs
-    outputs = wanted_for(outputs, turned=turn is not None)
-    senses = tuple(name in requested for name in SENSITIVITIES)
-    slopes = (senses[0], WHOLE_CYCLE if senses[1] else 0) if any(senses) else None
-
-    def solved(scenes: Mapping[str, ArrayLike], wanted: Sequence[str], *, turned: bool = False) -> Results:
-        """Solve scenes up to their rims."""
-        return up_to_rims(scenes, wanted, how, slopes, turned=turned)
-
-    def again(scenes: Mapping[str, ArrayLike], wanted: Sequence[str]) -> Results:
-        """Solve other scenes that turn as these do."""
-        requested: Any = {"threads": threads, "profile": profile, "loading": loading, "toughness": toughness}
-        return solve(scenes, wanted, check_contact=False, **requested)
-
-    passed: NDArray[np.bool_] = np.array(False)
-    if turn is None:
-        found = solved(parameters, outputs)
-        if "turning_radius" in outputs:
-            shape = found["status"].shape
-            rim = np.broadcast_to(np.asarray(parameters["a_max_over_R"], dtype=float), shape)
-            found["turning_radius"] = np.where(found["status"] & NO_VALUE, np.nan, rim)
+        found = _of_envelopes(parameters, values, profile, solve_envelope)
     else:
-        arguments: dict[str, Any] = {"check_contact": check_contact and not set(outputs) <= set(PULL_OFF)}
-        flags: NDArray[Any]
-        if alike is not None:
-            radii, flags = turning_cosine(parameters, turn, threads, **arguments)
-            passed = np.full(radii.shape, False)  # displacement is prescribed: jumps leave it as it is
-        else:
-            from gradhesion.core.arrays.general_turning import turning_general  # noqa: PLC0415 (kernels of their own)
+        found = _solved(
+            parameters, values, turn, profile, loading, toughness, solver, threads, check_contact=check_contact
+        )
+    status = found["status"]
+    if turn is not None:
+        away = (status & NO_CONTACT) != 0
+        found |= {name: np.where(away, 0.0, found[name]) for name in ("turning_radius",) if name in found}
+    if "roughness_parameter" in outputs:
+        found["roughness_parameter"] = _roughness(parameters, profile, status)
+    if gains:
+        smooth = solve(
+            {**parameters, "A": 0.0 * np.asarray(parameters["A"], dtype=float)}, [_GAINS[n] for n in gains], **known
+        )
+        with np.errstate(all="ignore"):
+            found |= {name: found[_GAINS[name]] / smooth[_GAINS[name]] for name in gains}
+    if slopes:
+        from gradhesion.core.scenes.slopes import sensitivities  # noqa: PLC0415 (kernels of their own)
 
-            arguments["toughness"] = toughness
-            radii, flags, passed = turning_general(parameters, turn, profile, loading, threads, **arguments)
-            passed &= loading != Loading()  # under displacement control it lands at the same depth, but for roundings
-        found = turned_results(parameters, turn, outputs, radii, flags, passed, solved, again)
-        note_compiled(kind_of_turning(profile, loading, toughness))
-    if not slopes:
-        note_compiled(kind_of_map(outputs, solver, profile, loading, toughness))
-    else:
-        from gradhesion.core.sensitivities.sensitivity import sensitivities  # noqa: PLC0415 (SciPy)
+        request, shape = request_of(parameters, turn, profile, loading, toughness)
+        found |= sensitivities(
+            request, shape, slopes, [name for name in (*_COLUMNS, *TURNS) if name in parameters], threads
+        )
+    wide = turn == TURNS[0] or toughness is not None or (status > np.iinfo(np.int8).max).any()
+    found["status"] = status.astype(np.int16 if wide else np.int8)
+    return {name: _typed(name, found[name]) for name in (*outputs, "status")}
 
-        def force_of(scenes: Mapping[str, ArrayLike]) -> NDArray[np.float64]:
-            """Return the force of other scenes that turn as these do."""
-            own = None if alike is not None else profile  # the scenes are of the wave already
-            known: Any = {"threads": threads, "profile": own, "loading": loading, "toughness": toughness}
-            return solve(scenes, PULL_OFF, check_contact=False, **known)["pull_off_force"]
 
-        found |= sensitivities(parameters, requested, found, found[SLOPES], turn, passed, force_of)
-        note_compiled(kind_of_sensitivities(profile, loading, toughness))
-    return {name: found[name] for name in (*requested, "status")}
+def _of_envelopes(
+    parameters: Mapping[str, ArrayLike], outputs: Sequence[str], profile: Profile, solve_envelope: Any
+) -> Results:
+    """Return the results of envelopes, at ratios of closing below 1 those of two works (physics 16)."""
+    found: Results = solve_envelope(
+        parameters, PARAMETERS, [name for name in outputs if name != "turning_radius"], profile
+    )
+    if "turning_radius" in outputs:
+        rim = np.broadcast_to(np.asarray(parameters["a_max_over_R"], dtype=float), found["status"].shape)
+        found["turning_radius"] = np.where(found["status"] & NO_VALUE, np.nan, rim)
+    return found

@@ -37,16 +37,11 @@ def _of(name: str, command: click.Command) -> Iterator[str]:
     if command.epilog:
         calls = "\n".join(line.strip() for line in command.epilog.splitlines()[2:])
         yield f"```text\n{calls}\n```"
-    rows = [_row(option, context) for option in command.params if isinstance(option, click.Option)]  # `--help` is none
+    options = [option for option in command.params if isinstance(option, click.Option)]  # `--help` is none
+    records = [option.get_help_record(context) for option in options]
+    rows = [[code(record[0]), record[1]] for record in records if record]  # None for what is hidden
     if rows:
         yield table(("option", "what it does"), rows)
-
-
-def _row(option: click.Option, context: click.Context) -> list[str]:
-    """Write the row of an option."""
-    record = option.get_help_record(context)
-    assert record
-    return [code(record[0]), record[1]]
 
 
 def _help_of(command: click.Command) -> str:

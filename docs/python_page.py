@@ -90,7 +90,7 @@ def _sections() -> Iterator[str]:
         "`DOUBTFUL` and `FAILED` the bits of a status. The paper's equations one by one are in "
         "`gradhesion.core.equations`: [the paper](../paper.md). For programs that compile ahead:"
     )
-    ahead = ("kind_of_map", "kind_of_curves", "compiled_before", "compile_kind", "watch_compilation", "place")
+    ahead = ("warm_up", "place")
     yield table(("function", "what it does"), ([code(f"core.{name}"), _first(getattr(core, name))] for name in ahead))
     yield "## Studies and datasets: gradhesion.cli"
     for name in ("load_study", "study_from", "Method"):

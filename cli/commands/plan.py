@@ -79,11 +79,10 @@ def show_fit_plan(study: "FitStudy", output: Path, *, as_json: bool = False) -> 
 
 def show_plan(study: "Study", output: Path, threads: int | None, *, as_json: bool = False) -> None:
     """Print the plan of a run."""
+    from gradhesion.cli.work.compiling import prepare
     from gradhesion.cli.work.estimate import estimate
-    from gradhesion.cli.work.kernels.compiling import prepare
-    from gradhesion.cli.work.kernels.kernels import kinds_of
 
-    prepare(kinds_of(study), quiet=as_json)
+    prepare(study)
     found = estimate(study, output, threads)
     if as_json:
         show_block(json.dumps(asdict(found), indent=2))

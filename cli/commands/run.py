@@ -65,7 +65,7 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
     help="Threads to use [all available to the process]; values do not depend on it.",
 )
 @chunk_option
-@click.option("--quiet", is_flag=True, help="Print errors, and a line if kernels compile.")
+@click.option("--quiet", is_flag=True, help="Print errors, and a line if the solver is compiled.")
 @click.option(
     "--log-json", is_flag=True, is_eager=True, callback=messages.speak_json, help="Log one JSON object per line."
 )
@@ -92,8 +92,7 @@ def run(
     from gradhesion.cli.dataset.writer import write
     from gradhesion.cli.study.fit.study import FitStudy
     from gradhesion.cli.study.reading import load_any
-    from gradhesion.cli.work.kernels.compiling import prepare
-    from gradhesion.cli.work.kernels.kernels import kinds_of
+    from gradhesion.cli.work.compiling import prepare
 
     if scheduler is not None and (engine != "dask" or threads is not None):
         raise click.UsageError("--scheduler needs --engine dask, without --threads: its workers have their own")
@@ -115,7 +114,7 @@ def run(
         show_plan(requested, path, threads)
         return
     if engine == "threads":  # the workers of a cluster have caches of their own
-        prepare(kinds_of(requested), quiet=quiet)
+        prepare(requested)
     solver = _engine(requested, engine, scheduler, threads, quiet=quiet)
     if shard is not None:
         if fresh or fail_fast:

@@ -32,14 +32,14 @@ def run_fit(study: "FitStudy", path: Path, *, history: str, overwrite: bool, qui
     from gradhesion.cli.dataset.fits.fit import write_fit
     from gradhesion.cli.dataset.fits.rows import refuse_size
     from gradhesion.cli.disk import refuse_existing
-    from gradhesion.cli.work.kernels.compiling import prepare
-    from gradhesion.cli.work.solve.fitting import doubts_of, fits_of, kinds_of_fit
+    from gradhesion.cli.work.compiling import prepare
+    from gradhesion.cli.work.solve.fitting import doubts_of, fits_of
 
     refuse_existing(path, path, overwrite=overwrite)
     refuse_size(study)
     for note in () if quiet else _first(study.notes):
         messages.say("note", note)
-    prepare(kinds_of_fit(study), quiet=quiet)
+    prepare()
     start = time.monotonic()
     with progress(len(study.loops), quiet=quiet or len(study.loops) == 1, noun="loop") as advance:
         fits = fits_of(study, advance)

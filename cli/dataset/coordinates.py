@@ -84,7 +84,7 @@ def _states(study: Study) -> Variable:
 
 def following(study: Study, name: str) -> tuple[str, ...]:
     """Name the axes along which a parameter varies that is not given but made from others."""
-    from gradhesion.core.variables.reduced import sources_of  # noqa: PLC0415 (300 ms for SciPy)
+    from gradhesion.core.closed.reduced import sources_of  # noqa: PLC0415 (300 ms for SciPy)
 
     sources = sources_of(name, dict.fromkeys(study.given))
     return tuple(axis for axis in study.axes if axis in sources or study.layout == "points")

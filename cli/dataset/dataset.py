@@ -22,8 +22,7 @@ from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.study.shape_words import profile_table, rate_in_words, shape_in_words, toughness_in_words
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import messages
-from gradhesion.cli.work.kernels.compiling import prepare
-from gradhesion.cli.work.kernels.kernels import kinds_of
+from gradhesion.cli.work.compiling import prepare
 from gradhesion.core import FLAGS
 from gradhesion.core.answers.flags import FLAGS as ALL_FLAGS
 from gradhesion.core.problem.status import OF_EVERY_MAP, TOO_MANY_WAVES
@@ -158,11 +157,11 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
 
     Notes
     -----
-    The first study of a kind compiles its kernels, which a line on stderr reports.
+    The first study of a version compiles the solver, which a line on stderr reports.
     """
     import xarray  # noqa: PLC0415 (450 ms that `run` does not need)
 
-    prepare(kinds_of(study))
+    prepare(study)
     described = variables(study)
     kind = CONTENTS[study.sort.name]
     found = kind.joined(study, kind.parts(study, threads))

@@ -10,7 +10,7 @@ from gradhesion.cli.engines.dispatch import Dispatch
 from gradhesion.cli.engines.local import local_client
 from gradhesion.cli.engines.scheduler import client_of, silent
 from gradhesion.cli.engines.watch import DESERTED, DESERTED_HERE
-from gradhesion.cli.work.kernels.kernels import compile_kinds, kinds_of
+from gradhesion.cli.work.compiling import compile_for
 from gradhesion.cli.work.parts.parts import key_of
 from gradhesion.cli.work.parts.resume import Solved, found
 
@@ -48,7 +48,7 @@ class Cluster:
         if not left:
             return
         if self.scheduler is None:
-            compile_kinds(kinds_of(study))  # before there are processes that would all do so
+            compile_for(study)  # before there are processes that would all do so
         with silent(), self._client(len(left)) as client:
             dispatch = Dispatch(client, work, deserted=self._deserted(), quiet=self.quiet)
             yield from dispatch.results(left)

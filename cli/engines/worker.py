@@ -129,15 +129,15 @@ def _study(folder: Path, fingerprint: str) -> Any:
 
 @lru_cache(maxsize=4)
 def _loaded(folder: Path, fingerprint: str) -> Any:
-    """Read the study of a folder, and compile what it needs; once in a process."""
+    """Read the study of a folder, and compile what it needs where no process has; once in a process."""
     from gradhesion.cli.errors import DatasetError  # noqa: PLC0415
-    from gradhesion.cli.work.kernels.kernels import compile_kinds, kinds_of  # noqa: PLC0415
+    from gradhesion.cli.work.compiling import compile_for, is_first  # noqa: PLC0415
     from gradhesion.cli.work.parts.folder import Folder  # noqa: PLC0415
     from gradhesion.cli.work.parts.manifest import study_in  # noqa: PLC0415
 
     study = study_in(Folder(folder), folder)
     if study.sha256 != fingerprint:
         raise DatasetError(f"{folder}: of another study")
-    with suppress(Exception):  # the block that is asked for will show it
-        compile_kinds(kinds_of(study))
+    if is_first():
+        compile_for(study)  # one worker does, and the others wait for it
     return study

@@ -23,11 +23,11 @@ from gradhesion.cli.study.rules.search import Search
 from gradhesion.cli.study.rules.uncertainty import Uncertainty
 from gradhesion.cli.study.tiling import CHUNK, Block, Tiling
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
-from gradhesion.core.arrays.reach import depends_on_contact
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import PARAMETERS, RANGE, SENSITIVITIES
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.rate import Rate
+from gradhesion.core.problem.reach import depends_on_contact
 from gradhesion.core.problem.toughness import Toughness
 
 FEW_SAMPLES: Final = 32
@@ -172,7 +172,7 @@ class Study:
 
     @property
     def watches_slope(self) -> bool:
-        """Whether a contact may reach radii at which the punch is no longer shallow (core/arrays/reach.py)."""
+        """Whether a contact may reach radii at which the punch is no longer shallow (core/problem/reach.py)."""
         given = self.parameters
         if "a_max" in given and "R" in given:
             return self.may_reach(np.max(given["a_max"]) / np.min(given["R"]))
@@ -215,7 +215,7 @@ class Study:
         made = tuple(name for name in INPUTS if name in wanted)
         if not self.search:
             return made
-        from gradhesion.core.variables.reduced import sources_of  # noqa: PLC0415 (300 ms for SciPy)
+        from gradhesion.core.closed.reduced import sources_of  # noqa: PLC0415 (300 ms for SciPy)
 
         searched = {one.name for one in self.search.inputs}
         return tuple(name for name in made if not searched & {*sources_of(name, dict.fromkeys(self.given))})

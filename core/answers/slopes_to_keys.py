@@ -10,8 +10,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gradhesion.core.closed.reduced import WAYS, parameters_from
 from gradhesion.core.types import Floats
-from gradhesion.core.variables.reduced import WAYS, parameters_from
 
 PLAIN: Final = ("k", "nu")
 """Parameters whose sensitivities are to themselves, not to their logarithms: they may be 0."""

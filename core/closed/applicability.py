@@ -18,7 +18,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.closed.crest import swings
+from gradhesion.core.equations._crests import swings, swings_of
 from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import PARAMETERS, RANGE, VALIDITY
@@ -27,7 +27,7 @@ from gradhesion.core.problem.profile import Profile
 _Array = NDArray[np.float64]
 _SLOPE: Final = -1.0
 _CURVATURE: Final = -3.0
-"""The exponents k at which zeta of closed/crest.py is f2'/(2 pi A) and f2''/(4 pi^2 A)."""
+"""The exponents k at which zeta of equations/_crests.py is f2'/(2 pi A) and f2''/(4 pi^2 A)."""
 
 
 def validity(
@@ -84,7 +84,7 @@ def validity(
             if name == "wave_slope":
                 values = 2.0 * math.pi * amplitude * max(swings(_SLOPE, rows))
             elif name == "johnson_alpha":
-                chi = waviness_strength(k, wavelength, amplitude) * _falls(k, rows) / adhesion_strength(k, M)
+                chi = waviness_strength(k, wavelength, amplitude) * swings_of(k, rows)[1] / adhesion_strength(k, M)
                 values = 1.0 / (math.sqrt(math.pi) * chi)
             elif name == "tabor_parameter":
                 m = profile.exponent
@@ -100,10 +100,3 @@ def validity(
 def _range(values: _Array) -> _Array:
     """Return the range of attraction, NaN out of range."""
     return np.where((values > 0.0) & np.isfinite(values), values, np.nan)
-
-
-def _falls(k: _Array, rows: tuple[tuple[float, float, float], ...]) -> _Array:
-    """Return how deep zeta falls, for each exponent."""
-    exponents, places = np.unique(k, return_inverse=True)
-    depths = np.array([swings(float(one), rows)[1] if 0.0 <= one <= 1.0 else np.nan for one in exponents])
-    return depths[places].reshape(k.shape)

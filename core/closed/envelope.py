@@ -1,122 +1,129 @@
-"""The envelopes of a short wave: closed forms for lambda << a.
+"""The envelopes of short waves, for any power and series under displacement control: closed forms for lambda << a.
 
-With z = a/l and the length l of closed/smooth.py, depths in s l^c, loads in K l^(1+k) s l^c, c = (1-k)/2, X =
-z^((3+k)/2) and chi = r/s = pi^c G((1+k)/2) A lambda^((1+k)/2)/s, the waves lie between (5.26), (5.27) of Jin, Guo & Wan
-(2013)
+Far out the waves swing between +r_+ a^c and -r_- a^c about their mean height, c = (1-k)/2, as `chis` has them over the
+stretch s (of one cosine both are r, (5.26)). With z = a/l and l^(m-c) = s/F, F the factor of the depth of r^m/m, depths
+in s l^c and loads in K l^(1+k) s l^c,
 
-    depth = z^2/2 - (1 -+ chi) z^c,   load = X [X/(3+k) - (1 -+ chi)]
+    depth = z^m - (1 - chi_+) z^c on loading,  z^m - (1 + chi_-) z^c on unloading
+    load  = z^(1+k) [m/(1+k+m) z^m - (1 + chi_-) z^c],   least where z^(m-c) = (3+k)(1+chi_-)/(2m)
 
-Loading follows the upper signs, unloading the lower ones: each is a smooth punch of another work of adhesion. With
-rho = (depth_H - depth)/z^c, depth_H = z^2/2, the path is
+each a smooth punch of another work of adhesion. Loading jumps in at the depth 0, to z_2^(m-c) = 1 - chi_+ (0 if chi_+ >
+1), unloading out at z_4^(m-c) = c (1+chi_-)/m, both at most the rim, and the energy is int z [rho_unloading^2 -
+rho_loading^2] dz, rho = (depth_H - depth)/z^c: a sum of powers, for m = 2 that of (5.36)-(5.43) for any rim. It grows
+with the square of the rim without bound: the envelopes do not include the radius at which folds end.
 
-    loading    depth 0 and rho = z^((3+k)/2)/2 up to z_2 = [2 (1-chi)]^(2/(3+k)), then rho = 1 - chi; z_2 = 0 if chi > 1
-    unloading  rho = 1 + chi down to z_4 = [c (1+chi)]^(2/(3+k)), then the last depth; z_4 is at most the rim
-
-and the energy int z [rho_unloading^2 - rho_loading^2] dz, a sum of powers, is that of (5.36)-(5.43) for any rim; the
-fits of (5.43) are not needed. It grows by 2 chi z_rim^2 without bound: the envelopes do not include the radius at which
-the folds end and hysteresis saturates, so that the energy of an unbounded punch is inf.
-
-The printed formulae leave out the mean height lambda A of the wave. It is added to delta_max and delta_jump_out. The
-energy leaves it out, as printed: its jump-in is at the mean surface, the depth lambda A, and not at the depth 0 where
-contact begins, which makes an error of the order (lambda/a)^((1-k)/2) beside the lambda/a of all else. The force has an
-error of the order (lambda/a)^2, one wave not being at its lowest point.
+The printed formulae leave out the mean height of the waves. It is added to delta_max and delta_jump_out. The energy
+leaves it out, as printed: its jump-in is at the mean surface, which makes an error of the order (lambda/a)^c beside the
+lambda/a of all else. The force has an error of the order (lambda/a)^2, one wave not being at its lowest point. Without
+waves all is exact. Jin, Guo & Wan (2013).
 """
 
 import math
+from collections.abc import Mapping, Sequence
+from typing import Any, Final
 
-from gradhesion.core.closed.smooth import FORCE_SCALE, smooth_length
-from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.numbers.circle import TWO_PI
-from gradhesion.core.problem.results import OUTERMOST, Results, put, put_all
-from gradhesion.core.types import Floats, Table
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
+from gradhesion.core.equations._crests import swings_of
+from gradhesion.core.equations.envelopes import waviness_strength
+from gradhesion.core.problem.material import stiffness
+from gradhesion.core.problem.names import INTEGERS, REACH, RESULTS
+from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.shape import rows_of
+from gradhesion.core.problem.status import NO_VALUE
 
-@kernel()
-def envelope_force(k: float, chi: float, z_rim: float) -> tuple[float, float]:
-    """Return the pull-off force over 1.5 pi R dgamma and the z where it is met: (3+k)/3 (1+chi)^2 within the rim."""
-    power = 0.5 * (3.0 + k)
-    z = (power * (1.0 + chi)) ** (1.0 / power)
-    if z_rim >= z:
-        return (3.0 + k) / 3.0 * (1.0 + chi) ** 2, z
-    abscissa = z_rim**power
-    return FORCE_SCALE * abscissa * (1.0 + chi - abscissa / (3.0 + k)), z_rim
-
-
-@kernel()
-def envelope_depth(k: float, pull: float, z: float) -> float:
-    """Return the depth on the envelope of pull = 1 - chi or 1 + chi."""
-    return 0.5 * z * z - pull * z ** (0.5 * (1.0 - k)) if z < math.inf else math.inf
+_Array = NDArray[np.float64]
+_FORCE: Final = 8.0 / 3.0
+"""4 pi over the 3 pi/2 of the unit of force."""
 
 
-@kernel()
-def _loss_of_jump_in(k: float, chi: float, z: float) -> float:
-    """Return int_0^z y [(1-chi)^2 - (y^((3+k)/2)/2)^2] dy."""
-    return 0.5 * ((1.0 - chi) * z) ** 2 - 0.25 * z ** (5.0 + k) / (5.0 + k)
+def chis(k: _Array, stretch: _Array, wavelength: _Array, amplitude: _Array, profile: Profile) -> tuple[_Array, _Array]:
+    """Return chi_+ and chi_-, by which loading and unloading are off the mean of the waves, over s: (curves,)."""
+    up, down = swings_of(k, tuple(map(tuple, rows_of(profile).tolist())))
+    one = waviness_strength(k, wavelength, amplitude) / stretch
+    return one * up, one * down
 
 
-@kernel()
-def _loss_of_jump_out(k: float, chi: float, z: float, depth: float) -> float:
-    """Return int_0^z y [((y^2/2 - depth)/y^c)^2 - (1+chi)^2] dy."""
-    square = z * z
-    powers = z ** (1.0 + k) * (0.25 * square * square / (5.0 + k) - depth * square / (3.0 + k) + depth**2 / (1.0 + k))
-    return powers - 0.5 * ((1.0 + chi) * z) ** 2
+def scales_of(k: _Array, stretch: _Array, m: float) -> tuple[_Array, _Array, _Array]:
+    """Return l in R, the unit of depth s l^c in R, and that of load in 1.5 pi R dgamma, of some k and s: (curves,)."""
+    from scipy.special import beta  # noqa: PLC0415 (200 ms that no other solver needs)
+
+    c = 0.5 * (1.0 - k)
+    depth_factor = 1.0 / (1.0 + k) if m == 2.0 else 0.5 * beta(0.5 * m, 0.5 * (1.0 + k))
+    length = (stretch / depth_factor) ** (1.0 / (m - c))
+    return length, stretch * length**c, _FORCE / (depth_factor * (1.0 + k)) * length ** (2.0 - m)
 
 
-@kernel()
-def envelope_cycle(k: float, chi: float, z_rim: float) -> tuple[float, float, float, float, float, float]:
-    """Return the losses of loading and unloading, their jumps, the depth of loading at the rim and the last depth.
+def _depth(k: _Array, m: float, pull: _Array, z: _Array) -> _Array:
+    """Return the depth on the envelope of a pull."""
+    depth: _Array = z**m - pull * z ** (0.5 * (1.0 - k))
+    return depth
 
-    The square of the wave, chi^2/2 in the mean, is a part of both and cancels in their sum.
+
+def _cycle(
+    k: _Array, m: float, up: _Array, down: _Array, wave: _Array, rim: _Array
+) -> tuple[_Array, _Array, _Array, _Array, _Array]:
+    """Return what loading and unloading lose over 2 pi l^2 dgamma, z_2, z_4, and the last depth.
+
+    `wave` is the mean square of the waves over s, which is a part of both and cancels in their sum.
     """
-    power = 2.0 / (3.0 + k)
-    z_in = min(z_rim, (2.0 * max(0.0, 1.0 - chi)) ** power)
-    z_out = min(z_rim, (0.5 * (1.0 - k) * (1.0 + chi)) ** power)  # 0 at k = 1: the contact shrinks to a point
-    last_depth = envelope_depth(k, 1.0 + chi, z_out)
-    loaded, unloaded = _loss_of_jump_in(k, chi, z_in), _loss_of_jump_out(k, chi, z_out, last_depth)
-    if chi > 0.0 and z_rim < math.inf:
-        loaded += (1.0 - 0.75 * chi) * chi * z_rim * z_rim
-        unloaded += (1.0 + 0.75 * chi) * chi * z_rim * z_rim
-    elif chi > 0.0:
-        loaded = unloaded = math.inf
-    jumps_in, jumps_out = 1.0 if z_in > 0.0 else 0.0, 1.0 if z_out > 0.0 else 0.0
-    return loaded, unloaded, jumps_in, jumps_out, envelope_depth(k, 1.0 - chi, z_rim), last_depth
+    power = m - 0.5 * (1.0 - k)
+    loading, unloading = 1.0 - up, 1.0 + down
+    z_in = np.minimum(rim, np.maximum(0.0, loading) ** (1.0 / power))
+    z_out = np.minimum(rim, (0.5 * (1.0 - k) / m * unloading) ** (1.0 / power))
+    last = _depth(k, m, unloading, z_out)
+    square = 2.0 * power + 2.0
+    loaded = 0.5 * (loading * z_in) ** 2 - z_in**square / square
+    unloaded = z_out**square / square - 2.0 * last * z_out ** (m + 1.0 + k) / (m + 1.0 + k)
+    unloaded += last**2 * z_out ** (1.0 + k) / (1.0 + k) - 0.5 * (unloading * z_out) ** 2
+    to_rim = np.where(up + down != 0.0, rim, 0.0) ** 2
+    for lost, share in ((loaded, up * (2.0 - up) - wave), (unloaded, down * (2.0 + down) + wave)):
+        lost += np.where(np.isinf(to_rim), np.inf, 0.5 * share * to_rim)
+    return loaded, unloaded, z_in, z_out, last
 
 
-@kernel()
-def solve_rim(
-    k: float, stretch: float, chi: float, mean_height: float, rim: float
-) -> tuple[float, float, float, float, float, float, float, float, float]:
-    """Return the results of one rim, in the order of problem/results.py; chi = 0 is the smooth punch."""
-    length = smooth_length(k, stretch)
-    z_rim = rim / length
-    force, z = envelope_force(k, chi, z_rim)
-    loaded, unloaded, jumps_in, jumps_out, rim_depth, last_depth = envelope_cycle(k, chi, z_rim)
-    energy_scale = TWO_PI * length * length
-    depth_scale = 2.0 * length * length / (1.0 + k)
-    return (
-        force,
-        z * length if z < z_rim else rim,
-        energy_scale * (loaded + unloaded),
-        jumps_in,
-        jumps_out,
-        max(0.0, mean_height + depth_scale * rim_depth),
-        mean_height + depth_scale * last_depth,
-        energy_scale * loaded,
-        energy_scale * unloaded,
-    )
-
-
-@kernel(inline=True)
-def solve_curve(
-    table: Table, stretch: float, wavelength: float, amplitude: float, rims: Floats, results: Results
-) -> None:
-    """Solve one curve (s, lambda/R, A) for all its rims a_max/R, of shape (rims,)."""
-    mean_height = amplitude * wavelength
-    # A lambda/(s l^c) with l = lambda/2 pi is the gain of curve/cosine.py
-    gain = mean_height / (stretch * (wavelength / TWO_PI) ** (0.5 * (1.0 - table.k)))
-    for rim in range(rims.size):
-        values = solve_rim(table.k, stretch, table.amplitude * gain, mean_height, rims[rim])
-        put_all(results, rim, values)
-        chi = table.amplitude * gain
-        z_in = 2.0 ** (2.0 / (3.0 + table.k)) if chi == 0.0 else math.inf  # with waves hysteresis has no end
-        put(results, OUTERMOST, rim, z_in * smooth_length(table.k, stretch))
+def solve_envelope(
+    parameters: Mapping[str, ArrayLike], names: Sequence[str], outputs: Sequence[str], profile: Profile
+) -> dict[str, NDArray[Any]]:
+    """Solve all scenes of the parameters `names` by the envelopes of a profile, as `solve` of core/sweep.py."""
+    m = profile.exponent
+    arrays = np.broadcast_arrays(*(np.asarray(parameters[key], dtype=float) for key in names))
+    shape = arrays[0].shape
+    k, nu, modulus, c0, wavelength, amplitude, rim = (np.ascontiguousarray(a).ravel() for a in arrays)
+    with np.errstate(all="ignore"):
+        stretch = np.sqrt(2.0 ** (1.0 + k) * math.pi / stiffness(k, nu, modulus, c0))
+        valid = (stretch > 0.0) & (stretch < np.inf) & (wavelength > 0.0) & (wavelength < np.inf)
+        valid &= (amplitude >= 0.0) & (amplitude < np.inf) & (rim > 0.0)
+        k, stretch, wavelength, amplitude, rim = (
+            np.where(valid, each, np.nan) for each in (k, stretch, wavelength, amplitude, rim)
+        )
+        up, down = chis(k, stretch, wavelength, amplitude, profile)
+        one = waviness_strength(k, wavelength, amplitude) / stretch
+        wave = sum(0.5 * n ** (1.0 - k) * (even**2 + odd**2) for n, even, odd in rows_of(profile)) * one**2
+        length, unit, force = scales_of(k, stretch, m)
+        reach, mean = rim / length, wavelength * amplitude * sum(harmonic.cos for harmonic in profile.harmonics)
+        power = m - 0.5 * (1.0 - k)
+        pull = np.minimum(reach, (0.5 * (3.0 + k) / m * (1.0 + down)) ** (1.0 / power))
+        load = pull ** (0.5 * (3.0 + k)) * (1.0 + down - m / (1.0 + k + m) * pull**power)
+        loaded, unloaded, z_in, z_out, last = _cycle(k, m, up, down, wave, reach)
+        area = 2.0 * math.pi * length**2
+        deepest = np.where(np.isinf(rim), np.inf, np.maximum(0.0, mean + unit * _depth(k, m, 1.0 - up, reach)))
+        rows = (
+            force * load,
+            np.where(pull < reach, pull * length, rim),
+            area * (loaded + unloaded),
+            (z_in > 0.0) * 1.0,
+            (z_out > 0.0) * 1.0,
+            deepest,
+            mean + unit * last,
+            area * loaded,
+            area * unloaded,
+            np.where(up + down == 0.0, z_in * length, np.inf),  # with waves there is no end
+        )
+    found: dict[str, NDArray[Any]] = {}
+    for name in outputs:
+        value: NDArray[Any] = np.where(valid, rows[(*RESULTS, REACH).index(name)], -1.0 if name in INTEGERS else np.nan)
+        found[name] = (value.astype(np.int32) if name in INTEGERS else value).reshape(shape)
+    found["status"] = np.where(valid, 0, NO_VALUE).astype(np.int8).reshape(shape)
+    return found

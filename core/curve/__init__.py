@@ -1,1 +1,1 @@
-"""Equilibrium curves of one cosine, of any profile and control, of a short wave: states, folds, branches, energies."""
+"""One curve of equilibrium: its values, its folds, where it has a level, and the energy between two radii."""

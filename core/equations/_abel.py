@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 from scipy.special import roots_jacobi, roots_legendre
 
-from gradhesion.core.equations._domain import Array
+from gradhesion.core.equations._arguments import Array
 
 _NODES: Final = 24
 _LEGENDRE: Final = roots_legendre(_NODES)

@@ -7,31 +7,20 @@ the barrier of one wave, along a straight line to the unloading envelope, which 
     a_2 = [(1+k) R (s-r)]^(2/(3+k)),  r < s      (5.34)
     a_4 = [(1-k^2)/4 R (s+r)]^(2/(3+k))          (5.35)
 
-with s and r of envelopes.py. The printed form leaves out lambda A. A paraboloid, lengths in R, loads in
-1.5 pi R dgamma. Source: Jin, Guo & Wan (2013) as corrected in docs/theory.md.
+with s and r of envelopes.py. The printed form leaves out lambda A. The punch is a paraboloid.
 """
 
-from typing import Annotated
-
 import numpy as np
-from numpy.typing import ArrayLike
 
 from gradhesion.core.equations import hertz
-from gradhesion.core.equations._arguments import Depth, Gradient, LargestRadius, MeanHeight, Stiffness, documented
-from gradhesion.core.equations._domain import Array, exponent_of, not_negative
-
-Adhesion = Annotated[ArrayLike, "s/R^((1+k)/2) > 0, as `envelopes.adhesion_strength`."]
-Waviness = Annotated[ArrayLike, "r/R^((1+k)/2) >= 0, as `envelopes.waviness_strength`."]
+from gradhesion.core.equations._arguments import Array, Real, describe, exponent_of, not_negative
 
 
-@documented
-def jump_in_radius(k: Gradient, adhesion: Adhesion, waviness: Waviness) -> Array:
+def jump_in_radius(k: Real, adhesion: Real, waviness: Real) -> Array:
     """Return a_2/R, to which contact jumps when it begins (5.34).
 
     NaN for r >= s: the loading envelope then starts at a = 0 without a jump.
 
-    Examples
-    --------
     >>> jump_in_radius(0.0, 0.1, [0.0, 0.05, 0.1]).round(6).tolist()
     [0.215443, 0.135721, nan]
     """
@@ -39,48 +28,25 @@ def jump_in_radius(k: Gradient, adhesion: Adhesion, waviness: Waviness) -> Array
     return ((1.0 + exponent) * np.where(rest > 0.0, rest, np.nan)) ** (2.0 / (3.0 + exponent))
 
 
-@documented
-def jump_out_radius(k: Gradient, adhesion: Adhesion, waviness: Waviness) -> Array:
+def jump_out_radius(k: Real, adhesion: Real, waviness: Real) -> Array:
     """Return a_4/R, from which contact jumps when it ends (5.35).
 
     It is 0 at k = 1, where contact shrinks to a point, and any r >= 0 is in range.
-
-    Examples
-    --------
-    >>> jump_out_radius([0.0, 1.0], 0.1, 0.05).round(6).tolist()
-    [0.112035, 0.0]
     """
     exponent, pull = exponent_of(k), not_negative(adhesion) + not_negative(waviness)
     return (0.25 * (1.0 - exponent) * (1.0 + exponent) * pull) ** (2.0 / (3.0 + exponent))
 
 
-@documented
-def early_unloading_load(
-    k: Gradient, stiffness: Stiffness, radius: LargestRadius, depth: Depth, mean_height: MeanHeight = 0.0
-) -> Array:
-    """Return P/(1.5 pi R dgamma) on the line of early unloading at the largest radius a_am (5.32).
-
-    Examples
-    --------
-    The line meets the smooth adhesive punch, whose depth at a = 0.3 is 0.09 - Delta:
-
-    >>> from gradhesion.core.equations import jkr
-    >>> depth = jkr.indentation(0.0, 500.0, 0.3, 0.1, 0.0)
-    >>> bool(abs(early_unloading_load(0.0, 500.0, 0.3, depth) - jkr.load(0.0, 500.0, 0.3, 0.1, 0.0)) < 1e-12)
-    True
-    """
+def early_unloading_load(k: Real, stiffness: Real, radius: Real, depth: Real, mean_height: Real = 0.0) -> Array:
+    """Return P/(1.5 pi R dgamma) on the line of early unloading at the largest radius a_am (5.32)."""
     smooth = hertz.power_indentation(k, radius) * (1.0 + exponent_of(k)) / (3.0 + exponent_of(k))
     lowered = np.asarray(depth, dtype=float) - np.asarray(mean_height, dtype=float)
     return hertz.disc_stiffness(k, stiffness, radius) * (lowered - smooth)
 
 
-@documented
-def early_unloading_depth(k: Gradient, radius: LargestRadius, waviness: Waviness) -> Array:
-    """Return the depth over which the line of early unloading runs, 2 r a_am^((1-k)/2), over R.
-
-    Examples
-    --------
-    >>> float(early_unloading_depth(0.0, 0.25, 0.05).round(12))
-    0.05
-    """
+def early_unloading_depth(k: Real, radius: Real, waviness: Real) -> Array:
+    """Return the depth over which the line of early unloading runs, 2 r a_am^((1-k)/2), over R."""
     return 2.0 * not_negative(waviness) * not_negative(radius) ** (0.5 * (1.0 - exponent_of(k)))
+
+
+describe(__name__)

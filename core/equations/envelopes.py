@@ -8,60 +8,37 @@
 Loading runs along the upper signs, unloading along the lower ones: a smooth punch with s + r for s, whose pull-off
 force is (3+k)/3 (1+r/s)^2. The printed form leaves out lambda A, the mean height of the wave. For a Fourier series r is
 2^((k-1)/2) G((1+k)/2) lambda^((1+k)/2) times the maximum of zeta for loading, and minus its minimum for unloading,
-(5.21)-(5.25). For a punch r^m/m the first terms are those of `hertz.power_indentation`. Lengths are in R, loads in
-1.5 pi R dgamma, M in dgamma/R^(1+k). Source: Jin, Guo & Wan (2013) as corrected in docs/theory.md.
+(5.21)-(5.25). For a punch r^m/m the first terms are those of `hertz.power_indentation`.
 """
 
 import math
-from typing import Annotated
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.special import gamma
 
 from gradhesion.core.equations import hertz
 from gradhesion.core.equations._arguments import (
-    Amplitude,
-    Cosines,
-    Gradient,
-    MeanHeight,
-    Power,
-    Radius,
-    Sines,
-    Stiffness,
-    StiffnessOrInf,
-    Wavelength,
-    documented,
+    Array,
+    Real,
+    Waves,
+    describe,
+    exponent_of,
+    not_negative,
+    positive,
+    power_of,
 )
-from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive, power_of
+from gradhesion.core.equations._crests import swings_of
 from gradhesion.core.equations.general import harmonics
 
-_SAMPLES = 64
-_NEWTON_STEPS = 6
-"""Newton's steps from 1/128 of the shortest wave: four suffice."""
 
-Pull = Annotated[ArrayLike, "s - r for loading, s + r for unloading, over R^((1+k)/2)."]
-PositivePull = Annotated[ArrayLike, "s - r for loading, s + r for unloading, over R^((1+k)/2), > 0."]
-
-
-@documented
-def adhesion_strength(k: Gradient, stiffness: StiffnessOrInf) -> Array:
-    """Return s/R^((1+k)/2) = sqrt(2^(1+k) pi dgamma/M).
-
-    Examples
-    --------
-    >>> float(adhesion_strength(0.0, 200.0 * np.pi).round(12))
-    0.1
-    """
+def adhesion_strength(k: Real, stiffness: Real) -> Array:
+    """Return s/R^((1+k)/2) = sqrt(2^(1+k) pi dgamma/M)."""
     return np.sqrt(2.0 ** (1.0 + exponent_of(k)) * math.pi / positive(stiffness))
 
 
-@documented
-def waviness_strength(k: Gradient, wavelength: Wavelength, amplitude: Amplitude) -> Array:
+def waviness_strength(k: Real, wavelength: Real, amplitude: Real) -> Array:
     """Return r/R^((1+k)/2) = pi^((1-k)/2) G((1+k)/2) A lambda^((1+k)/2) of one cosine wave.
 
-    Examples
-    --------
     >>> waviness_strength([0.0, 1.0], 0.01, 0.02).round(6).tolist()
     [0.006283, 0.0002]
     """
@@ -69,86 +46,29 @@ def waviness_strength(k: Gradient, wavelength: Wavelength, amplitude: Amplitude)
     return math.pi ** (1.0 - n) * gamma(n) * not_negative(amplitude) * positive(wavelength) ** n
 
 
-@documented
-def series_strengths(k: Gradient, wavelength: Wavelength, cosines: Cosines, sines: Sines = ()) -> tuple[Array, Array]:
-    """Return r/R^((1+k)/2) of a Fourier series, for loading and for unloading (5.21)-(5.25).
-
-    Returns
-    -------
-    Two arrays of the broadcast shape; NaN outside the ranges. The extrema of zeta are the true ones: every local
-    extremum of 64 samples for each wave of the shortest harmonic is refined by Newton's method; the best counts.
-
-    Examples
-    --------
-    >>> one, other = series_strengths(0.0, 0.01, [-0.02])
-    >>> one.round(6) == other.round(6) == waviness_strength(0.0, 0.01, 0.02).round(6)
-    np.True_
-    """
+def series_strengths(k: Real, wavelength: Real, cosines: Waves, sines: Waves = ()) -> tuple[Array, Array]:
+    """Return r/R^((1+k)/2) of a Fourier series, for loading and for unloading (5.21)-(5.25)."""
     n = 0.5 * (1.0 + exponent_of(k))
     size = 2.0 ** (n - 1.0) * gamma(n) * positive(wavelength) ** n
     lowest, highest = zeta_extrema(k, cosines, sines)
     return size * highest, -size * lowest
 
 
-@documented
-def zeta_extrema(k: Gradient, cosines: Cosines, sines: Sines = ()) -> tuple[Array, Array]:
-    """Return the true minimum and maximum of zeta (5.17) over its period.
-
-    Returns
-    -------
-    Two arrays of the shape of `k`; NaN outside the range.
-
-    Examples
-    --------
-    >>> [float(value.round(12)) for value in zeta_extrema(1.0, [-0.02])]
-    [-0.02, 0.02]
-    """
-    exponents = exponent_of(k)[..., None]
-    waves = harmonics(cosines, sines)
-    count = _SAMPLES * max(1, len(waves))
-    turns = np.broadcast_to(np.arange(count) / count, (*exponents.shape[:-1], count))
-
-    def derivative(xi: Array, order: int) -> Array:
-        # a derivative of a harmonic is (2 pi n)^order of it, a quarter turn on
-        total = np.zeros(np.broadcast_shapes(exponents.shape, xi.shape))
-        for n, a_n, b_n in waves:
-            phase = 2.0 * math.pi * np.mod(n * xi, 1.0) - 0.25 * math.pi * (1.0 + exponents) + 0.5 * math.pi * order
-            size = (2.0 * math.pi * n) ** (0.5 * (1.0 - exponents) + order)
-            total = total + size * (b_n * np.cos(phase) - a_n * np.sin(phase))
-        return total
-
-    values = derivative(turns, 0)
-    extreme = []
-    for sign in (-1.0, 1.0):
-        crests = sign * values
-        local = (crests >= np.roll(crests, 1, -1)) & (crests >= np.roll(crests, -1, -1))
-        xi = turns
-        for _ in range(_NEWTON_STEPS):
-            bend = sign * derivative(xi, 2)
-            step = np.divide(-sign * derivative(xi, 1), bend, out=np.zeros_like(bend), where=bend < 0.0)
-            xi = turns + np.clip(xi + step - turns, -1.0 / count, 1.0 / count)
-        refined = np.maximum(sign * derivative(xi, 0), crests)
-        extreme.append(sign * np.max(np.where(local, refined, crests), axis=-1))
-    return extreme[0], extreme[1]
+def zeta_extrema(k: Real, cosines: Waves, sines: Waves = ()) -> tuple[Array, Array]:
+    """Return the true minimum and maximum of zeta (5.17) over its period."""
+    exponents = exponent_of(k)
+    rows = tuple((float(n), -a_n, b_n) for n, a_n, b_n in harmonics(cosines, sines) if a_n != 0.0 or b_n != 0.0)
+    up, down = swings_of(exponents, rows)
+    size = (2.0 * math.pi) ** (0.5 * (1.0 - exponents))
+    return -size * down, size * up
 
 
-@documented
-def power_pull_off(k: Gradient, stiffness: Stiffness, pull: PositivePull, exponent: Power = 2.0) -> tuple[Array, Array]:
-    """Return the radius and the force of pull-off of an envelope of any power m.
+def power_pull_off(k: Real, stiffness: Real, pull: Real, exponent: Real = 2.0) -> tuple[Array, Array]:
+    """Return a/R and F/(1.5 pi R dgamma) of pull-off of an envelope of any power m.
 
     With G the factor of `hertz.power_indentation` and c = (1-k)/2,
 
         a^(m-c) = (3+k) (s+r)/(2 m G),   F = K (s+r) a^((3+k)/2) (m-c)/(1+k+m)
-
-    Returns
-    -------
-    a/R and F/(1.5 pi R dgamma), of the broadcast shape; NaN outside the ranges.
-
-    Examples
-    --------
-    >>> s, r = adhesion_strength(0.2, 500.0), waviness_strength(0.2, 0.01, 0.02)
-    >>> bool(abs(power_pull_off(0.2, 500.0, s + r)[1] / pull_off_force(0.2, r / s) - 1) < 1e-14)
-    True
     """
     gradient, hold, m = exponent_of(k), positive(pull), power_of(exponent)
     c = 0.5 * (1.0 - gradient)
@@ -157,22 +77,12 @@ def power_pull_off(k: Gradient, stiffness: Stiffness, pull: PositivePull, expone
     return radius, hertz.disc_stiffness(k, stiffness, radius) * hold * radius**c * (m - c) / (1.0 + gradient + m)
 
 
-@documented
-def power_radii(k: Gradient, pull: PositivePull, exponent: Power = 2.0) -> tuple[Array, Array]:
-    """Return the radii of an envelope of any power m at the depth 0 and at its fold, (5.34) and (5.35).
+def power_radii(k: Real, pull: Real, exponent: Real = 2.0) -> tuple[Array, Array]:
+    """Return a_2/R and a_4/R of an envelope of any power m, at the depth 0 and at its fold, (5.34) and (5.35).
 
         a_2^(m-c) = pull/G,   a_4^(m-c) = (1-k) pull/(2 m G)
 
     depths counted from the mean surface, with G the factor of `hertz.power_indentation` and c = (1-k)/2.
-
-    Returns
-    -------
-    a_2/R and a_4/R, of the broadcast shape; NaN outside the ranges.
-
-    Examples
-    --------
-    >>> [float(radius.round(12)) for radius in power_radii(0.0, 0.008)]
-    [0.04, 0.01587401052]
     """
     gradient, hold, m = exponent_of(k), positive(pull), power_of(exponent)
     c = 0.5 * (1.0 - gradient)
@@ -180,27 +90,21 @@ def power_radii(k: Gradient, pull: PositivePull, exponent: Power = 2.0) -> tuple
     return ratio ** (1.0 / (m - c)), (c * ratio / m) ** (1.0 / (m - c))
 
 
-@documented
-def pull_off_force(k: Gradient, ratio: Annotated[ArrayLike, "r/s >= 0."]) -> Array:
+def pull_off_force(k: Real, ratio: Real) -> Array:
     """Return the pull-off force of the unloading envelope over 1.5 pi R dgamma, (3+k)/3 (1+r/s)^2.
 
     The exact force tends to it as lambda -> 0 at fixed r/s, with an error of the order (lambda/a)^2, below it except
     for k near 1.
 
-    Examples
-    --------
     >>> pull_off_force([0.0, 0.6], 0.5).round(12).tolist()
     [2.25, 2.7]
     """
     return (3.0 + exponent_of(k)) / 3.0 * (1.0 + not_negative(ratio)) ** 2
 
 
-@documented
-def indentation(k: Gradient, radius: Radius, pull: Pull, mean_height: MeanHeight = 0.0, exponent: Power = 2.0) -> Array:
+def indentation(k: Real, radius: Real, pull: Real, mean_height: Real = 0.0, exponent: Real = 2.0) -> Array:
     """Return the depth delta/R on an envelope (5.26).
 
-    Examples
-    --------
     >>> s, r = adhesion_strength(0.0, 500.0), waviness_strength(0.0, 0.01, 0.02)
     >>> indentation(0.0, 0.3, [s - r, s + r], 0.01 * 0.02).round(6).tolist()
     [0.032242, 0.025359]
@@ -210,17 +114,12 @@ def indentation(k: Gradient, radius: Radius, pull: Pull, mean_height: MeanHeight
     return smooth + np.asarray(mean_height, dtype=float)
 
 
-@documented
-def load(k: Gradient, stiffness: Stiffness, radius: Radius, pull: Pull, exponent: Power = 2.0) -> Array:
-    """Return the load P/(1.5 pi R dgamma) on an envelope (5.27).
-
-    Examples
-    --------
-    >>> s, r = adhesion_strength(0.0, 500.0), waviness_strength(0.0, 0.01, 0.02)
-    >>> load(0.0, 500.0, 0.3, [s - r, s + r]).round(4).tolist()
-    [0.13, -0.3082]
-    """
+def load(k: Real, stiffness: Real, radius: Real, pull: Real, exponent: Real = 2.0) -> Array:
+    """Return the load P/(1.5 pi R dgamma) on an envelope (5.27)."""
     a, gradient, m = not_negative(radius), exponent_of(k), power_of(exponent)
     smooth = hertz.power_indentation(k, a, m) * m / (1.0 + gradient + m)
     hold = np.asarray(pull, dtype=float) * a ** (0.5 * (1.0 - gradient))
     return hertz.disc_stiffness(k, stiffness, a) * (smooth - hold)
+
+
+describe(__name__)

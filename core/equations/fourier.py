@@ -3,10 +3,9 @@
     f2(xi) = a0/2 + sum_n [a_n cos 2 pi n xi + b_n sin 2 pi n xi]
     a_n = 2 int_{-1/2}^{1/2} f2(xi) cos(2 pi n xi) d(xi),   b_n = 2 int_{-1/2}^{1/2} f2(xi) sin(2 pi n xi) d(xi)
 
-They turn a waviness that is measured, or given as a function, into the series of general.py. The rule is that
-of equal steps, which is exact for a series and converges faster than any power of the step for a smooth periodic f2. As
-f2(0) = 0 in the theory, a0/2 = -sum a_n is not needed: a constant height of f2 only shifts the punch.
-Source: Jin, Guo & Wan (2013).
+They turn a waviness that is measured, or given as a function, into the series of general.py. The rule is that of equal
+steps, which is exact for a series and converges faster than any power of the step for a smooth periodic f2. As f2(0)
+= 0 in the theory, a0/2 = -sum a_n is not needed: a constant height of f2 only shifts the punch.
 """
 
 from collections.abc import Callable
@@ -15,7 +14,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gradhesion.core.equations._domain import Array
+from gradhesion.core.equations._arguments import Array, describe
 
 _MOST: Final = 2**20
 """Most samples of a period."""
@@ -34,15 +33,8 @@ def sampled_coefficients(heights: ArrayLike, terms: int) -> tuple[list[float], l
     Returns
     -------
     The lists a_1, a_2, ... and b_1, b_2, ..., as general.py takes them. Exact to rounding for a series of fewer than
-    N - terms harmonics.
+    N - terms harmonics. Others, and samples that are not finite, are a ValueError.
 
-    Raises
-    ------
-    ValueError
-        For more harmonics than the samples resolve, or for samples that are not finite.
-
-    Examples
-    --------
     >>> cosines, sines = sampled_coefficients([0.0, 0.04, 0.0, -0.04], 1)
     >>> abs(cosines[0]) < 1e-17, round(sines[0], 12)
     (True, 0.04)
@@ -71,16 +63,8 @@ def coefficients(waviness: Callable[[Array], Array], terms: int) -> tuple[list[f
     -------
     The lists a_1, a_2, ... and b_1, b_2, ..., as general.py takes them. Samples are doubled until no coefficient
     changes by more than 1e-11 of the largest |f2|; for a smooth f2 they are more accurate. One with corners needs
-    some 2^19 samples.
+    some 2^19 samples, and one with steps, which 2^20 do not resolve, or one that is not finite is a ValueError.
 
-    Raises
-    ------
-    ValueError
-        For fewer than one harmonic, a function that is not finite, or one that 2^20 samples do not resolve, as one with
-        steps.
-
-    Examples
-    --------
     A wave of flat valleys: A (1 - cos)^2 = A (3/2 - 2 cos + cos(2 .)/2).
 
     >>> cosines, _ = coefficients(lambda xi: 0.01 * (1 - np.cos(2 * np.pi * xi)) ** 2, 3)
@@ -101,3 +85,6 @@ def coefficients(waviness: Callable[[Array], Array], terms: int) -> tuple[list[f
             return cosines, sines
         before, count = now, 2 * count
     raise ValueError(f"the waviness is not resolved by {_MOST:,} samples of its period; it is to be continuous")
+
+
+describe(__name__)

@@ -2,12 +2,11 @@
 
     gap(r) = u_z(r) - delta + f(r) = (2/pi) cos(k pi/2) int_a^r s^k (delta_H(s) - delta) (r^2-s^2)^(-(1+k)/2) ds
 
-which is (3.5) with the adhesive part (4.10), in one integral. Contact over one disc requires gap(r) >= 0 for all
-r > a; delta_H(s) >= delta for all s > a is sufficient. The integral is a sum of Gauss rules: Jacobi's in the last
-panel, which takes the singular end r by its weight, and Legendre's in panels that grow from there by a factor of 2 to
-at most half a wave, and likewise from a, where s^k is not smooth at s = 0. As k tends to 1 all of the weight moves to
-r: that part is left out of the sum. For millions of points this is slow.
-Source: Jin, Guo & Wan (2013), section 12 of docs/theory.md.
+which is (3.5) with the adhesive part (4.10), in one integral. Contact over one disc requires gap(r) >= 0 for all r > a;
+delta_H(s) >= delta for all s > a is sufficient. The integral is a sum of Gauss rules: Jacobi's in the last panel, which
+takes the singular end r by its weight, and Legendre's in panels that grow from there by a factor of 2 to at most half a
+wave, and likewise from a, where s^k is not smooth at s = 0. As k tends to 1 all of the weight moves to r: that part is
+left out of the sum. For millions of points this is slow.
 """
 
 import math
@@ -19,40 +18,29 @@ from scipy.special import roots_legendre
 
 from gradhesion.core.equations import _abel, general, hertz, profile
 from gradhesion.core.equations._arguments import (
-    Amplitude,
-    Cosines,
-    Depth,
-    Gradient,
-    Outside,
-    PositiveRadius,
-    Power,
-    Sines,
-    Wavelength,
-    documented,
+    Array,
+    Real,
+    Waves,
+    describe,
+    exponent_of,
+    not_negative,
+    point_by_point,
+    positive,
+    power_of,
 )
-from gradhesion.core.equations._domain import Array, exponent_of, not_negative, point_by_point, positive, power_of
 
 _NODES: Final = 24
 _LEGENDRE: Final = roots_legendre(_NODES)
 
 
-@documented
 def gap(
-    k: Gradient,
-    distance: Outside,
-    radius: PositiveRadius,
-    depth: Depth,
-    wavelength: Wavelength,
-    amplitude: Amplitude,
-    exponent: Power = 2.0,
+    k: Real, distance: Real, radius: Real, depth: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0
 ) -> Array:
     """Return gap/R at a distance r from the axis, around contact over a disc of radius a at a depth delta (2.2).
 
     It is negative where the surfaces would overlap. Accurate to 1e-12 of the largest delta_H between a and r
     (tests/core/equations/test_gap.py).
 
-    Examples
-    --------
     A profile that rises everywhere, and yet no contact over one disc:
 
     >>> from gradhesion.core.equations import jkr
@@ -70,20 +58,11 @@ def gap(
     )
 
 
-@documented
 def surface(
-    k: Gradient,
-    distance: Outside,
-    radius: PositiveRadius,
-    depth: Depth,
-    wavelength: Wavelength,
-    amplitude: Amplitude,
-    exponent: Power = 2.0,
+    k: Real, distance: Real, radius: Real, depth: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0
 ) -> Array:
     """Return u_z/R, how far the surface of the half-space is pressed in at a distance r >= a (3.5), (4.10).
 
-    Examples
-    --------
     Around a flat disc on a homogeneous half-space the depth falls as (2/pi) asin(a/r). Here a paraboloid is pulled out
     by 1 from its Hertzian depth, and the difference is that of a flat disc:
 
@@ -95,25 +74,17 @@ def surface(
     return opening + np.asarray(depth, dtype=float) - profile.height(distance, wavelength, amplitude, exponent)
 
 
-@documented
 def series_gap(
-    k: Gradient,
-    distance: Outside,
-    radius: PositiveRadius,
-    depth: Depth,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
-    exponent: Power = 2.0,
+    k: Real,
+    distance: Real,
+    radius: Real,
+    depth: Real,
+    wavelength: Real,
+    cosines: Waves,
+    sines: Waves = (),
+    exponent: Real = 2.0,
 ) -> Array:
-    """Return gap/R around a punch whose waviness is a Fourier series (2.2).
-
-    Examples
-    --------
-    >>> one, series = gap(0.3, 0.25, 0.2, 0.01, 0.1, 0.02), series_gap(0.3, 0.25, 0.2, 0.01, 0.1, [-0.02])
-    >>> bool(abs(one - series) < 1e-14)
-    True
-    """
+    """Return gap/R around a punch whose waviness is a Fourier series (2.2)."""
     shortest = max(1, len(cosines), len(sines))
 
     def at(k: float, r: float, a: float, level: float, length: float, m: float) -> float:
@@ -125,24 +96,17 @@ def series_gap(
     return point_by_point(at, exponent_of(k), positive(distance), positive(radius), depth, positive(wavelength), power)
 
 
-@documented
 def series_surface(
-    k: Gradient,
-    distance: Outside,
-    radius: PositiveRadius,
-    depth: Depth,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
-    exponent: Power = 2.0,
+    k: Real,
+    distance: Real,
+    radius: Real,
+    depth: Real,
+    wavelength: Real,
+    cosines: Waves,
+    sines: Waves = (),
+    exponent: Real = 2.0,
 ) -> Array:
-    """Return u_z/R, how far the surface is pressed in outside a punch whose waviness is a Fourier series (4.3), (4.10).
-
-    Examples
-    --------
-    >>> float(series_surface(1.0, 0.25, 0.2, 0.03, 0.1, [-0.02], [0.01]).round(12))
-    0.0
-    """
+    """Return u_z/R, how far the surface is pressed in outside a punch of any series (4.3), (4.10)."""
     opening = series_gap(k, distance, radius, depth, wavelength, cosines, sines, exponent)
     r, m, length = positive(distance), power_of(exponent), positive(wavelength)
     height = r**m / m + length * general.waviness(r / length, cosines, sines)
@@ -183,3 +147,6 @@ def _panels(a: float, r: float, widest: float) -> Array:
         low = edges[-1]
         edges.append(min(last, low + min(widest, low, 0.5 * (r - low))))
     return np.array([*edges, r])
+
+
+describe(__name__)

@@ -5,51 +5,39 @@
     I       gains 2 pi a^(2+k) sum_n n [-a_n S1(n z) + b_n C1(n z)]
 
 with the integrals of pair.py: a harmonic n is a wave n times shorter. One cosine wave A (1 - cos 2 pi xi) is
-cosines = [-A]. Lengths are in R, loads in 1.5 pi R dgamma, M in dgamma/R^(1+k). Source: Jin, Guo & Wan (2013).
+cosines = [-A].
 """
 
 import math
 from collections.abc import Sequence
-from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gradhesion.core.equations import hertz, jkr
 from gradhesion.core.equations._arguments import (
-    Cosines,
-    Gradient,
-    Power,
-    Radius,
-    Sines,
-    Stiffness,
-    StiffnessOrInf,
-    Wavelength,
-    documented,
+    Array,
+    Real,
+    Waves,
+    describe,
+    exponent_of,
+    not_negative,
+    positive,
+    power_of,
 )
-from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive, power_of
 from gradhesion.core.equations.pair import cosine_integrals, sine_integrals
 
 
 def harmonics(cosines: Sequence[float], sines: Sequence[float] = ()) -> list[tuple[int, float, float]]:
-    """Return (n, a_n, b_n) of every harmonic, the shorter list filled up with zeros.
-
-    Examples
-    --------
-    >>> harmonics([-0.02], [0.0, 0.01])
-    [(1, -0.02, 0.0), (2, 0.0, 0.01)]
-    """
+    """Return (n, a_n, b_n) of every harmonic, the shorter list filled up with zeros."""
     count = max(len(cosines), len(sines))
     pairs = zip([*cosines, *[0.0] * (count - len(cosines))], [*sines, *[0.0] * (count - len(sines))], strict=True)
     return [(n, float(a_n), float(b_n)) for n, (a_n, b_n) in enumerate(pairs, start=1)]
 
 
-@documented
-def waviness(xi: Annotated[ArrayLike, "r/lambda, any."], cosines: Cosines, sines: Sines = ()) -> Array:
+def waviness(xi: Real, cosines: Waves, sines: Waves = ()) -> Array:
     """Return f2(xi), the waviness over its wavelength; f2(0) = 0.
 
-    Examples
-    --------
     >>> waviness([0.25, 0.5], [-0.02], [0.0, 0.01]).round(12).tolist()
     [0.02, 0.04]
     """
@@ -60,80 +48,37 @@ def waviness(xi: Annotated[ArrayLike, "r/lambda, any."], cosines: Cosines, sines
     return total
 
 
-@documented
 def hertz_indentation(
-    k: Gradient, radius: Radius, wavelength: Wavelength, cosines: Cosines, sines: Sines = (), exponent: Power = 2.0
+    k: Real, radius: Real, wavelength: Real, cosines: Waves, sines: Waves = (), exponent: Real = 2.0
 ) -> Array:
-    """Return delta_H/R, the depth of contact over a disc without adhesion (3.9).
-
-    Examples
-    --------
-    >>> float(hertz_indentation(1.0, 0.05, 0.1, [-0.02], [0.01]).round(12))
-    0.00525
-    """
+    """Return delta_H/R, the depth of contact over a disc without adhesion (3.9)."""
     wave, _ = _integrals(k, radius, wavelength, cosines, sines)
     return hertz.power_indentation(k, radius, exponent) + not_negative(radius) * wave
 
 
-@documented
 def hertz_load(
-    k: Gradient,
-    stiffness: Stiffness,
-    radius: Radius,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
-    exponent: Power = 2.0,
+    k: Real, stiffness: Real, radius: Real, wavelength: Real, cosines: Waves, sines: Waves = (), exponent: Real = 2.0
 ) -> Array:
-    """Return P_H/(1.5 pi R dgamma), the load of contact over a disc without adhesion (3.10).
-
-    Examples
-    --------
-    >>> one = hertz_load(0.3, 500.0, 0.2, 0.1, [-0.02])
-    >>> bool(abs(one / hertz.load(0.3, 500.0, 0.2, 0.1, 0.02) - 1) < 1e-12)
-    True
-    """
+    """Return P_H/(1.5 pi R dgamma), the load of contact over a disc without adhesion (3.10)."""
     first, second = _integrals(k, radius, wavelength, cosines, sines)
     m = power_of(exponent)
     smooth = hertz.power_indentation(k, radius, m) * m / (1.0 + exponent_of(k) + m)
     return hertz.disc_stiffness(k, stiffness, radius) * (smooth + not_negative(radius) * (first - second))
 
 
-@documented
 def indentation(
-    k: Gradient,
-    stiffness: StiffnessOrInf,
-    radius: Radius,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
-    exponent: Power = 2.0,
+    k: Real, stiffness: Real, radius: Real, wavelength: Real, cosines: Waves, sines: Waves = (), exponent: Real = 2.0
 ) -> Array:
-    """Return the depth delta/R in adhesive equilibrium (4.8), (5.8), (5.12)-(5.14).
-
-    Examples
-    --------
-    >>> float(indentation(0.0, 200.0 * np.pi, 0.25, 0.1, [-0.02]).round(6))
-    0.021571
-    """
+    """Return the depth delta/R in adhesive equilibrium (4.8), (5.8), (5.12)-(5.14)."""
     hertzian = hertz_indentation(k, radius, wavelength, cosines, sines, exponent)
     return hertzian - jkr.adhesive_depth(k, stiffness, radius)
 
 
-@documented
 def load(
-    k: Gradient,
-    stiffness: Stiffness,
-    radius: Radius,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
-    exponent: Power = 2.0,
+    k: Real, stiffness: Real, radius: Real, wavelength: Real, cosines: Waves, sines: Waves = (), exponent: Real = 2.0
 ) -> Array:
     """Return the load P/(1.5 pi R dgamma) in adhesive equilibrium (4.7), (5.9), (5.12)-(5.14).
 
-    Examples
-    --------
     A second harmonic with half the amplitude of its own wave is a wave of half the length:
 
     >>> one, other = load(0.3, 500.0, 0.2, 0.1, [0.0, -0.01]), load(0.3, 500.0, 0.2, 0.05, [-0.02])
@@ -159,3 +104,6 @@ def _integrals(
             c0, c1 = cosine_integrals(k, n * x)
             first, second = first + b_n * n * c0, second + b_n * n * c1
     return 2.0 * math.pi * first, 2.0 * math.pi * second
+
+
+describe(__name__)

@@ -4,8 +4,6 @@
     equilibrium G = dgamma:   delta = delta_H - Delta,   P = P_H - K a^(1+k) Delta
 
 Depth under displacement control folds where q = a delta_H'/Delta meets (1-k)/2, and load where it meets (3+k)/2.
-Lengths are in R, loads in 1.5 pi R dgamma, M in dgamma/R^(1+k) (core/problem/material.py). Source: Jin, Guo & Wan
-(2013).
 """
 
 import math
@@ -13,28 +11,13 @@ import math
 import numpy as np
 
 from gradhesion.core.equations import hertz
-from gradhesion.core.equations._arguments import (
-    Amplitude,
-    Depth,
-    Gradient,
-    PositiveRadius,
-    Power,
-    Radius,
-    Stiffness,
-    StiffnessOrInf,
-    Wavelength,
-    documented,
-)
-from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive, power_of
+from gradhesion.core.equations._arguments import Array, Real, describe, exponent_of, not_negative, positive, power_of
 from gradhesion.core.equations.pair import sine_integrals
 
 
-@documented
-def adhesive_depth(k: Gradient, stiffness: StiffnessOrInf, radius: Radius) -> Array:
+def adhesive_depth(k: Real, stiffness: Real, radius: Real) -> Array:
     """Return Delta/R, by which adhesion pulls the surface out at equilibrium.
 
-    Examples
-    --------
     On a homogeneous half-space sqrt(2 pi dgamma a/E*):
 
     >>> float(adhesive_depth(0.0, 200.0 * np.pi, 0.25))
@@ -45,20 +28,11 @@ def adhesive_depth(k: Gradient, stiffness: StiffnessOrInf, radius: Radius) -> Ar
     return np.sqrt(square)
 
 
-@documented
 def energy_release_rate(
-    k: Gradient,
-    stiffness: Stiffness,
-    radius: PositiveRadius,
-    depth: Depth,
-    wavelength: Wavelength,
-    amplitude: Amplitude,
-    exponent: Power = 2.0,
+    k: Real, stiffness: Real, radius: Real, depth: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0
 ) -> Array:
     """Return G/dgamma at the edge of a disc of radius a when the punch is at any depth (4.4); 1 is equilibrium.
 
-    Examples
-    --------
     >>> depth = indentation(0.3, 500.0, 0.2, 0.1, 0.02)
     >>> float(energy_release_rate(0.3, 500.0, 0.2, depth, 0.1, 0.02).round(12))
     1.0
@@ -67,39 +41,17 @@ def energy_release_rate(
     return (opening / adhesive_depth(k, stiffness, positive(radius))) ** 2
 
 
-@documented
 def indentation(
-    k: Gradient,
-    stiffness: StiffnessOrInf,
-    radius: Radius,
-    wavelength: Wavelength,
-    amplitude: Amplitude,
-    exponent: Power = 2.0,
+    k: Real, stiffness: Real, radius: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0
 ) -> Array:
-    """Return the depth delta/R in equilibrium (4.8).
-
-    Examples
-    --------
-    >>> indentation(0.0, 200.0 * np.pi, 0.25, 0.1, [0.0, 0.02]).round(6).tolist()
-    [0.0125, 0.021571]
-    """
+    """Return the depth delta/R in equilibrium (4.8)."""
     hertzian = hertz.indentation(k, radius, wavelength, amplitude, exponent)
     return hertzian - adhesive_depth(k, stiffness, radius)
 
 
-@documented
-def load(
-    k: Gradient,
-    stiffness: Stiffness,
-    radius: Radius,
-    wavelength: Wavelength,
-    amplitude: Amplitude,
-    exponent: Power = 2.0,
-) -> Array:
+def load(k: Real, stiffness: Real, radius: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0) -> Array:
     """Return the load P/(1.5 pi R dgamma) in equilibrium (4.7); negative where it pulls.
 
-    Examples
-    --------
     The pull-off of Johnson, Kendall & Roberts, met at a^3 = 9 pi R^2 dgamma/(8 E*):
 
     >>> float(load(0.0, 500.0, (9 * np.pi / 4000) ** (1 / 3), 0.1, 0.0).round(12))
@@ -109,55 +61,31 @@ def load(
     return hertz.load(k, stiffness, radius, wavelength, amplitude, exponent) - pull
 
 
-@documented
 def load_at_depth(
-    k: Gradient,
-    stiffness: Stiffness,
-    radius: Radius,
-    depth: Depth,
-    wavelength: Wavelength,
-    amplitude: Amplitude,
-    exponent: Power = 2.0,
+    k: Real, stiffness: Real, radius: Real, depth: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0
 ) -> Array:
     """Return the load P/(1.5 pi R dgamma) on a disc of fixed radius at any depth, K [a^(1+k) delta - I].
 
-      This is contact pinned at the rim of a finite punch, and the state between two equilibria during a jump.
-
-    Examples
-    --------
-    >>> depth = indentation(0.3, 500.0, 0.2, 0.1, 0.02)
-    >>> pinned, free = load_at_depth(0.3, 500.0, 0.2, depth, 0.1, 0.02), load(0.3, 500.0, 0.2, 0.1, 0.02)
-    >>> bool(abs(pinned - free) < 1e-12)
-    True
+    This is contact pinned at the rim of a finite punch, and the state between two equilibria during a jump.
     """
     raised = np.asarray(depth, dtype=float) - hertz.indentation(k, radius, wavelength, amplitude, exponent)
     rest = hertz.load(k, stiffness, radius, wavelength, amplitude, exponent)
     return rest + hertz.disc_stiffness(k, stiffness, radius) * raised
 
 
-@documented
 def fold_number(
-    k: Gradient,
-    stiffness: StiffnessOrInf,
-    radius: PositiveRadius,
-    wavelength: Wavelength,
-    amplitude: Amplitude,
-    exponent: Power = 2.0,
+    k: Real, stiffness: Real, radius: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0
 ) -> Array:
     """Return q = a delta_H'(a)/Delta(a), which decides stability.
 
-      Depth rises with the radius, and contact is stable under displacement control, where q > (1-k)/2; load rises, and
-      contact is stable under load control, where q > (3+k)/2.
-
-    Examples
-    --------
-    At the pull-off of Johnson, Kendall & Roberts:
-
-    >>> float(fold_number(0.0, 500.0, (9 * np.pi / 4000) ** (1 / 3), 0.1, 0.0).round(12))
-    1.5
+    Depth rises with the radius, and contact is stable under displacement control, where q > (1-k)/2; load rises, and
+    contact is stable under load control, where q > (3+k)/2.
     """
     a, m = positive(radius), power_of(exponent)
     s0, _, slope, _ = sine_integrals(k, a / positive(wavelength))
     z = 2.0 * math.pi * a / positive(wavelength)
     wave = 2.0 * math.pi * not_negative(amplitude) * a * (s0 + z * slope)
     return (m * hertz.power_indentation(k, a, m) + wave) / adhesive_depth(k, stiffness, a)
+
+
+describe(__name__)

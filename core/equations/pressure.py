@@ -4,9 +4,8 @@
 
 for r < a, compression positive. The integral is the contact without adhesion (3.4); the second term is a flat punch
 (3.1) that is pulled out by delta_H - delta, which is Delta in equilibrium (4.9). P = 2 pi int r p dr. For k < 1 the
-pressure is infinite at the edge r = a, unless delta = delta_H; at k = 1 it is finite there. Lengths are in R,
-pressures in dgamma/R, M in dgamma/R^(1+k) (core/problem/material.py). The profile is a power and a Fourier series as in
-general.py; one cosine wave is cosines = [-A]. Source: Jin, Guo & Wan (2013) as corrected in docs/theory.md.
+pressure is infinite at the edge r = a, unless delta = delta_H; at k = 1 it is finite there. The profile is a power and
+a Fourier series as in general.py; one cosine wave is cosines = [-A].
 """
 
 import math
@@ -16,48 +15,30 @@ from numpy.typing import ArrayLike
 
 from gradhesion.core.equations import _abel, hertz
 from gradhesion.core.equations._arguments import (
-    Cosines,
-    Depth,
-    Gradient,
-    Inside,
-    PositiveRadius,
-    Power,
-    Sines,
-    Stiffness,
-    Wavelength,
-    documented,
+    Array,
+    Real,
+    Waves,
+    describe,
+    exponent_of,
+    not_negative,
+    point_by_point,
+    positive,
+    power_of,
 )
-from gradhesion.core.equations._domain import Array, exponent_of, not_negative, point_by_point, positive, power_of
 from gradhesion.core.equations.general import harmonics, hertz_indentation
 from gradhesion.core.equations.pair import cosine_integrals, sine_integrals
 
 
 def pressure_unit(radius_of_punch: ArrayLike, work_of_adhesion: ArrayLike) -> Array:
-    """Return dgamma/R in Pa, by which pressures are multiplied for SI units.
-
-    Parameters
-    ----------
-    radius_of_punch
-        R in m.
-    work_of_adhesion
-        dgamma in J/m^2.
-
-    Examples
-    --------
-    >>> float(pressure_unit(1e-6, 0.05).round(6))
-    50000.0
-    """
+    """Return dgamma/R in Pa, by which pressures are multiplied for SI units."""
     return np.asarray(work_of_adhesion, dtype=float) / np.asarray(radius_of_punch, dtype=float)
 
 
-@documented
-def flat_pressure(k: Gradient, stiffness: Stiffness, distance: Inside, radius: PositiveRadius, depth: Depth) -> Array:
+def flat_pressure(k: Real, stiffness: Real, distance: Real, radius: Real, depth: Real) -> Array:
     """Return p R/dgamma under a flat-ended cylinder, pressed in by a depth (3.1).
 
     Infinite at r = a for k < 1. Accurate to a few units in the last place, of r and a that are given.
 
-    Examples
-    --------
     Boussinesq: E* delta/(pi sqrt(a^2-r^2)) on a homogeneous half-space.
 
     >>> float((flat_pressure(0.0, 500.0, 0.12, 0.13, 0.02) * np.pi).round(9))
@@ -71,24 +52,21 @@ def flat_pressure(k: Gradient, stiffness: Stiffness, distance: Inside, radius: P
         return np.where(pressed == 0.0, 0.0 * inside, _front(n - 1.0, positive(stiffness)) * pressed * root)
 
 
-@documented
 def hertz_pressure(
-    k: Gradient,
-    stiffness: Stiffness,
-    distance: Inside,
-    radius: PositiveRadius,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
-    exponent: Power = 2.0,
+    k: Real,
+    stiffness: Real,
+    distance: Real,
+    radius: Real,
+    wavelength: Real,
+    cosines: Waves,
+    sines: Waves = (),
+    exponent: Real = 2.0,
 ) -> Array:
     """Return p_H R/dgamma of contact without adhesion over a disc of radius a (3.4).
 
     Zero at r = a. Accurate to 1e-12 of its largest value. At r = 0 it is infinite for k = 0 where the profile has a
     slope there (a cone, or a series of sines with sum n b_n not 0).
 
-    Examples
-    --------
     Hertz: 2 E* sqrt(a^2-r^2)/(pi R).
 
     >>> float((hertz_pressure(0.0, 500.0, 0.12, 0.13, 1.0, []) * np.pi).round(9))
@@ -103,25 +81,22 @@ def hertz_pressure(
     return point_by_point(at, exponent_of(k), r, a, positive(wavelength), power_of(exponent), material)
 
 
-@documented
 def pressure(
-    k: Gradient,
-    stiffness: Stiffness,
-    distance: Inside,
-    radius: PositiveRadius,
-    depth: Depth,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
-    exponent: Power = 2.0,
+    k: Real,
+    stiffness: Real,
+    distance: Real,
+    radius: Real,
+    depth: Real,
+    wavelength: Real,
+    cosines: Waves,
+    sines: Waves = (),
+    exponent: Real = 2.0,
 ) -> Array:
     """Return p R/dgamma under a punch at any depth, over a disc of radius a (4.2); in equilibrium (4.9).
 
     Positive in compression. For k < 1 it is minus infinity at r = a where delta < delta_H, as in equilibrium, plus
     infinity where delta > delta_H. Accurate to 1e-12 of the largest of both terms.
 
-    Examples
-    --------
     An adhesive contact is pulled at its edge:
 
     >>> from gradhesion.core.equations import general
@@ -134,22 +109,10 @@ def pressure(
     return hertz_pressure(k, stiffness, distance, radius, wavelength, cosines, sines, exponent) + flat
 
 
-@documented
 def indentation_slope(
-    k: Gradient,
-    radius: PositiveRadius,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
-    exponent: Power = 2.0,
+    k: Real, radius: Real, wavelength: Real, cosines: Waves, sines: Waves = (), exponent: Real = 2.0
 ) -> Array:
-    """Return delta_H'(a), the slope of the depth of contact without adhesion over the contact radius.
-
-    Examples
-    --------
-    >>> float(indentation_slope(0.5, 0.3, 0.1, []).round(12))
-    0.4
-    """
+    """Return delta_H'(a), the slope of the depth of contact without adhesion over the contact radius."""
     a, m = positive(radius), power_of(exponent)
     smooth = m * hertz.power_indentation(k, a, m) / a
     return smooth + _wave_slope(k, a, wavelength, harmonics(cosines, sines))
@@ -195,3 +158,6 @@ def _integral(k: float, r: float, a: float, length: float, waves: list[tuple[int
     s, weights = _abel.from_zero(a, k, widest)
     rest = float(np.sum(weights * (_wave_slope(k, s, length, shown) - first) / s))
     return smooth + rest + (first * a**k / k if first != 0.0 else 0.0)
+
+
+describe(__name__)

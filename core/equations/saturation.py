@@ -16,35 +16,28 @@ falls from 1 at u = 0 to 0 at u = 1, as 1 - pi u at first. In H the terms of sec
     H ~ C1 + 4 pi (r/s) dgamma int_{a_2}^{a_am} W(u(a)) d(a^2)
 
 for a_2 well below a_e. The paper's C2 has 1 for W: it is the limit of a contact far smaller than a_e. With W the energy
-of an unbounded punch is finite. Lengths are in R, energies in R^2 dgamma.
+of an unbounded punch is finite.
 """
 
 import math
-from typing import Annotated, Final
+from typing import Final
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.special import roots_legendre
 
 from gradhesion.core.equations import effective, energy, envelopes
-from gradhesion.core.equations._arguments import Amplitude, Gradient, LargestRadius, Stiffness, Wavelength, documented
-from gradhesion.core.equations._domain import Array, exponent_of, not_negative
+from gradhesion.core.equations._arguments import Array, Real, describe, exponent_of, not_negative
 
 _NODES, _WEIGHTS = roots_legendre(64)
 _HALVINGS: Final = 60
 
-SlopeRatio = Annotated[ArrayLike, "u >= 0, the slope of the smooth punch over the steepest slope of the wave."]
 
-
-@documented
-def end_of_folds(k: Gradient, wavelength: Wavelength, amplitude: Amplitude) -> Array:
+def end_of_folds(k: Real, wavelength: Real, amplitude: Real) -> Array:
     """Return a_e/R, the radius beyond which a short wave has no folds.
 
     For A = 0.03 and lambda/R = 0.01 the last fold is 0.2 to 1.6 % further out (k from 0 to 0.5); with waves as long as
     the contact it is only an estimate.
 
-    Examples
-    --------
     >>> end_of_folds([0.0, 0.2], 0.01, 0.03).round(3).tolist()
     [8.767, 2.374]
     """
@@ -53,14 +46,11 @@ def end_of_folds(k: Gradient, wavelength: Wavelength, amplitude: Amplitude) -> A
     return (2.0 * math.pi * n * unit) ** (1.0 / n)
 
 
-@documented
-def share(ratio: SlopeRatio) -> Array:
+def share(ratio: Real) -> Array:
     """Return W(u), the mean distance of loading from unloading over the distance of the envelopes.
 
     Zero for u >= 1. Accurate to 1e-14.
 
-    Examples
-    --------
     >>> share([0.0, 0.1, 0.5, 1.0]).round(6).tolist()
     [1.0, 0.757171, 0.201452, 0.0]
     """
@@ -77,20 +67,12 @@ def share(ratio: SlopeRatio) -> Array:
     return np.where(u < 1.0, area / (2.0 * math.pi), 0.0) + 0.0 * u
 
 
-@documented
-def dissipated_energy(
-    k: Gradient, stiffness: Stiffness, wavelength: Wavelength, amplitude: Amplitude, largest_radius: LargestRadius
-) -> Array:
+def dissipated_energy(k: Real, stiffness: Real, wavelength: Real, amplitude: Real, largest_radius: Real) -> Array:
     """Return H/(R^2 dgamma) of short waves, with the saturation that C2 leaves out.
 
     NaN for r >= s and for a_am < a_2; a_am may be inf, for the saturated energy. For k = 0.2, A = 0.03 and
     M R^(1+k)/dgamma = 1009 within 4 %, 0.9 % and 0.12 % of the exact energy at lambda/R = 0.01, 0.001 and 0.0001; it is
     not for waves that end, at a_e, near a_2 or before it.
-
-    Examples
-    --------
-    >>> dissipated_energy(0.2, 1009.0, 0.001, 0.03, [5.0, np.inf]).round(2).tolist()
-    [1.09, 1.52]
     """
     n, s = 0.5 * (1.0 + exponent_of(k)), envelopes.adhesion_strength(k, stiffness)
     r = envelopes.waviness_strength(k, wavelength, amplitude)
@@ -108,16 +90,12 @@ def dissipated_energy(
     return energy.first_part(k, stiffness, wavelength, amplitude) + 4.0 * math.pi * r / s * end**2 * band
 
 
-@documented
-def saturated_share(k: Gradient) -> Array:
-    """Return w(k) = int W d(a^2)/a_e^2, so that an unbounded punch loses about C1 + 4 pi (r/s) dgamma w a_e^2.
-
-    Examples
-    --------
-    >>> saturated_share([0.0, 0.5, 1.0]).round(4).tolist()
-    [0.0529, 0.0957, 0.1397]
-    """
+def saturated_share(k: Real) -> Array:
+    """Return w(k) = int W d(a^2)/a_e^2, so that an unbounded punch loses about C1 + 4 pi (r/s) dgamma w a_e^2."""
     power = 8.0 / (1.0 + exponent_of(k))
     t = 0.5 + 0.5 * _NODES
     rate = power[..., None] * t ** (power[..., None] - 1.0) * share(t * t)
     return 0.5 * np.sum(_WEIGHTS * rate, axis=-1)
+
+
+describe(__name__)

@@ -6,43 +6,23 @@
 
 with delta_1, P_1 of the smooth adhesive punch. The printed form leaves out the second term of delta, the mean height of
 the waviness over the apex; P has none to this order. The error of delta and of P is of the order lambda/a of the term
-in zeta, so that it is not valid where the contact is no larger than a wave. Lengths are in R, loads in
-1.5 pi R dgamma, M in dgamma/R^(1+k). Source: Jin, Guo & Wan (2013) as corrected in docs/theory.md.
+in zeta, so that it is not valid where the contact is no larger than a wave.
 """
 
 import math
 from collections.abc import Sequence
-from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import gamma
 
 from gradhesion.core.equations import hertz, jkr
-from gradhesion.core.equations._arguments import (
-    Cosines,
-    Gradient,
-    PositiveRadius,
-    Power,
-    Sines,
-    Stiffness,
-    StiffnessOrInf,
-    Wavelength,
-    documented,
-)
-from gradhesion.core.equations._domain import Array, exponent_of, positive
+from gradhesion.core.equations._arguments import Array, Real, Waves, describe, exponent_of, positive
 from gradhesion.core.equations.general import harmonics
 
 
-@documented
-def zeta(k: Gradient, xi: Annotated[ArrayLike, "a/lambda, any."], cosines: Cosines, sines: Sines = ()) -> Array:
-    """Return the function of period 1 to which all waviness reduces (5.17).
-
-    Examples
-    --------
-    >>> zeta([0.0, 1.0], 0.25, [-0.02]).round(6).tolist()
-    [0.035449, 0.0]
-    """
+def zeta(k: Real, xi: Real, cosines: Waves, sines: Waves = ()) -> Array:
+    """Return the function of period 1 to which all waviness reduces (5.17)."""
     exponent, turns = exponent_of(k), np.asarray(xi, dtype=float)
     total = np.zeros(np.broadcast_shapes(exponent.shape, turns.shape)) + 0.0 * exponent
     for n, a_n, b_n in harmonics(cosines, sines):
@@ -52,24 +32,21 @@ def zeta(k: Gradient, xi: Annotated[ArrayLike, "a/lambda, any."], cosines: Cosin
     return total
 
 
-@documented
 def indentation(
-    k: Gradient,
-    stiffness: StiffnessOrInf,
-    radius: PositiveRadius,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
+    k: Real,
+    stiffness: Real,
+    radius: Real,
+    wavelength: Real,
+    cosines: Waves,
+    sines: Waves = (),
     *,
-    exponent: Power = 2.0,
-    mean_height: Annotated[bool, "Whether to add the mean height of the waves, -lambda sum a_n."] = True,
+    exponent: Real = 2.0,
+    mean_height: bool = True,
 ) -> Array:
     """Return the depth delta/R in equilibrium for waves far shorter than the contact.
 
     Off by about lambda/a of its term in zeta (exact at k = 1).
 
-    Examples
-    --------
     >>> exact = jkr.indentation(0.3, 500.0, 0.5, 0.01, 0.02)
     >>> with_mean = indentation(0.3, 500.0, 0.5, 0.01, [-0.02])
     >>> printed = indentation(0.3, 500.0, 0.5, 0.01, [-0.02], mean_height=False)
@@ -81,26 +58,12 @@ def indentation(
     return smooth + mean + _wave(k, radius, wavelength, cosines, sines)
 
 
-@documented
 def load(
-    k: Gradient,
-    stiffness: Stiffness,
-    radius: PositiveRadius,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
-    *,
-    exponent: Power = 2.0,
+    k: Real, stiffness: Real, radius: Real, wavelength: Real, cosines: Waves, sines: Waves = (), *, exponent: Real = 2.0
 ) -> Array:
     """Return the load P/(1.5 pi R dgamma) in equilibrium for waves far shorter than the contact.
 
     Off by about lambda/a of its term in zeta.
-
-    Examples
-    --------
-    >>> exact = jkr.load(0.3, 500.0, 0.5, 0.01, 0.02)
-    >>> bool(abs(load(0.3, 500.0, 0.5, 0.01, [-0.02]) - exact) < 0.002 * abs(exact))
-    True
     """
     # the smooth punch is a wave of no amplitude
     smooth = jkr.load(k, stiffness, positive(radius), wavelength, 0.0, exponent)
@@ -114,3 +77,6 @@ def _wave(
     a, length, n = positive(radius), positive(wavelength), 0.5 * (1.0 + exponent_of(k))
     size = 2.0 ** (n - 1.0) * gamma(n) * length**n * a ** (1.0 - n)
     return size * zeta(k, a / length, cosines, sines)
+
+
+describe(__name__)

@@ -5,8 +5,7 @@
 
 K_I is negative where the edge is pulled open, as p is positive in compression. The printed (4.5) has 2^(1+k/2) for
 2^(1-k/2): with it (4.4) does not hold for k > 0. The profile is that of general.py; G of one cosine wave is
-`jkr.energy_release_rate`. Lengths are in R, K_I in dgamma/R^((1+k)/2), M in dgamma/R^(1+k). Source: Jin, Guo & Wan
-(2013).
+`jkr.energy_release_rate`. Lengths are in R, K_I in dgamma/R^((1+k)/2), M in dgamma/R^(1+k).
 """
 
 import math
@@ -16,37 +15,23 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gradhesion.core.equations import general, jkr
-from gradhesion.core.equations._arguments import (
-    Cosines,
-    Depth,
-    Gradient,
-    PositiveRadius,
-    Power,
-    Sines,
-    Stiffness,
-    Wavelength,
-    documented,
-)
-from gradhesion.core.equations._domain import Array, exponent_of, positive
+from gradhesion.core.equations._arguments import Array, Real, Waves, describe, exponent_of, positive
 
 
-@documented
 def stress_intensity(
-    k: Gradient,
-    stiffness: Stiffness,
-    radius: PositiveRadius,
-    depth: Depth,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
-    exponent: Power = 2.0,
+    k: Real,
+    stiffness: Real,
+    radius: Real,
+    depth: Real,
+    wavelength: Real,
+    cosines: Waves,
+    sines: Waves = (),
+    exponent: Real = 2.0,
 ) -> Array:
     """Return K_I R^((1+k)/2)/dgamma at the edge of a disc of radius a at any depth (4.5).
 
     In equilibrium -sqrt(2 M dgamma), whatever the punch.
 
-    Examples
-    --------
     >>> depth = general.indentation(0.3, 500.0, [0.1, 0.2], 0.1, [-0.02])
     >>> (stress_intensity(0.3, 500.0, [0.1, 0.2], depth, 0.1, [-0.02]) ** 2 / 1000.0).round(12).tolist()
     [1.0, 1.0]
@@ -57,27 +42,17 @@ def stress_intensity(
     return -front * opening * (2.0 * a) ** (0.5 * n - 1.0)
 
 
-@documented
 def energy_release_rate(
-    k: Gradient,
-    stiffness: Stiffness,
-    radius: PositiveRadius,
-    depth: Depth,
-    wavelength: Wavelength,
-    cosines: Cosines,
-    sines: Sines = (),
-    exponent: Power = 2.0,
+    k: Real,
+    stiffness: Real,
+    radius: Real,
+    depth: Real,
+    wavelength: Real,
+    cosines: Waves,
+    sines: Waves = (),
+    exponent: Real = 2.0,
 ) -> Array:
-    """Return G/dgamma at the edge of a disc of radius a at any depth (4.4), for any series; 1 is equilibrium.
-
-    Examples
-    --------
-    Contact without adhesion has no crack:
-
-    >>> depth = general.hertz_indentation(0.3, 0.2, 0.1, [-0.02])
-    >>> float(energy_release_rate(0.3, 500.0, 0.2, depth, 0.1, [-0.02]))
-    0.0
-    """
+    """Return G/dgamma at the edge of a disc of radius a at any depth (4.4), for any series; 1 is equilibrium."""
     opening = _opening(k, radius, depth, wavelength, cosines, sines, exponent)
     return (opening / jkr.adhesive_depth(k, stiffness, positive(radius))) ** 2
 
@@ -94,3 +69,6 @@ def _opening(
     """Return delta_H - delta."""
     hertzian = general.hertz_indentation(k, positive(radius), wavelength, cosines, sines, exponent)
     return hertzian - np.asarray(depth, dtype=float)
+
+
+describe(__name__)

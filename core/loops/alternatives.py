@@ -8,12 +8,12 @@ from typing import Final
 
 import numpy as np
 
+from gradhesion.core.closed.reduced import WAYS
 from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
 from gradhesion.core.loops.paths.model import WAVELENGTHS, Model
 from gradhesion.core.loops.paths.path import LoopPath
 from gradhesion.core.problem.names import CLOSING
 from gradhesion.core.types import Floats
-from gradhesion.core.variables.reduced import WAYS
 
 _SEEN: Final = 5.0
 """Size of a jump, in standard deviations of the noise, from which on it shows that there are waves."""

@@ -3,12 +3,12 @@
 import math
 from typing import Any, Final
 
+from gradhesion.core.closed.reduced import parameters_from
 from gradhesion.core.loops.paths.model import Model
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN
 from gradhesion.core.problem.status import JUMP_IN_TO_RIM
 from gradhesion.core.sweep import solve
 from gradhesion.core.types import Floats
-from gradhesion.core.variables.reduced import parameters_from
 
 _ROUNDING: Final = 1e-12
 """Relative difference of radii that is rounding."""

@@ -15,17 +15,19 @@ RESULTS: Final = (
     "loading_energy",
     "unloading_energy",
 )
-"""The results of a cycle that the kernels compute, in the order of their rows (problem/results.py)."""
+"""The results of a cycle, in the order of their rows."""
+INTEGERS: Final = ("loading_jumps", "unloading_jumps")
+"""Those of them that are counts."""
 EDGE: Final = ("front_energy", "snap_in_force", "pinned_depth")
-"""Further results of a cycle whose edge opens at a larger work of adhesion than it closes at (works/cycle.py)."""
+"""Further results of a cycle whose edge opens at a larger work of adhesion than it closes at (scenes/cycles.py)."""
 RATE: Final = ("edge_speed_at_pull_off", "rate_coefficient")
 """Further results of a cycle whose edge opens at a work that grows with its speed (rate/cycle.py)."""
 OUTPUTS: Final = (*RESULTS, "turning_radius")
 """All results of a scene: those of its cycle, and where it turns."""
 REACH: Final = "reach"
-"""The largest end of a jump of an unbounded punch, a/R: `contact_slope` is computed from it (arrays/reach.py)."""
+"""The largest end of a jump of an unbounded punch, a/R: `contact_slope` is computed from it (problem/reach.py)."""
 CONTACT_SLOPE: Final = "contact_slope"
-"""The slope (a/R)^(m-1) of the punch at the largest radius on which the other outputs depend (arrays/reach.py)."""
+"""The slope (a/R)^(m-1) of the punch at the largest radius on which the other outputs depend (problem/reach.py)."""
 TURNS: Final = ("indentation_max_over_R", "load_max")
 """Where the cycle turns before the rim, at most one of them: a depth in R, or a load in 1.5 pi R dgamma."""
 PATTERN: Final = ("toughness_wavelength_over_R", "toughness_amplitude")
@@ -37,23 +39,27 @@ CLOSING: Final = "closing_ratio"
 PULL_OFF: Final = ("pull_off_force", "pull_off_radius")
 """The results that need no path of loading and unloading."""
 REPORTS: Final = (
-    "pull_off_force_error",
-    "dissipated_energy_error",
     "energy_residual",
     "roughness_parameter",
     "saturation_radius",
     "adhesion_gain",
     "energy_gain",
 )
-"""All other outputs on request, in the order of the rows (scene/cosine_report.py)."""
+"""All other outputs on request, in the order of their rows."""
+GIVEN_UP: Final = {
+    "pull_off_force_error": "its accuracy is promised in docs/accuracy.md and checked by `gradhesion verify`",
+    "dissipated_energy_error": "its accuracy is promised in docs/accuracy.md and checked by `gradhesion verify`; "
+    "energy_residual is a measure of it in every scene",
+}
+"""Outputs of earlier versions, with what stands in their place."""
 SENSITIVITIES: Final = ("pull_off_force_sensitivity", "dissipated_energy_sensitivity")
-"""How strongly a value depends on each parameter: along a last axis of parameters (sensitivities/sensitivity.py)."""
+"""How strongly a value depends on each parameter: along a last axis of parameters."""
 VALIDITY: Final = ("tabor_parameter", "wave_tabor_parameter", "wave_slope", "johnson_alpha")
 """Measures of where the model applies (closed/applicability.py): they need no solution, whatever the solver."""
 RANGE: Final = "adhesion_range_over_R"
 """The parameter of the Tabor parameters: the range of the attraction."""
 SOLVERS: Final = ("exact", "asymptotic", "envelope")
-"""For wavelengths far below the contact radius: the leading term (curve/short_wave.py), and its envelopes."""
+"""The exact one; and for wavelengths far below the contact radius the leading term, and its envelopes."""
 WITHOUT_LOAD: Final[dict[str, str]] = {
     "asymptotic": "the leading terms of depth and load belong to one energy only up to the order of lambda/a, so that "
     "under a load the work of a cycle would not be what its jumps lose",

@@ -5,8 +5,8 @@ from typing import Final
 
 CLOSINGS: Final = ("quasi-static", "same")
 """How the contact closes: at the work of closing whatever the speed, or at w_c/[1 + (v/v*)^n]."""
-MOST_WAVES: Final = 100_000.0
-"""Most waves of the shortest harmonic that are followed, in about a second."""
+MOST_WAVES: Final = 16_000.0
+"""Most waves of the shortest harmonic that are followed: a table of them has 75 MB."""
 EXPONENTS: Final = (0.1, 2.0)
 """The range of n within which the solver has been measured; elastomers have 0.1 to 0.8."""
 

@@ -1,9 +1,10 @@
 """A profile in the form that kernels use: its power's factor, its harmonics as rows, and when it is one cosine wave."""
 
+from collections.abc import Mapping
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.problem.profile import Profile
 
@@ -48,3 +49,13 @@ def equivalent_wave(profile: Profile) -> tuple[int, float] | None:
         return 1, 0.0
     n, even, odd = rows[0].tolist()
     return (int(n), n * even) if even > 0.0 and odd == 0.0 else None
+
+
+def starts_downwards(parameters: Mapping[str, ArrayLike], profile: Profile) -> NDArray[np.bool_]:
+    """Report which punches are lower beside their tip than at it, so that contact without adhesion starts by a jump."""
+    wavelength, amplitude = (np.asarray(parameters[name], dtype=float) for name in ("lambda_over_R", "A"))
+    m = profile.exponent
+    tip = 2.0 * np.pi * amplitude * sum(wave.n * wave.sin for wave in profile.harmonics) + (m == 1.0)
+    bow = 2.0 * np.pi**2 * amplitude / wavelength * sum(wave.n**2 * wave.cos for wave in profile.harmonics)
+    bow = bow + (0.5 if m == 2.0 else np.inf if 1.0 < m < 2.0 else 0.0)
+    return np.asarray((tip < 0.0) | ((tip == 0.0) & (bow < 0.0)))

@@ -3,9 +3,9 @@
 from typing import Final
 
 LOADING_NOT_ONE_DISC: Final = 1
-"""On loading the surfaces would overlap outside the contact, so that it is not one disc
-(contact/disc.py); or a punch of several waves touches elsewhere before its centre does. Reported if the loading
-path is followed, that is, if an output other than those of the pull-off is requested."""
+"""On loading the surfaces would overlap outside the contact, so that it is not one disc; or a punch of several waves
+touches elsewhere before its centre does. Reported if the loading path is followed, that is, if an output other than
+those of the pull-off is requested."""
 UNLOADING_NOT_ONE_DISC: Final = 2
 """The same on unloading. It never occurs, for any profile and control (docs/theory.md, sections 12 and 15)."""
 PULL_OFF_AT_RIM: Final = 4
@@ -14,16 +14,14 @@ JUMP_IN_TO_RIM: Final = 8
 """Full contact at the first touch: the jump at the depth 0 meets no stable contact within the rim. Reported if the
 loading path is followed."""
 CLOSE_TO_A_JUMP: Final = 16
-"""An error of 1e-12 in an input could change the number of jumps, or move the pull-off to another trough."""
+"""An error of 1e-10 in an input could change the number of jumps, or move the pull-off to another trough."""
 TOLERANCE_NOT_MET: Final = 32
-"""The energy is not as accurate as promised: its estimated error, if requested, is above 1e-9 of its terms."""
+"""The value is not as accurate as promised."""
 NO_VALUE: Final = 64
 """A parameter is not a number or outside its range, or the scene cannot be resolved: the values are NaN."""
 NO_CONTACT: Final = 1024
 """The depth at which the cycle turns is below first contact: force, energies and jumps are 0, radii NaN. In studies
 that turn at a depth only, whose `status` is int16."""
-LEFT: Final = 128
-"""No flag: the loops over curves (scene/solvers.py, scene/general.py) mark rims so that a second loop is to solve."""
 TOO_MANY_WAVES: Final = 8192
 """The contact contains more waves than can be followed one by one: the values are NaN. In studies of patterns of
 toughness or of a speed only, whose `status` is int16."""

@@ -1,186 +1,134 @@
-"""From the numbers of scenes to the results of their moving edges: one scene at a time."""
+"""Arrays of scenes whose edge moves at a speed: one scene at a time, those of one exponent on one table."""
 
 import math
-from collections.abc import Callable
-from typing import Final, NamedTuple
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, Final
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.cosine import force_unit
-from gradhesion.core.curve.general import Basis, Made, curve_at
-from gradhesion.core.harmonics.series import highest_harmonic
-from gradhesion.core.numbers.circle import TWO_PI
-from gradhesion.core.problem.curves import GeneralCurves
-from gradhesion.core.problem.rate import MOST_WAVES
+from gradhesion.core.jit import kernel
+from gradhesion.core.problem.names import SPEED, TURNS
+from gradhesion.core.problem.rate import MOST_WAVES, Rate
 from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE, PULL_OFF_AT_RIM, TOLERANCE_NOT_MET, TOO_MANY_WAVES
-from gradhesion.core.rate.closing import close_edge
-from gradhesion.core.rate.law import Law
-from gradhesion.core.rate.opening import open_edge
-from gradhesion.core.rate.place import coordinate_of, load_of, place_at
-from gradhesion.core.rate.step import Room, room_for_steps
-from gradhesion.core.rate.stopping import stop_edge
-from gradhesion.core.types import Floats, Integers
+from gradhesion.core.processors import processors
+from gradhesion.core.rate.edge import Edge
+from gradhesion.core.rate.step import STAGES, Room
+from gradhesion.core.rate.ways import close_edge, open_edge
+from gradhesion.core.scenes import reduced as rows
+from gradhesion.core.scenes.tasks import columns_of, long_table, punch_of, scenes_of
+from gradhesion.core.sweep import request_of
+from gradhesion.core.table.basis import basis_of
+from gradhesion.core.table.layout import EXACT, Table
+from gradhesion.core.types import Floats
 
-PROMISED: Final = 1e-9
-"""Estimated error of force and energy above which a scene is reported."""
+OPENED: Final = ("pull_off_force", "pull_off_radius", "edge_speed_at_pull_off", "opening_energy", "delta_jump_out")
+CLOSED: Final = ("turning_radius", "delta_max", "closing_energy", "pinned_depth")
+"""The results of opening and closing, in the order of the rows."""
 _SLOWEST: Final = 1e-15
 """(V/v*)^n below which a step may pass the end of a branch unseen: the lag there is below rounding."""
-_AT_RIM: Final = 1e-9
-"""Relative distance, over a_t, below which an edge has not moved."""
-OPENED: Final = (
-    "pull_off_force",
-    "pull_off_radius",
-    "opening_energy",
-    "delta_jump_out",
-    "edge_speed_at_pull_off",
-    "pull_off_force_error",
-    "opening_energy_error",
-)
-"""The results of opening, in the order of the rows."""
-CLOSED: Final = (
-    "turning_radius",
-    "closing_energy",
-    "radius_at_turn",
-    "depth_at_turn",
-    "coordinate_at_turn",
-    "load_at_turn",
-    "depth_edge_stops",
-    "coordinate_edge_stops",
-    "load_edge_stops",
-    "rho_edge_stops",
-    "closing_energy_error",
-)
-"""The results of closing, in the order of the rows."""
+_AT_RIM: Final = 1.0 - 1e-9
+"""Part of the radius where it started beyond which an edge has not moved."""
 
 
-class Edges(NamedTuple):
-    """Scenes of one profile, control, exponent of the gradient and law; arrays have the shape (scenes,)."""
-
-    curves: GeneralCurves  # each with one rim: a_t/R of opening, a_max/R of closing
-    speeds: Floats  # V/v*
-    power: float  # n of the law
-    ratios: Floats  # Gamma of closing; opening does not read it
-    turns: Floats  # Y/R at which the machine turns, inf where it does at the rim; opening does not read it
-
-
-@kernel()
-def _is_in_range(made: Made, edges: Edges, i: int) -> bool:
-    """Return whether scene number i, the curve of which is given, can be solved."""
-    valid = made.valid and edges.curves.compliance[i] < math.inf
-    return valid and edges.curves.rims[i, 0] > 0.0 and 0.0 < edges.speeds[i] < math.inf
-
-
-@kernel()
-def _shortest_wave(made: Made) -> float:
-    """Return the shortest wave in wavelengths, inf of a smooth punch."""
-    highest = highest_harmonic(made.series)
-    return 1.0 / highest if highest > 0.0 else math.inf
-
-
-@kernel()
-def _open(waves: Basis, made: Made, edges: Edges, i: int, room: Room, out: Floats) -> int:
-    """Solve scene number i, the curve of which is given; return its status."""
-    curve, wavelength, length, unit = made.curve, made.wavelength, made.length, made.depth
-    x, shortest = edges.curves.rims[i, 0] / wavelength, _shortest_wave(made)
-    if not _is_in_range(made, edges, i) or not x < math.inf:
+@kernel
+def _move(edge: Edge, opens: bool, rim: float, target: float, track: Floats, out: Floats) -> int:
+    """Let one edge open from a rim, or close up to it or to a depth; store the results, and return the status."""
+    room = Room(np.empty((6, STAGES)), np.empty((2 * STAGES, 2 * STAGES + 1)), track)
+    furthest = MOST_WAVES * edge.shortest
+    if not edge.root > 0.0 or not (rim < math.inf or (target < math.inf and not opens)):
         return NO_VALUE
-    if x > MOST_WAVES * shortest:
+    if furthest < rim < math.inf and (opens or target == math.inf):
         return NO_VALUE | TOO_MANY_WAVES
-    law = Law(edges.power, 1.0, 1.0, edges.speeds[i] * length * curve.alpha / unit)
-    opened = open_edge(waves, curve, law, x, shortest, room)
-    force, area = force_unit(waves.table.k, length, unit), TWO_PI * length * length
-    if not abs(area * opened.energy) < math.inf or not abs(force * opened.load) < math.inf:
-        return NO_VALUE
-    out[0, i], out[1, i] = -force * opened.load, length * opened.z
-    out[2, i], out[3, i], out[4, i] = area * opened.energy, unit * opened.depth, opened.speed
-    out[5, i], out[6, i] = force * opened.of_load, area * opened.of_energy
-    status = PULL_OFF_AT_RIM if opened.z >= (1.0 - _AT_RIM) * TWO_PI * x else 0
-    too_slow = edges.speeds[i] ** edges.power < _SLOWEST
-    if too_slow or opened.of_load > PROMISED * abs(opened.load) or opened.of_energy > PROMISED * opened.energy:
-        status |= TOLERANCE_NOT_MET
-    return status
-
-
-@kernel()
-def _put_state(waves: Basis, made: Made, x: float, rho: float, out: Floats, row: int, i: int) -> None:
-    """Store depth and coordinate in R, and the load in 1.5 pi R dgamma, of a state."""
-    curve, unit = made.curve, made.depth
-    place = place_at(waves, curve, x)
-    out[row, i] = unit * (place.depth - place.adhesion * rho)
-    out[row + 1, i] = unit / curve.alpha * coordinate_of(curve, place, rho)
-    out[row + 2, i] = force_unit(waves.table.k, made.length, unit) * load_of(place, rho)
-
-
-@kernel()
-def _close(waves: Basis, made: Made, edges: Edges, i: int, room: Room, out: Floats) -> int:
-    """Solve scene number i, the curve of which is given; return its status."""
-    curve, wavelength, length, unit = made.curve, made.wavelength, made.length, made.depth
-    shortest, a_max, ratio = _shortest_wave(made), edges.curves.rims[i, 0], edges.ratios[i]
-    rim, target = a_max / wavelength, edges.turns[i] * curve.alpha / unit
-    if not _is_in_range(made, edges, i) or not 0.0 < ratio <= 1.0 or not (rim < math.inf or target < math.inf):
-        return NO_VALUE
+    if opens:
+        open_edge(edge, rim, room, out)
+        return NO_VALUE if math.isnan(out[0] + out[4]) else PULL_OFF_AT_RIM if out[1] >= _AT_RIM * rim else 0
     if target < 0.0:
-        out[1, i], out[10, i] = 0.0, 0.0
+        out[0], out[1], out[2], out[3] = 0.0, target, 0.0, 0.0
         return NO_CONTACT
-    law = Law(edges.power, math.sqrt(ratio), -1.0, edges.speeds[i] * length * curve.alpha / unit)
-    size = edges.curves.stretch[i] ** (2.0 / (3.0 + waves[0].k)) / wavelength
-    furthest = MOST_WAVES * shortest
-    if rim < math.inf and rim > furthest and target == math.inf:
-        return NO_VALUE | TOO_MANY_WAVES
-    turn = close_edge(waves, curve, law, rim, shortest, (size, furthest, target), room)
-    end = stop_edge(waves, curve, law, rim, shortest, turn, furthest, room.track) if turn.turned else turn
-    if not (end.x > 0.0 and turn.x > 0.0 and end.energy < math.inf):
-        return NO_VALUE | (TOO_MANY_WAVES if end.furthest > furthest else 0)
-    area = TWO_PI * length * length
-    out[0, i] = a_max if end.x == rim else wavelength * end.x
-    out[1, i] = area * end.energy
-    out[2, i] = a_max if turn.x == rim else wavelength * turn.x
-    _put_state(waves, made, turn.x, law.root - turn.lag, out, 3, i)
-    _put_state(waves, made, end.x, law.root - end.lag, out, 6, i)
-    out[9, i], out[10, i] = law.root - end.lag, area * end.of_energy
-    too_slow = edges.speeds[i] ** edges.power < _SLOWEST
-    return TOLERANCE_NOT_MET if too_slow or end.of_energy > PROMISED * (TWO_PI * end.x) ** 2 else 0
+    reached = close_edge(edge, rim, target, furthest, room, out)
+    return 0 if not math.isnan(out[3]) else NO_VALUE | TOO_MANY_WAVES if reached > furthest else NO_VALUE
 
 
-def loop_of(*, opens: bool) -> Callable[..., None]:
-    """Return the kernel that opens many scenes, or closes them: numba drops the other before it compiles it."""
+@kernel
+def move_edges(
+    punch: rows.Punch, table: Table, scenes: Floats, reduced: Floats, n: float, opens: bool, track: Floats, out: Floats
+) -> None:
+    """Open or close the contacts of scenes of one exponent by a law of the power n.
 
-    @kernel()
-    def move_edges(basis: Basis, edges: Edges, out: Floats, status: Integers) -> None:
-        """Solve scenes; `out` has the rows of `OPENED` or `CLOSED`, (rows, scenes), NaN where nothing is stored."""
-        room = room_for_steps()
-        for i in edges.curves.numbers:
-            made = curve_at(basis, edges.curves, i)
-            waves = Basis(basis.table, made.cosine_bins, made.series)
-            if opens:
-                status[i] = _open(waves, made, edges, i, room, out)
-            else:
-                status[i] = _close(waves, made, edges, i, room, out)
-
-    return move_edges
-
-
-open_scenes: Final = loop_of(opens=True)
-close_scenes: Final = loop_of(opens=False)
-
-
-@kernel()
-def track_edge(basis: Basis, edges: Edges, inwards: bool, points: int) -> tuple[int, Floats]:
-    """Follow the edge of the one scene that there is; return its status, and where it has been.
-
-    That is an array of shape (3, points): radii and depths in R, loads in 1.5 pi R dgamma.
+    `scenes` and `reduced` are those of scenes/reduced.py, the first with a last row of V/v*. `out` has a row a result,
+    NaN where nothing is stored, and a last one of status. `track` takes where the edge of the last scene has been.
     """
-    room, out, i = room_for_steps(points), np.empty((len(CLOSED), 1)), 0
-    made = curve_at(basis, edges.curves, i)
-    waves = Basis(basis.table, made.cosine_bins, made.series)
-    status = _open(waves, made, edges, i, room, out) if inwards else _close(waves, made, edges, i, room, out)
-    number = int(room.track[0, 0])
-    found, force = np.empty((3, number)), force_unit(basis.table.k, made.length, made.depth)
-    for j in range(number):
-        x, rho = room.track[0, j + 1], room.track[1, j + 1]
-        place = place_at(waves, made.curve, x)
-        found[0, j] = x * made.wavelength
-        found[1, j] = made.depth * (place.depth - place.adhesion * rho)
-        found[2, j] = force * load_of(place, rho)
-    return status, found
+    shortest = 2.0 * math.pi / np.max(punch.waves[:, 0])
+    for i in range(scenes.shape[1]):
+        speed, units = scenes[-1, i], reduced[:, i].copy()
+        if not rows.is_valid(punch, scenes, reduced, i) or not 0.0 < speed < math.inf:
+            out[-1, i] = NO_VALUE
+            continue
+        edge = Edge(
+            table=table,
+            B=units[rows.BY_POWER],
+            g=units[rows.BY_WAVES],
+            by_load=units[rows.BY_LOAD],
+            shortest=shortest if units[rows.BY_WAVES] > 0.0 else math.inf,
+            speed=speed * units[rows.LENGTH] / units[rows.DEPTH],
+            power=n,
+            root=1.0 if opens else math.sqrt(scenes[rows.RATIO, i]),
+            sense=1.0 if opens else -1.0,
+        )
+        target = math.inf if punch.turn == rows.AT_RIM else units[rows.TARGET_VALUE]
+        status = _move(edge, opens, units[rows.RIM_Y], target, track, out[:, i])
+        too_slow = speed**n < _SLOWEST and not status & (NO_VALUE | NO_CONTACT)
+        out[-1, i] = status | (TOLERANCE_NOT_MET if too_slow else 0)
+
+
+def move(
+    parameters: Mapping[str, ArrayLike], rate: Rate, known: Mapping[str, Any], *, opens: bool, points: int = 0
+) -> dict[str, NDArray[Any]]:
+    """Return the results of contacts that open, or close by the same law G = w_c/[1 + (v/v*)^n], at a speed.
+
+    Opening goes from the radius at which rho = 1 to separation; closing starts from zero contact at Y = 0. Y is what
+    moves at the speed V: the depth, or the far end of the spring. Where the machine turns, at the depth
+    indentation_max_over_R, the edge goes on closing until G = w_c or the rim is met; a punch whose rim is met first
+    stays there. At rho <= 0 the edge follows at once.
+
+    `parameters` are those of `solve` of core/sweep.py, arrays (scenes,), and speed_over_reference V/v* > 0;
+    a_max_over_R is where opening starts. `known` has profile, loading and threads as of `solve`. `points` is the length
+    of the track of the last scene, 0 if there is more than one.
+
+    Returns arrays (scenes,) by the names of `OPENED` or `CLOSED`: those of results of cycles, opening_energy and
+    closing_energy int 2 pi a G da in R^2 dgamma, and pinned_depth how far the far end moves from where the edge rests
+    to where it opens. `status` (int16): pull_off_at_rim (the edge has moved by less than 1e-9), tolerance_not_met
+    ((V/v*)^n below 1e-15), no_contact, no_value (all values are NaN), and too_many_waves with it. `track`, (3, .):
+    radii and depths in R, loads in 1.5 pi R dgamma, step by step.
+    """
+    turn = TURNS[0] if TURNS[0] in parameters and not opens else None
+    request, shape = request_of(parameters, turn, known["profile"], known["loading"], None)
+    punch, names, (columns, count) = punch_of(request), OPENED if opens else CLOSED, columns_of(request)
+    scenes = np.vstack([scenes_of(columns, 0, count), np.broadcast_to(parameters[SPEED], shape).reshape(1, -1)])
+    reduced = rows.reduced_of(punch, basis_of(punch.exponent, punch.waves), scenes, np.ones(count), np.zeros(count))
+    out, track = np.full((len(names) + 1, count), np.nan), np.zeros((3, points))
+    out[-1] = NO_VALUE
+    far = np.where(reduced[rows.BY_WAVES] > 0.0, reduced[rows.RIM_Y if turn is None else rows.NEED], 0.0)
+    far = np.fmin(np.where(far < np.inf, far, 0.0), 2.0 * math.pi * MOST_WAVES / punch.waves[:, 0].max())
+
+    def work(k: float) -> None:
+        """Solve the scenes of one exponent."""
+        own = np.flatnonzero(scenes[rows.K] == k)
+        table, found = long_table(punch, k, EXACT, 1, float(far[own].max()))[0], out[:, own]
+        move_edges(punch, table, scenes[:, own], reduced[:, own], rate.exponent, opens, track, found)
+        out[:, own] = found
+
+    with ThreadPoolExecutor(known["threads"] or processors()) as pool:
+        list(pool.map(work, [k for k in np.unique(scenes[rows.K]).tolist() if 0.0 <= k <= 1.0]))
+    length, depth = reduced[rows.LENGTH], reduced[rows.DEPTH]
+    load, area = reduced[rows.LOAD] * rows.UNIT_OF_FORCE, 2.0 * math.pi * length**2
+    units = (-load, length, 1.0, area, depth) if opens else (length, depth, area, depth)
+    found: dict[str, NDArray[Any]] = {name: row * unit for name, row, unit in zip(names, out, units, strict=False)}
+    if not opens:  # a rim that is met is the one that was given
+        rim, radius = scenes[rows.RIM], found["turning_radius"]
+        found["turning_radius"] = np.where(radius > rim * (1.0 - 1e-15), rim, radius)
+    if points > 0:
+        found["track"] = track[:, 1 : int(track[0, 0]) + 1] * np.array([length, depth, load])
+    return found | {"status": out[-1].astype(np.int16)}

@@ -183,20 +183,6 @@ def test_quiet_is_silent(gradhesion: Call, study_file: Path, tmp_path: Path) -> 
     assert (result.stdout, result.stderr) == ("", "")
 
 
-def test_a_first_run_says_that_it_compiles(
-    gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("gradhesion.cli.work.kernels.kernels.compiled_before", lambda _kind: False)
-    quiet = gradhesion("run", study_file, "-o", tmp_path / "quiet.nc", "--quiet").stderr.splitlines()
-    lines = gradhesion("run", study_file, "-o", tmp_path / "x.nc").stderr.splitlines()
-    assert quiet == lines[:1]
-    assert re.fullmatch(
-        r"compiling about \d+ kernels, \d+ CPU seconds of one core, for .*, once per version and kind of work", lines[0]
-    )
-    assert lines[1].startswith("compiled in ")
-    assert gradhesion("plan", study_file).stderr.splitlines()[0] == lines[0]
-
-
 def test_an_existing_output_stays_without_overwrite(
     gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

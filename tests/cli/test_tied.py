@@ -13,7 +13,7 @@ from click.testing import Result
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.core import PARAMETERS, solve
-from gradhesion.core.variables.reduced import parameters_from
+from gradhesion.core.closed.reduced import parameters_from
 
 Call = Callable[..., Result]
 SAMPLE = ("--sample", "12", "--seed", "2")

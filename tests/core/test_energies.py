@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from gradhesion.core import CONTROLS, PARAMETERS, SOLVERS, Harmonic, Loading, Profile, doubts_about, draw_curves, solve
+from gradhesion.core.closed.similarity import amplitude_of_ratio
 from gradhesion.core.problem.status import LOADING_NOT_ONE_DISC
-from gradhesion.core.variables.similarity import amplitude_of_ratio
 from gradhesion.twin.general import Shape
 from gradhesion.twin.stated import deviation, expected
 

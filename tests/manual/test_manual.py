@@ -159,7 +159,7 @@ def test_no_command_hides_in_an_indented_block() -> None:
 
 
 def test_the_sources_that_a_page_names_exist() -> None:
-    folders = ("api", "benchmarks", "cli", "core", "docs", "figures", "tests", "twin", "wheels")
+    folders = ("api", "benchmarks", "cli", "core", "docs", "figures", "tests", "twin")
     sources = [f"/{path.relative_to(ROOT).as_posix()}" for name in folders for path in (ROOT / name).rglob("*.py")]
     for page in PAGES:
         for named in re.findall(r"`([\w/]+\.py)\b", page.read_text(encoding="utf-8")):

@@ -25,8 +25,8 @@ from gradhesion.cli.names.scenes import STEEP, STEEP_CONTACT
 from gradhesion.cli.study.fit.loop_files import fingerprint
 from gradhesion.cli.study.fit.study import FitStudy, unit_of_parameter
 from gradhesion.cli.study.shape_words import rate_in_words, shape_in_words, toughness_in_words
-from gradhesion.cli.work.kernels.compiling import prepare
-from gradhesion.cli.work.solve.fitting import Fit, fits_of, kinds_of_fit, range_words
+from gradhesion.cli.work.compiling import prepare
+from gradhesion.cli.work.solve.fitting import Fit, fits_of, range_words
 from gradhesion.core.problem.status import FLAGS, OF_FITS
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ _OWN_UNITS: Final = ("value", "standard_deviation", "low", "high", "low_searched
 def compute_fit(study: FitStudy) -> "xarray.Dataset":
     """Fit a study in memory: the dataset that `gradhesion run` writes to a file."""
     refuse_size(study)
-    prepare(kinds_of_fit(study))
+    prepare()
     return dataset_of(study, fits_of(study), "computed in memory")
 
 

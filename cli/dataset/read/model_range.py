@@ -14,7 +14,7 @@ from gradhesion.cli.names.outputs import CONTACT_SLOPE
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.terminal.amounts import counted
-from gradhesion.core.arrays.reach import SMALL, is_steep
+from gradhesion.core.problem.reach import SMALL, is_steep
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -17,9 +17,9 @@ from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.work.solve.blocks import awaited
 from gradhesion.cli.work.solve.given import driven_by, scales_of, scenes_of
-from gradhesion.core.arrays.processors import processors
-from gradhesion.core.arrays.reach import is_steep, slopes_of
+from gradhesion.core.problem.reach import is_steep, slopes_of
 from gradhesion.core.problem.status import NO_VALUE
+from gradhesion.core.processors import processors
 
 AHEAD: Final = 2
 """Scenes drawn ahead a thread."""
@@ -99,7 +99,7 @@ def _is_steep(study: Study, found: Mapping[str, NDArray[Any]]) -> bool:
 
 def _of_states(study: Study, scene: Mapping[str, float], curves: Sequence[str]) -> tuple[dict[str, NDArray[Any]], int]:
     """Draw the curves of the states of one scene: those of given radii, or the named ones of its cycle."""
-    from gradhesion.core.curves import states  # noqa: PLC0415 (300 ms for SciPy)
+    from gradhesion.core.draw import states  # noqa: PLC0415 (300 ms for SciPy)
 
     if study.states:
         chosen, status = states.equilibrium_states(scene, study.states, study.profile), 0

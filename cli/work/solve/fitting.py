@@ -7,8 +7,8 @@ from typing import Any, Final
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.fit.loop_file import LoopFile
 from gradhesion.cli.study.fit.study import FitStudy
-from gradhesion.core import kind_of_map
 from gradhesion.core.closed.applicability import validity
+from gradhesion.core.closed.reduced import parameters_from
 from gradhesion.core.loops.fit import fit_loop
 from gradhesion.core.loops.fitted import FittedLoop, poor_from
 from gradhesion.core.loops.paths.model import Model
@@ -16,7 +16,6 @@ from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.loops.search.speed import EXPONENT
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, RANGE
 from gradhesion.core.problem.status import POOR_FIT
-from gradhesion.core.variables.reduced import parameters_from
 
 USUAL_RANGE: Final = 3e-10
 """The range of the attraction in m where a study has none: about the distance of atoms."""
@@ -31,11 +30,6 @@ class Fit:
     loop: LoopFile
     found: FittedLoop | None
     problem: str = ""
-
-
-def kinds_of_fit(study: FitStudy) -> tuple[str, ...]:
-    """Give the kinds of work of a fit (core/kinds.py)."""
-    return (kind_of_map(["dissipated_energy"], "exact", study.profile, study.loading), "loops")
 
 
 def fitted(study: FitStudy, loop: LoopFile) -> FittedLoop:

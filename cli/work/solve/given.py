@@ -25,7 +25,7 @@ def scenes_from(given: dict[str, NDArray[np.float64]]) -> dict[str, NDArray[np.f
     """Give the parameters of scenes as the core knows them, from what a study gives."""
     if given.keys() >= {*PARAMETERS}:
         return given
-    from gradhesion.core.variables.reduced import parameters_from  # noqa: PLC0415 (300 ms for SciPy)
+    from gradhesion.core.closed.reduced import parameters_from  # noqa: PLC0415 (300 ms for SciPy)
 
     return parameters_from(given)
 
@@ -70,7 +70,7 @@ def physical_of(
     study: Study, given: Mapping[str, NDArray[np.float64]], found: Mapping[str, NDArray[Any]]
 ) -> dict[str, NDArray[np.float64]]:
     """Give the sensitivities to quantities with units, from those that are found."""
-    from gradhesion.core.sensitivities.physical import physical_sensitivities  # noqa: PLC0415 (300 ms for SciPy)
+    from gradhesion.core.answers.physical import physical_sensitivities  # noqa: PLC0415 (300 ms for SciPy)
 
     plain = {name: values for name, values in given.items() if name != RANGE and INPUTS[name].gives != RANGE}
     if study.spectrum is not None:  # the last dimension of the scenes
@@ -94,7 +94,7 @@ def scales_from(study: Study, given: Mapping[str, NDArray[np.float64]]) -> dict[
     """Give the same of scenes that are given as those of a study are."""
     if not study.in_si:
         return {}
-    from gradhesion.core.variables.reduced import scales_in_si  # noqa: PLC0415 (300 ms for SciPy)
+    from gradhesion.core.closed.reduced import scales_in_si  # noqa: PLC0415 (300 ms for SciPy)
 
     scales = scales_in_si(given["R"], given["work_of_adhesion"])
     if any(UNITS[name] == "Pa" for name in study.in_si):

@@ -16,9 +16,9 @@ from gradhesion.cli.work.solve.given import solve_given
 from gradhesion.core.answers.flags import NOTHING_FEASIBLE, RESOLUTION_TOO_COARSE
 from gradhesion.core.answers.optimum import Optima, axis_of, optima_of, sweep
 from gradhesion.core.answers.optimum_front import front
+from gradhesion.core.answers.physical import POWERS
 from gradhesion.core.answers.slopes_to_keys import slopes_to_keys
 from gradhesion.core.problem.status import LOADING_NOT_ONE_DISC, NO_VALUE
-from gradhesion.core.sensitivities.physical import POWERS
 
 Arrays = dict[str, NDArray[Any]]
 

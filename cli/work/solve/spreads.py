@@ -15,6 +15,7 @@ from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, shape_of
 from gradhesion.cli.work.solve.given import solve_given
 from gradhesion.core.answers.flags import LINEAR_DEVIATION_OFF
+from gradhesion.core.answers.physical import POWERS
 from gradhesion.core.answers.slopes_to_keys import slopes_to_keys
 from gradhesion.core.answers.uncertainty import (
     AT_FEW,
@@ -26,7 +27,6 @@ from gradhesion.core.answers.uncertainty import (
     statistics_of,
 )
 from gradhesion.core.problem.status import NO_VALUE
-from gradhesion.core.sensitivities.physical import POWERS
 
 SCENES: Final = 2**20
 """Samples that are solved at a time: some ten arrays of 8 MB are held."""

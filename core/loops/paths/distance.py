@@ -10,7 +10,7 @@ from typing import Final
 
 import numpy as np
 
-from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.jit import kernel
 from gradhesion.core.types import Floats, Integers, Truths
 
 _BLOCK: Final = 16
@@ -51,7 +51,7 @@ class Feet:
         return np.asarray(-np.einsum("ij,ijk->ik", self.normal, moved))
 
 
-@kernel()
+@kernel
 def _boxes(chain: Floats) -> Floats:
     """Return the lowest x and y, then the highest, of each block of the pieces of a chain (m, 2): (blocks, 4)."""
     pieces = chain.shape[0] - 1
@@ -66,7 +66,7 @@ def _boxes(chain: Floats) -> Floats:
     return boxes
 
 
-@kernel()
+@kernel
 def _nearest(x: float, y: float, chain: Floats, boxes: Floats, guess: int) -> tuple[int, float]:
     """Return the piece of a chain (m, 2) that is nearest to a point, and how far along it; blocks as of `_boxes`."""
     best, piece, share = np.inf, 0, 0.0
@@ -88,7 +88,7 @@ def _nearest(x: float, y: float, chain: Floats, boxes: Floats, guess: int) -> tu
     return piece, share
 
 
-@kernel()
+@kernel
 def _tangents(chain: Floats, curved: Truths) -> Floats:
     """Return dx and dy over the length of the chord at the vertices of a chain (m, 2), where it is curved: (m, 2)."""
     count = chain.shape[0]
@@ -113,7 +113,7 @@ def _tangents(chain: Floats, curved: Truths) -> Floats:
     return found
 
 
-@kernel(entry=True)
+@kernel
 def _feet(
     points: Floats, chain: Floats, curved: Truths, distance: Floats, piece: Integers, share: Floats, normal: Floats
 ) -> None:

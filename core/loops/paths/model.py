@@ -15,17 +15,16 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
+from gradhesion.core.closed.reduced import WAYS, parameters_from
 from gradhesion.core.equations import hertz, jkr
-from gradhesion.core.equations.pair import cosine_integrals
+from gradhesion.core.equations.pair import cosine_integrals, sine_integrals
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, TURNS
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.toughness import Toughness, rows_of_pattern, series_at
-from gradhesion.core.struve.table import struve_pair
 from gradhesion.core.types import Floats
-from gradhesion.core.variables.reduced import WAYS, parameters_from
 
 LINEAR: Final = ("k", "nu", "indentation_max", "closing_ratio", "toughness_amplitude", "exponent", *OFFSETS)
 """Names searched on a linear scale; all others are searched by their logarithm."""
@@ -200,7 +199,7 @@ class Model:
         for wave in self.profile.harmonics:
             size = 2.0 * math.pi * wave.n
             if wave.cos:
-                sums += size * wave.cos * struve_pair(float(k), wave.n * x)[:2]
+                sums += size * wave.cos * sine_integrals(k, wave.n * x)[:2]
             if wave.sin:
                 sums += size * wave.sin * cosine_integrals(k, wave.n * x)
         return sums

@@ -11,7 +11,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.jit import kernel
 from gradhesion.core.types import Floats, Truths
 
 _NEWTON: Final = 5
@@ -45,7 +45,7 @@ class Walk(NamedTuple):
         return float(crossing(radius[branch], level[branch], i - first, target))
 
 
-@kernel()
+@kernel
 def _top(radius: Floats, level: Floats, at: int) -> tuple[float, float]:
     """Return radius and value of a maximum near a place, by the parabola through three points; arrays (n,)."""
     if at == 0 or at == radius.size - 1:
@@ -60,7 +60,7 @@ def _top(radius: Floats, level: Floats, at: int) -> tuple[float, float]:
     return radius[at] + step, max(level[at], level[at] + step * (slope + bend * step))
 
 
-@kernel(entry=True)
+@kernel
 def crossing(radius: Floats, level: Floats, at: int, target: float) -> float:
     """Return where a target is met before a place, by the cubic through four points; arrays (n,)."""
     i = min(max(at - 2, 0), radius.size - 4)
@@ -83,14 +83,14 @@ def crossing(radius: Floats, level: Floats, at: int, target: float) -> float:
     return place
 
 
-@kernel()
+@kernel
 def _ended(radii: Floats, jump: Truths, size: int, end: float) -> int:
     """Return how many of the radii passed, shape (n,), are before the end of a branch: the last may be beyond."""
     beyond = size > 1 and not jump[size - 1] and (end - radii[size - 1]) * (radii[size - 1] - radii[size - 2]) < 0.0
     return size - 1 if beyond else size
 
 
-@kernel(entry=True)
+@kernel
 def climb(radius: Floats, level: Floats, start: float) -> tuple[Floats, Truths, Floats]:
     """Return the radii that the contact passes as a level grows.
 

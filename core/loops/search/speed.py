@@ -11,14 +11,14 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core.curves import draw_curves
+from gradhesion.core.closed.reduced import parameters_from
+from gradhesion.core.draw.draw import draw_curves
 from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.path import LoopModel, LoopPath
 from gradhesion.core.loops.search.starts import best_of, carried, coarse, roughly, shares_of
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, SPEED
 from gradhesion.core.problem.rate import EXPONENTS, Rate
 from gradhesion.core.types import Floats
-from gradhesion.core.variables.reduced import parameters_from
 
 EXPONENT: Final = "exponent"
 """The name of the power of the speed, where it is searched."""

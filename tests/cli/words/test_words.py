@@ -13,7 +13,6 @@ import gradhesion as gr
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.terminal.room import refuse_without_threads
 from gradhesion.cli.terminal.wording import MEANT, nearest
-from gradhesion.cli.work.kernels import compiling
 
 Call = Callable[..., Result]
 
@@ -125,20 +124,6 @@ def test_a_goal_in_american_spelling_is_a_goal() -> None:
         study_from({"kind": "optimum", "parameters": searched, "optimum": goal})
     (sentence,) = refused.value.mistakes
     assert 'did you mean "maximise"?' in sentence
-
-
-@pytest.mark.parametrize(
-    ("kind", "words"), [("energy", "CPU seconds of one core, for"), ("general_envelope", "compiling for")]
-)
-def test_what_is_compiled_is_said_with_its_work(
-    kind: str, words: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setattr(compiling, "missing_of", lambda _: [kind])
-    monkeypatch.setattr(compiling, "compile_kinds", lambda *_: None)
-    compiling.prepare([kind], quiet=True)
-    told = capsys.readouterr().err
-    assert words in told
-    assert " 0 " not in told
 
 
 @pytest.mark.parametrize(("name", "better"), [("foo.csv", "foo.nc"), ("foo", "foo.nc"), ("foo.v2", "foo.v2.nc")])

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from gradhesion.core import PARAMETERS, SENSITIVITIES, solve
+from gradhesion.core.answers.physical import POWERS
 from gradhesion.core.answers.slopes_to_keys import slopes_to_keys
-from gradhesion.core.sensitivities.physical import POWERS
-from gradhesion.core.variables.reduced import parameters_from, scales_in_si
+from gradhesion.core.closed.reduced import parameters_from, scales_in_si
 
 PLAIN: dict[str, Any] = dict(zip(PARAMETERS, (0.31, 0.27, 430.0, 0.013, 0.31, 0.023, 0.7), strict=True))
 REDUCED: dict[str, Any] = {

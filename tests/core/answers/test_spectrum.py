@@ -7,7 +7,7 @@ import pytest
 
 from gradhesion.core import solve
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
-from gradhesion.core.closed.crest import swings
+from gradhesion.core.equations._crests import swings
 from gradhesion.core.problem.profile import Profile
 
 EPS = np.finfo(float).eps

@@ -6,12 +6,10 @@ import mpmath
 import numpy as np
 import pytest
 
-from gradhesion.core import OUTPUTS, PARAMETERS, Harmonic, Loading, Profile, solve
-from gradhesion.core.closed.crest import swings
-from gradhesion.core.closed.general_envelope import solve_envelope
+from gradhesion.core import OUTPUTS, Harmonic, Loading, Profile, solve
 from gradhesion.core.equations import envelopes
+from gradhesion.core.equations._crests import swings
 from gradhesion.core.problem.material import stiffness
-from gradhesion.core.problem.names import RESULTS
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.twin import stated
 from gradhesion.twin.general import Shape
@@ -35,13 +33,6 @@ def _draw(count: int) -> dict[str, np.ndarray]:
     }
 
 
-def test_one_cosine_has_its_own_envelopes() -> None:
-    scenes = _draw(300)
-    one, other = solve(scenes, RESULTS, solver="envelope"), solve_envelope(scenes, PARAMETERS, RESULTS, Profile())
-    for name in RESULTS:  # a depth is a difference of terms up to 50 times larger
-        np.testing.assert_allclose(other[name], one[name], rtol=20 * EPS, atol=20 * EPS, err_msg=name)
-
-
 def test_the_twin_has_the_same_envelopes() -> None:
     scenes = _draw(40)
     values = solve(scenes, OUTPUTS, solver="envelope", profile=PROFILE)
@@ -49,20 +40,6 @@ def test_the_twin_has_the_same_envelopes() -> None:
         scene = {name: float(column[i]) for name, column in scenes.items()}
         for name, one in stated.expected(scene, OUTPUTS, "envelope", Shape(1.4, WAVES)).items():
             assert stated.deviation(float(values[name][i]), one) <= one.error, name
-
-
-@pytest.mark.parametrize("k", [0.0, 0.31, 1.0])
-def test_the_swings_are_the_extrema_of_zeta(k: float) -> None:
-    for waves in (WAVES, ((2, 0.0, -0.4),), ((1, 1.0, 0.0), (9, 0.03, 0.01))):
-        count = waves[-1][0]
-        cosines, sines = np.zeros(count), np.zeros(count)
-        for n, even, odd in waves:
-            cosines[n - 1], sines[n - 1] = -even, odd
-        low, high = envelopes.zeta_extrema(k, cosines.tolist(), sines.tolist())
-        up, down = swings(k, tuple((float(n), even, odd) for n, even, odd in waves))
-        unit = (2.0 * math.pi) ** (0.5 * (1.0 - k))
-        assert up * unit == pytest.approx(float(high), rel=20 * EPS)
-        assert down * unit == pytest.approx(-float(low), rel=20 * EPS)
 
 
 @pytest.mark.parametrize("k", [0.0, 0.31, 0.875])

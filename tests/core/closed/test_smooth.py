@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from gradhesion.core.closed import smooth
-from gradhesion.core.closed.power import power
 
 EPS = 2.0**-52
 EXPONENTS = [0.0, 1e-16, 0.27, 0.5, 0.83, 1 - 1e-12, 1.0]
@@ -36,15 +35,13 @@ def _energy(k: mpmath.mpf, z: mpmath.mpf, level: mpmath.mpf) -> mpmath.mpf:
 def test_pull_off_is_the_lowest_load(k: float) -> None:
     """P = X (X/(3+k) - 1) in units that are 4/3 of 1.5 pi R dgamma for every k."""
     force = smooth.smooth_force(k, math.inf)
-    edge = smooth.abscissa_of_pull_off(k)
-    place = math.sqrt(smooth.smooth_square(k, UNIT / (1.0 + k), edge))
+    place = smooth.smooth_places(k)[0]
     z = mpmath.findroot(lambda z: mpmath.diff(lambda y: _load(k, y), z), mpmath.mpf(1.4))
     assert abs(place / z - 1) <= 4 * EPS
     assert abs(force / (-4 * _load(k, z) / 3) - 1) <= 4 * EPS
     assert abs(force - (3 + k) / 3) <= EPS
     # on both sides of that radius: a force at the rim is as large there
-    assert smooth.is_pulled_off_at_rim(k, edge)
-    assert not smooth.is_pulled_off_at_rim(k, edge * (1 + EPS))
+    edge = 0.5 * (3.0 + k)
     assert math.isclose(smooth.smooth_force(k, edge * (1 - EPS)), force, rel_tol=2 * EPS)
 
 
@@ -71,57 +68,39 @@ def test_length_makes_the_bend_one(k: float) -> None:
 def test_cycle(k: float, rim: float) -> None:
     """At the stretch 2/(1+k) the length l is R."""
     stretch, kappa = UNIT / (1.0 + k), mpmath.mpf(k)
-    abscissa, jump_in, jump_out = of_curve(k, rim)
     goal = min(mpmath.mpf(rim), 2 ** (2 / (3 + kappa)))
     left = min(mpmath.mpf(rim), ((1 - kappa) / 2) ** (2 / (3 + kappa)))
-    assert abs(jump_in / 2 ** (4 / (3 + kappa)) - 1) <= 4 * EPS
-    assert abs(jump_out - ((1 - kappa) / 2) ** (4 / (3 + kappa))) <= 4 * EPS * jump_out
-    loaded = smooth.smooth_loading(k, abscissa, rim, jump_in)
+    loaded = smooth.smooth_loading(k, stretch, rim)
     expected = 2 * mpmath.pi * _energy(kappa, goal, mpmath.mpf(0))
     assert abs(loaded - expected) <= 8 * EPS * expected
-    unloaded = smooth.smooth_unloading(k, abscissa, rim, jump_out)
+    unloaded = smooth.smooth_unloading(k, stretch, rim)
     expected = -2 * mpmath.pi * _energy(kappa, left, _depth(kappa, left)) if left > 0 else mpmath.mpf(0)
     # 1 - k, 1 + k and 3 + k are rounded; quadrature is as good as that of terms that cancel
     assert abs(unloaded - expected) <= 16 * EPS * expected + 1e-27
-    assert smooth.smooth_jumps_out(k) == (0 if k == 1.0 else 1)
     expected_last = 2 * _depth(kappa, left) / (1 + kappa) if left > 0 else mpmath.mpf(-1)
-    square = min(rim * rim, jump_out)
-    last = smooth.smooth_last(k, stretch, square, power(math.sqrt(square), 0.5 * (1.0 - k)))
-    assert abs(last - expected_last) <= 4 * EPS
-    deepest = smooth.smooth_deepest(k, abscissa, rim)
+    assert abs(smooth.smooth_last(k, stretch, rim) - expected_last) <= 4 * EPS
+    deepest = smooth.smooth_deepest(k, stretch, rim)
     if rim < math.inf:
         depth = 2 * max(mpmath.mpf(0), _depth(kappa, mpmath.mpf(rim))) / (1 + kappa)
         assert abs(deepest - depth) <= 8 * EPS * (1 + rim**2), "a difference of two terms"
     else:
         assert deepest == math.inf
-    assert smooth.jumps_in_to_rim(abscissa) == (rim < float(2 ** (2 / (3 + kappa))))
 
 
 @pytest.mark.parametrize("k", EXPONENTS)
 def test_places_are_those_of_the_closed_forms(k: float) -> None:
     stretch, kappa = UNIT / (1.0 + k), mpmath.mpf(k)
     *radii, last = smooth.smooth_places(k)
-    abscissas = smooth.abscissa_of_pull_off(k), smooth.ABSCISSA_OF_JUMP_IN, smooth.abscissa_of_jump_out(k)
-    for radius, abscissa in zip(radii, abscissas, strict=True):
+    for radius, abscissa in zip(radii, (0.5 * (3.0 + k), smooth.ABSCISSA_OF_JUMP_IN, 0.5 * (1.0 - k)), strict=True):
         assert abs(radius**2 - smooth.smooth_square(k, stretch, abscissa)) <= 8 * EPS * radius**2
         assert abs(smooth.smooth_abscissa(k, stretch, radius) - abscissa) <= 8 * EPS * abscissa
     assert abs(last - (_depth(kappa, mpmath.mpf(radii[-1])) if k < 1.0 else -1)) <= 4 * EPS
 
 
-def of_curve(k: float, rim: float) -> tuple[float, float, float]:
-    """Return X at a rim, a_2^2 and a_1^2 where the length l is R."""
-    stretch = UNIT / (1.0 + k)
-    squares = (
-        smooth.smooth_square(k, stretch, place)
-        for place in (smooth.ABSCISSA_OF_JUMP_IN, smooth.abscissa_of_jump_out(k))
-    )
-    return smooth.smooth_abscissa(k, stretch, rim), *squares
-
-
 def losses(k: float, rim: float) -> tuple[float, float]:
     """Return what loading and unloading lose where the length l is R."""
-    abscissa, jump_in, jump_out = of_curve(k, rim)
-    return smooth.smooth_loading(k, abscissa, rim, jump_in), smooth.smooth_unloading(k, abscissa, rim, jump_out)
+    stretch = UNIT / (1.0 + k)
+    return smooth.smooth_loading(k, stretch, rim), smooth.smooth_unloading(k, stretch, rim)
 
 
 @pytest.mark.parametrize("k", [0.0, 0.27, 0.83, 1.0])

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from gradhesion.core import solve
+from gradhesion.core.closed.reduced import parameters_from
 from gradhesion.core.loops.alternatives import alternatives
-from gradhesion.core.variables.reduced import parameters_from
 from tests.core.loops.models import SCENE, UNIT, Case, R, vector
 
 FINE = Case({"chi": 0.2, "wavelength": 2e-3 * R})

@@ -6,8 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import Loading, solve
-from gradhesion.core.curves import draw_curves
+from gradhesion.core import Loading, draw_curves, solve
 from gradhesion.core.problem.rate import Rate
 
 BALL: dict[str, Any] = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.2, "A": 0.01}

@@ -1,1 +1,0 @@
-"""The kernels that a study needs, and how they are compiled ahead."""

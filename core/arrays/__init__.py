@@ -1,1 +1,0 @@
-"""Arrays of scenes: grouped by what they share, and spread over threads."""

@@ -1,0 +1,181 @@
+"""Scenes given in other variables than those of `solve`: in reduced ones, or in SI units.
+
+R, c0, wavelength, amplitude, a_max, indentation_max, toughness_wavelength and adhesion_range are in m, E_star and E =
+E_star (1 - nu^2) in Pa, work_of_adhesion and that of closing in J/m^2, spring_constant in N/m, preload in N, speeds in
+m/s. lambda_over_L, chi, a_max_over_L and a_max_over_a2 are the variables of closed/similarity.py: a_2 is that of
+loading, at the work of closing; all others are at work_of_adhesion, that of opening.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gradhesion.core.closed.similarity import amplitude_of_ratio, jump_in_radius_of_envelope, similarity_length
+from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, RANGE, SPEED, TURNS
+
+_Array = NDArray[np.float64]
+_MATERIAL: Final = PARAMETERS[:4]
+_MACHINE: Final = "machine_stiffness"
+
+
+def _over(value: _Array, unit: _Array) -> _Array:
+    """Return a quantity in a unit."""
+    return value / unit
+
+
+def _of_length(ratio: _Array, *material: _Array) -> _Array:
+    """Return what is given over L."""
+    return ratio * similarity_length(*material)
+
+
+def _of_chi(chi: float, *scene: float) -> Any:
+    """Return the amplitude at which the waviness is chi times as strong as adhesion."""
+    k, nu, modulus, c0_over_R, lambda_over_R = scene
+    return amplitude_of_ratio(k, nu, modulus, c0_over_R, lambda_over_R, chi)
+
+
+_RULES: Final[dict[str, dict[str, tuple[tuple[str, ...], Callable[..., Any]]]]] = {
+    "E_star": {"E": (("nu",), lambda E, nu: E / ((1.0 - nu) * (1.0 + nu)))},
+    "modulus": {"E_star": (("R", "work_of_adhesion"), lambda E_star, R, work: E_star * R / work)},
+    "c0_over_R": {"c0": (("R",), _over)},
+    "lambda_over_R": {"lambda_over_L": (_MATERIAL, _of_length), "wavelength": (("R",), _over)},
+    "A": {
+        "chi": (PARAMETERS[:5], _of_chi),
+        "amplitude": (("R", "lambda_over_R"), lambda amplitude, R, ratio: amplitude / R / ratio),
+    },
+    "a_max_over_R": {
+        "a_max_over_L": (_MATERIAL, _of_length),
+        "a_max_over_a2": (PARAMETERS[:6], lambda ratio, *others: ratio * jump_in_radius_of_envelope(*others)),
+        "a_max": (("R",), _over),
+    },
+    _MACHINE: {"spring_constant": (("E_star", "R"), lambda spring, E_star, R: spring / (E_star * R))},
+    "indentation_max_over_R": {"indentation_max": (("R",), _over)},
+    "load_max": {"preload": (("R", "work_of_adhesion"), lambda load, R, work: load / (1.5 * math.pi * R * work))},
+    CLOSING: {"work_of_adhesion_closing": (("work_of_adhesion",), _over)},
+    PATTERN[0]: {"toughness_wavelength": (("R",), _over)},
+    SPEED: {"speed": (("reference_speed",), _over)},
+    RANGE: {"adhesion_range": (("R",), _over)},
+}
+"""For each parameter the variables that can give it; what else that needs, and how it follows."""
+WAYS: Final = {name: {way: needed for way, (needed, _) in ways.items()} for name, ways in _RULES.items()}
+"""Variables that can give a parameter, and what else that needs; in the order in which they follow from another."""
+
+_IN_WAYS: Final = {name for ways in WAYS.values() for way, needed in ways.items() for name in (way, *needed)}
+"""Inputs from which parameters follow: left out of the result, unless they are wanted themselves."""
+_OPTIONAL: Final = (_MACHINE, *TURNS, CLOSING, *PATTERN, SPEED, RANGE)
+"""Parameters that not every scene has."""
+
+
+def parameters_from(given: Mapping[str, ArrayLike]) -> dict[str, _Array]:
+    """Return the parameters of `solve`, those that are not given made from what is.
+
+    Parameters
+    ----------
+    given
+        Arrays by name, all broadcastable: for each parameter of `solve` itself, or one of those above in its place.
+        Others stay as they are; machine_stiffness, indentation_max_over_R, load_max, closing_ratio and
+        adhesion_range_over_R are made if spring_constant, indentation_max, preload, work_of_adhesion_closing or
+        adhesion_range is given; R, E_star and the like are left out.
+
+    Returns
+    -------
+    An array for each parameter, over the axes that it depends on. What is out of range or does not exist (a_2 for
+    r >= s) is NaN. Accurate to a few units in the last place, but for a_2 (see there).
+
+    Raises
+    ------
+    ValueError
+        For a parameter that nothing given determines.
+
+    Examples
+    --------
+    A probe of an atomic force microscope, and the same in numbers:
+
+    >>> probe = dict(R=1e-6, E_star=1e9, work_of_adhesion=0.05, c0=1e-8, wavelength=1e-7, a_max=math.inf)
+    >>> made = parameters_from(dict(k=0.5, nu=0.3, A=0.02) | probe)
+    >>> {name: round(float(values), 9) for name, values in made.items()}
+    {'k': 0.5, 'nu': 0.3, 'modulus': 20000.0, 'c0_over_R': 0.01, 'lambda_over_R': 0.1, 'A': 0.02, 'a_max_over_R': inf}
+    """
+    known = {name: np.asarray(values, dtype=float) for name, values in given.items()}
+    wanted = (*PARAMETERS, *(name for name in _OPTIONAL if {name, *WAYS.get(name, ())} & known.keys()))
+    closing = (CLOSING,) if CLOSING in wanted else ()
+    for parameter in (*closing, *(("E_star",) if "E" in known else ()), *wanted):
+        if parameter not in known:
+            way, needed = _way(parameter, known)
+            others = [known[name] for name in needed]
+            with np.errstate(all="ignore"):  # what overflows has no value
+                if way == "a_max_over_a2" and closing:
+                    others[needed.index("modulus")] = known["modulus"] / known[CLOSING]
+                known[parameter] = np.asarray(_RULES[parameter][way][1](known[way], *others))
+    return {name: known[name] for name in (*wanted, *(name for name in given if name not in _IN_WAYS | {*wanted}))}
+
+
+def sources_of(parameter: str, given: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return the names of what is given that a parameter of `solve` follows from.
+
+    Parameters
+    ----------
+    parameter
+        One of `PARAMETERS` or `TURNS`, machine_stiffness, closing_ratio or adhesion_range_over_R.
+    given
+        As in `parameters_from`; only its names count.
+
+    Returns
+    -------
+    Names out of `given`; the parameter alone if it is given itself.
+
+    Raises
+    ------
+    ValueError
+        For a parameter that nothing given determines.
+
+    Examples
+    --------
+    >>> sources_of("lambda_over_R", dict.fromkeys(["k", "nu", "modulus", "c0", "R", "lambda_over_L"]))
+    ('lambda_over_L', 'k', 'nu', 'modulus', 'c0', 'R')
+    """
+    if parameter in given:
+        return (parameter,)
+    way, needed = _way(parameter, given)
+    if way == "a_max_over_a2" and {CLOSING, *WAYS[CLOSING]} & given.keys():
+        needed = (*needed, CLOSING)
+    return tuple(dict.fromkeys(source for name in (way, *needed) for source in _given_for(name, given)))
+
+
+def _given_for(name: str, given: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return what a name follows from: itself if nothing else gives it."""
+    return sources_of(name, given) if name in WAYS or name in PARAMETERS else (name,)
+
+
+def _way(parameter: str, given: Mapping[str, Any]) -> tuple[str, tuple[str, ...]]:
+    """Return the variable that gives a parameter, and what else that needs."""
+    for way, needed in WAYS.get(parameter, {}).items():
+        if way in given or any(other in given for other in WAYS.get(way, {})):
+            return way, needed
+    raise ValueError(f"{parameter} is not given, nor is one of {', '.join(WAYS.get(parameter, {})) or 'its kin'}")
+
+
+def scales_in_si(R: ArrayLike, work_of_adhesion: ArrayLike) -> dict[str, _Array]:
+    """Return the units of results in SI: of a force 1.5 pi R dgamma, an energy R^2 dgamma, a length R.
+
+    Parameters
+    ----------
+    R
+        Radius of the punch at its tip in m, > 0.
+    work_of_adhesion
+        dgamma in J/m^2, > 0.
+
+    Returns
+    -------
+    Arrays by the unit "N", "J" and "m".
+
+    Examples
+    --------
+    >>> scales_in_si(2.0, 0.25)["J"].item()
+    1.0
+    """
+    radius, work = np.asarray(R, dtype=float), np.asarray(work_of_adhesion, dtype=float)
+    return {"N": 1.5 * math.pi * radius * work, "J": radius * radius * work, "m": radius}

@@ -1,1 +1,0 @@
-"""Whether contact is one disc: the gap outside it, of one cosine and of any profile."""

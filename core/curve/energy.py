@@ -1,0 +1,128 @@
+"""What a jump dissipates: an integral between two radii at constant depth, by moments of whole bins.
+
+    e = +- int 2 pi a dgamma [kappa^2 - rho^2] da,   rho = (depth_H - depth)/stretch,   depth_H = depth + kappa stretch
+
+in units of 2 pi l^2 dgamma: int y (kappa^2 - rho^2) dy. Over a whole bin rho^2 is a form of the second degree in B, g
+and the depth, whose coefficients are moments about the centre of the bin, so that nothing cancels far out; over the two
+parts of bins at the ends, eight Gauss points. Under a load, or through a machine, the depth follows: that adds
+by_load/(by_depth + by_load T) fall^2/(1 + k), with the fall of the load at the place of landing (physics 9).
+"""
+
+from typing import Final
+
+import numpy as np
+
+from gradhesion.core.curve.values import Curve, depth_and_load, place_of, softness
+from gradhesion.core.jit import kernel, quadrature_leaf
+from gradhesion.core.table.layout import (
+    HALF,
+    HM,
+    HP,
+    HPP,
+    HPU,
+    HU,
+    HUU,
+    K0,
+    K1,
+    K2,
+    KU,
+    KUU,
+    KV,
+    LANES,
+    M0,
+    PC,
+    PE,
+    PP,
+    PU,
+    PW,
+    YC,
+    N,
+    T,
+)
+
+GAUSS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(8)
+_POINTS: Final = GAUSS.size
+
+
+@quadrature_leaf
+def _within(curve: Curve, depth: float, i: int, low: float, high: float) -> float:
+    """Return int y (kappa^2 - rho^2) dy between two places of bin i."""
+    half, middle = 0.5 * (high - low), 0.5 * (high + low)
+    polys, nodes = curve.table.polys, curve.table.nodes
+    total = 0.0
+    for j in range(_POINTS):
+        t = middle + half * GAUSS[j]
+        flat = stretch = 0.0
+        for n in range(N - 1, -1, -1):
+            flat = flat * t + (curve.B * polys[i, PP, n] + curve.g * polys[i, PU, n])
+            stretch = stretch * t + polys[i, PE, n]
+        y = nodes[YC, i] + nodes[HALF, i] * t
+        rho = (flat - depth) / (stretch * y)
+        term = y * (1.0 - rho * rho)
+        if polys.shape[1] > LANES:  # rho is then that less kappa - 1: kappa^2 - rho^2 gains 2 (kappa - 1) (1 - rho)
+            excess = 0.0
+            for n in range(N - 1, -1, -1):
+                excess = excess * t + polys[i, PW, n]
+            term += 2.0 * excess / stretch * (1.0 - rho)
+        total += GAUSS_WEIGHTS[j] * term
+    return total * half * nodes[HALF, i]
+
+
+@quadrature_leaf
+def _whole_bins(curve: Curve, depth: float, first: int, last: int) -> float:
+    """Return the same over the bins `first` to `last` - 1."""
+    B, g, nodes = curve.B, curve.g, curve.table.nodes
+    total = 0.0
+    for i in range(first, last):
+        c = B * nodes[PC, i] - depth
+        of_depth = c * (c * nodes[K0, i] + 2.0 * (B * nodes[K1, i] + g * nodes[KU, i]))
+        of_shape = B * (B * nodes[K2, i] + 2.0 * g * nodes[KUU, i]) + g * g * nodes[KV, i]
+        total += nodes[M0, i] - of_depth - of_shape
+    return total
+
+
+@quadrature_leaf
+def _from_zero(curve: Curve, depth: float, i: int) -> float:
+    """Return the same from 0 to the lower edge of bin i, one of the geometric ones or the first of the others."""
+    B, g, nodes = curve.B, curve.g, curve.table.nodes
+    of_shape = B * (B * nodes[HPP, i] + 2.0 * g * nodes[HPU, i]) + g * g * nodes[HUU, i]
+    of_depth = depth * (depth * nodes[T, i] / (1.0 + curve.table.k) - 2.0 * (B * nodes[HP, i] + g * nodes[HU, i]))
+    return nodes[HM, i] - of_shape - of_depth
+
+
+@kernel
+def energy_between(curve: Curve, depth: float, low: float, high: float) -> float:
+    """Return int y (kappa^2 - rho^2) dy at a depth between two radii, in the order low <= high; low may be 0."""
+    j, end = place_of(curve.table, high)
+    if low <= 0.0:
+        first = min(j, curve.table.geometric)
+        return (
+            _from_zero(curve, depth, first) + _whole_bins(curve, depth, first, j) + _within(curve, depth, j, -1.0, end)
+        )
+    i, start = place_of(curve.table, low)
+    if i == j:
+        return _within(curve, depth, i, start, end)
+    return (
+        _within(curve, depth, i, start, 1.0) + _whole_bins(curve, depth, i + 1, j) + _within(curve, depth, j, -1.0, end)
+    )
+
+
+@kernel
+def jump_energy(curve: Curve, y: float, depth: float, load: float, landing: float) -> float:
+    """Return what a jump dissipates from a state to another radius, at the same value of what is prescribed.
+
+    Outwards from y = 0 (of depth and load 0) or inwards to it. A dead load that lets go falls without end: its
+    jump to 0 has no bounded energy, and is not asked for.
+    """
+    outwards = landing > y
+    lost = energy_between(curve, depth, y, landing) if outwards else -energy_between(curve, depth, landing, y)
+    if curve.by_load == 0.0:
+        return lost
+    k = curve.table.k
+    if landing == 0.0:
+        return lost + curve.by_load / curve.by_depth * load * load / (1.0 + k)
+    i, t = place_of(curve.table, landing)
+    depth_there, load_there = depth_and_load(curve, i, t)
+    stiffness = landing ** (1.0 + k)
+    fall = load - (load_there + stiffness * (depth - depth_there))
+    return lost + curve.by_load / softness(curve, stiffness) * fall * fall / (1.0 + k)

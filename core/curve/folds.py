@@ -1,0 +1,295 @@
+"""Folds: where D changes its sign, found from its values at the edges of bins and a bound of how far it can swing."""
+
+import math
+from typing import Final
+
+import numpy as np
+
+from gradhesion.core.curve.trace import (
+    CLOSE_PAIR,
+    END,
+    END_DEPTH,
+    END_LEVEL,
+    END_LOAD,
+    START,
+    START_DEPTH,
+    START_LEVEL,
+    START_LOAD,
+    UNLOADED,
+)
+from gradhesion.core.curve.values import (
+    Curve,
+    bin_of,
+    coordinate_of,
+    depth_and_load,
+    level_at,
+    radius_of,
+    slope_at,
+    slope_in,
+    slope_near,
+)
+from gradhesion.core.jit import kernel, leaf
+from gradhesion.core.table.layout import BE, BP, BV, HALF, KE, QPOW, QUP, RLOW, RPOW, SLOPE, E, T, V, Y, end_of
+from gradhesion.core.types import Floats
+
+CHUNK: Final = 32
+"""Edges whose slopes are computed at once."""
+CLOSE: Final = 1e-10
+"""Decisions closer than this, relative to the sizes of their terms, are reported as close_to_a_jump."""
+TOO_SHORT: Final = -2
+"""In the place of a number of branches: the table ends before what was asked for."""
+FULL: Final = -1
+"""The trace has no room left."""
+_TINY: Final = 1e-300
+"""Stands for a D of 0 at a double zero, so that it has a sign."""
+
+
+@kernel
+def zero_in(curve: Curve, i: int, low: float, high: float, guess: float, rising: bool) -> tuple[float, float]:
+    """Return the place in bin i, between two at which D has different signs, where D is 0, and the depth there.
+
+    Halley's method kept within the bracket. The place is good to 1e-9 of a bin (values of folds forgive its square);
+    under a load to 1e-12, since the depth is not stationary there.
+    """
+    t, depth = guess, 0.0
+    near = 4e-4 if curve.by_load == 0.0 else 1e-6  # the next step would be the cube of this one
+    for _ in range(60):
+        D, D1, D2, depth = slope_in(curve, i, t)
+        if (D > 0.0) == rising:
+            high = t
+        else:
+            low = t
+        step = -2.0 * D * D1 / (2.0 * D1 * D1 - D * D2)
+        ahead = t + step
+        if not (low <= ahead <= high):
+            ahead = 0.5 * (low + high)
+            step = ahead - t
+        if (abs(step) < near and abs(step * D2) < 4e-3 * abs(D1)) or step == 0.0:
+            if curve.by_load == 0.0:  # what the last step still changes
+                depth += step * (D + step * (0.5 * D1 + step * D2 / 6.0))
+            return ahead, depth
+        t = ahead
+    return t, depth
+
+
+@kernel
+def pair_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
+    """Look for a pair of folds in bin i, at whose edges D has this sign: whether D has an extremum of the other one.
+
+    Return that, the place of the extremum and D there times the half width; (False, 0, inf) if there is none.
+    """
+    _, D1, _, _ = slope_near(curve, i, -1.0)
+    left = D1 * sign
+    _, D1, _, _ = slope_near(curve, i, 1.0)
+    right = D1 * sign
+    if left >= 0.0 or right <= 0.0:
+        return False, 0.0, math.inf
+    low, high = -1.0, 1.0
+    t = left / (left - right) * 2.0 - 1.0
+    D = 0.0
+    for _ in range(60):
+        D, D1, D2, _ = slope_near(curve, i, t)
+        if D1 * sign > 0.0:
+            high = t
+        else:
+            low = t
+        ahead = t - D1 / D2
+        if not (low < ahead < high):
+            ahead = 0.5 * (low + high)
+        if abs(ahead - t) < 1e-7:
+            break
+        t = ahead
+    return D * sign <= 0.0, t, D if D != 0.0 else -sign * _TINY
+
+
+@kernel
+def _turn_of_slope(curve: Curve, i: int, low: float, high: float, sign: float) -> float:
+    """Return the place between two where sign D' turns from positive to negative, or the reverse, by bisection."""
+    _, D1, _, _ = slope_near(curve, i, low)
+    rises = D1 * sign > 0.0
+    for _ in range(40):
+        t = 0.5 * (low + high)
+        _, D1, _, _ = slope_near(curve, i, t)
+        if (D1 * sign > 0.0) == rises:
+            low = t
+        else:
+            high = t
+    return 0.5 * (low + high)
+
+
+@kernel
+def detour_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
+    """Look for three folds in bin i, over which sign D goes from below to above 0: whether it falls below 0 again.
+
+    Return that, and the places of the crest and of the trough between them. D' must be positive at both edges and
+    negative somewhere between: at the least of D', which is looked for where D'' turns.
+    """
+    _, left, left2, _ = slope_near(curve, i, -1.0)
+    _, right, right2, _ = slope_near(curve, i, 1.0)
+    if left * sign <= 0.0 or right * sign <= 0.0 or left2 * sign >= 0.0 or right2 * sign <= 0.0:
+        return False, 0.0, 0.0
+    low, high, middle = -1.0, 1.0, 0.0
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        _, D1, D2, _ = slope_near(curve, i, middle)
+        if D1 * sign < 0.0:
+            break
+        if D2 * sign < 0.0:
+            low = middle
+        else:
+            high = middle
+    if D1 * sign >= 0.0:
+        return False, 0.0, 0.0
+    crest = _turn_of_slope(curve, i, -1.0, middle, sign)
+    trough = _turn_of_slope(curve, i, middle, 1.0, sign)
+    top, _, _, _ = slope_near(curve, i, crest)
+    bottom, _, _, _ = slope_near(curve, i, trough)
+    return top * sign > 0.0 and bottom * sign < 0.0, crest, trough
+
+
+@leaf
+def swing_in(curve: Curve, i: int) -> float:
+    """Return a bound of how far D swings in bin i beyond its edges: h^2/2 times its second derivative."""
+    nodes = curve.table.nodes
+    highest = 0.5 * (1.0 - curve.table.k) + (1.0 + curve.table.k if curve.by_load != 0.0 else 0.0)
+    return curve.g * nodes[BV, i] + curve.B * nodes[BP, i] + highest * nodes[BE, i]
+
+
+@leaf
+def _add_fold(curve: Curve, i: int, t: float, depth: float, rising: bool, trace: Floats, count: int) -> int:
+    """Put a fold into the trace, the start of a branch or its end; return the number of branches."""
+    y, load = radius_of(curve.table, i, t), 0.0
+    if curve.by_load != 0.0:
+        depth, load = depth_and_load(curve, i, t)
+    if rising:
+        trace[START, count], trace[START_DEPTH, count], trace[START_LOAD, count] = y, depth, load
+        trace[START_LEVEL, count] = coordinate_of(curve, depth, load)
+        trace[END, count] = trace[END_LEVEL, count] = math.inf
+        trace[UNLOADED, count] = math.nan
+        return count + 1
+    trace[END, count - 1], trace[END_DEPTH, count - 1], trace[END_LOAD, count - 1] = y, depth, load
+    trace[END_LEVEL, count - 1] = coordinate_of(curve, depth, load)
+    return count
+
+
+@leaf
+def _guess_of(older: float, before: float, after: float) -> float:
+    """Return where in a bin D is about 0, by the parabola through three edges, the last two around the bin."""
+    bend = after - 2.0 * before + older
+    share = before / (before - after)
+    share -= 0.5 * bend * share * (share - 1.0) / (after - before + bend * (share - 0.5))
+    return 2.0 * min(max(share, 0.02), 0.98) - 1.0
+
+
+@kernel
+def scan(curve: Curve, first: int, last: int, count: int, trace: Floats) -> tuple[int, bool]:
+    """Add the folds in the bins `first` to `last` - 1 to `count` branches.
+
+    Return the number of branches (FULL: no room) and whether the bounds of the table say that no fold follows.
+    """
+    table, nodes = curve.table, curve.table.nodes
+    B, g, k = curve.B, curve.g, curve.table.k
+    base = 0.5 * (1.0 - k)
+    highest = base + (1.0 + k if curve.by_load != 0.0 else 0.0)
+    ends = g == 0.0 or table.exponent - 1.0 >= base  # else the power loses against the waves: folds need not end
+    before = slope_at(curve, first)
+    older, start = before, first
+    slopes = np.zeros(CHUNK)
+    places, values = np.zeros(4), np.zeros(4)  # the ends of the pieces of a bin on which D has one fold, and D there
+    while start < last:
+        if ends and B * nodes[RPOW, start] + g * nodes[RLOW, start] > highest / nodes[Y, start]:
+            return count, True
+        size = min(CHUNK, last - start)
+        for j in range(size):
+            e = start + 1 + j
+            slopes[j] = B * nodes[SLOPE, e] + g * nodes[V, e] - base * nodes[E, e]
+        if curve.by_load != 0.0:
+            for j in range(size):
+                e = start + 1 + j
+                x = curve.by_load * nodes[T, e]
+                slopes[j] -= (1.0 + k) * x / (curve.by_depth + x) * nodes[KE, e]
+        for j in range(size):
+            i, after = start + j, slopes[j]
+            half = nodes[HALF, i]
+            terms = B * nodes[SLOPE, i] + abs(g * nodes[V, i]) + base * nodes[E, i]
+            if curve.by_load != 0.0:
+                terms += level_at(curve, i) * nodes[KE, i]
+            places[0], places[1], values[0], values[1], pieces = -1.0, 1.0, before * half, after * half, 1
+            if (before > 0.0) != (after > 0.0):
+                if abs(after - before) < 4.0 * swing_in(curve, i):  # D may turn twice on its way
+                    found, crest, trough = detour_in(curve, i, 1.0 if after > 0.0 else -1.0)
+                    if found:
+                        places[1], places[2], places[3], pieces = crest, trough, 1.0, 3
+                        values[1], values[2], values[3] = -values[0], values[0], after * half
+            elif min(abs(before), abs(after)) < swing_in(curve, i):
+                found, t, extreme = pair_in(curve, i, 1.0 if after > 0.0 else -1.0)
+                pieces = 2 if found else 0
+                places[1], values[1], places[2], values[2] = t, extreme, 1.0, after * half
+                if abs(extreme) <= CLOSE * half * terms:
+                    trace[CLOSE_PAIR, 0] = min(trace[CLOSE_PAIR, 0], nodes[Y, i])
+            else:
+                pieces = 0
+            for piece in range(pieces):
+                if count >= trace.shape[1]:
+                    return FULL, False
+                low, high, rising = places[piece], places[piece + 1], values[piece + 1] > 0.0
+                guess = _guess_of(older, before, after)
+                if pieces > 1:
+                    guess = low + (high - low) * values[piece] / (values[piece] - values[piece + 1])
+                t, depth = zero_in(curve, i, low, high, guess, rising)
+                count = _add_fold(curve, i, t, depth, rising, trace, count)
+            if abs(after) <= CLOSE * terms and swing_in(curve, i) > 0.5 * abs(before):
+                trace[CLOSE_PAIR, 0] = min(trace[CLOSE_PAIR, 0], nodes[Y, i])
+            older, before = before, after
+        start += size
+    return count, ends and B * nodes[RPOW, last] + g * nodes[RLOW, last] > highest / nodes[Y, last]
+
+
+@leaf
+def first_bin(curve: Curve) -> int:
+    """Return a bin below which D < 0 for certain."""
+    nodes = curve.table.nodes
+    base = 0.5 * (1.0 - curve.table.k)
+    low, high = 0, curve.table.bins
+    while high - low > 1:
+        i = (low + high) // 2
+        if curve.B * nodes[QPOW, i] + curve.g * nodes[QUP, i] < base:
+            low = i
+        else:
+            high = i
+    return low
+
+
+@kernel
+def close_end(curve: Curve, last: int, count: int, trace: Floats) -> None:
+    """End an open branch at the lower edge of bin `last`, where the search has ended: no cycle gets there."""
+    if count > 0 and trace[END, count - 1] == math.inf:
+        trace[END, count - 1] = curve.table.nodes[Y, last]
+        depth, load = depth_and_load(curve, last - 1, 1.0)
+        trace[END_DEPTH, count - 1], trace[END_LOAD, count - 1] = depth, load
+        trace[END_LEVEL, count - 1] = coordinate_of(curve, depth, load)
+
+
+@kernel
+def find_folds(curve: Curve, y_end: float, trace: Floats) -> int:
+    """Fill the trace with all branches that begin below a radius, and return their number, FULL or TOO_SHORT.
+
+    The last branch is endless (END = inf) if no fold follows at all.
+    """
+    table = curve.table
+    first = first_bin(curve)
+    last = table.bins if y_end >= end_of(table) else bin_of(table, y_end) + 1
+    count, trace[CLOSE_PAIR, 0] = 0, math.inf
+    if slope_at(curve, first) > 0.0:  # k = 1, or a groove at the centre: the first branch begins at 0
+        depth = curve.g * table.zero - (1.0 if table.k == 1.0 else 0.0)
+        trace[START, 0], trace[START_DEPTH, 0], trace[START_LOAD, 0] = 0.0, depth, 0.0
+        trace[START_LEVEL, 0] = coordinate_of(curve, depth, 0.0)
+        trace[END, 0], trace[END_LEVEL, 0], trace[UNLOADED, 0] = math.inf, math.inf, math.nan
+        count = 1
+    count, ended = scan(curve, first, last, count, trace)
+    if ended or count < 0:
+        return count
+    if last == table.bins and y_end > end_of(table):
+        return TOO_SHORT
+    close_end(curve, last, count, trace)
+    return count

@@ -1,0 +1,139 @@
+"""Where a branch has a given level of what is prescribed: landings of jumps, turning points."""
+
+import math
+from typing import Final
+
+from gradhesion.core.curve.values import (
+    Curve,
+    bin_of,
+    coordinate_at,
+    coordinate_of,
+    depth_and_load,
+    place_of,
+    radius_of,
+    slope_at,
+    slope_in,
+    slope_near,
+    softness,
+)
+from gradhesion.core.jit import kernel, leaf
+from gradhesion.core.table.layout import HALF, PE, YC, N, T, end_of
+
+LANDING: Final = 4e-4
+"""Accuracy of a landing, in half widths, before its last step, whose error is the cube: energies forgive its square."""
+EXACTLY: Final = 1e-6
+"""The same where the radius itself is asked for."""
+_UNDER_LOAD: Final = 2e-5
+"""Where a load counts, the depth of a landing is not stationary."""
+BEYOND: Final = -1.0
+"""In the place of a radius: beyond the table."""
+
+
+@leaf
+def _bin_with(curve: Curve, level: float, i: int, j: int) -> int:
+    """Return the first of the bins i to j, on a branch, whose upper edge is not below a level."""
+    while i < j:
+        middle = (i + j) // 2
+        if coordinate_at(curve, middle + 1) < level:
+            i = middle + 1
+        else:
+            j = middle
+    return i
+
+
+@leaf
+def _guess(curve: Curve, i: int, level: float) -> float:
+    """Return where in bin i the level is about: a step from the chord, by the cubic through values and slopes."""
+    nodes = curve.table.nodes
+    low, high = coordinate_at(curve, i), coordinate_at(curve, i + 1)
+    width = 2.0 * nodes[HALF, i]
+    first, last = slope_at(curve, i) * width, slope_at(curve, i + 1) * width
+    if curve.by_load != 0.0:
+        first, last = first * softness(curve, nodes[T, i]), last * softness(curve, nodes[T, i + 1])
+    rise = high - low
+    s = (level - low) / rise
+    p, q = first - rise, last - rise
+    slope = rise + p * (1.0 - s) * (1.0 - 3.0 * s) - q * s * (2.0 - 3.0 * s)
+    return 2.0 * (s - s * (1.0 - s) * (p * (1.0 - s) - q * s) / slope) - 1.0
+
+
+@leaf
+def _value_in(curve: Curve, i: int, t: float) -> tuple[float, float, float]:
+    """Return what is prescribed at a place in bin i, and its first two derivatives by t."""
+    table = curve.table
+    D, D1, _, depth = slope_in(curve, i, t)
+    if curve.by_load == 0.0:
+        return depth, D, D1
+    depth, load = depth_and_load(curve, i, t)
+    stretch = 0.0
+    for n in range(N - 1, -1, -1):
+        stretch = stretch * t + table.polys[i, PE, n]
+    stiffness = 1.0 / (stretch * stretch)
+    weight = softness(curve, stiffness)
+    ratio = table.nodes[HALF, i] / radius_of(table, i, t)
+    change = curve.by_load * stiffness * (1.0 + table.k) * ratio
+    return coordinate_of(curve, depth, load), D * weight, D1 * weight + D * change
+
+
+@kernel
+def at_level(curve: Curve, level: float, low: float, high: float, accuracy: float) -> float:
+    """Return the radius between `low` and `high`, on a branch, at which what is prescribed is `level`.
+
+    `high` may be inf; BEYOND is returned if the level is not reached within the table.
+    """
+    table, nodes = curve.table, curve.table.nodes
+    i = bin_of(table, low) if low > 0.0 else 0
+    if high < end_of(table):
+        j = bin_of(table, high)
+    else:
+        stride, j = 1, i + 1
+        while j < table.bins and coordinate_at(curve, j) < level:
+            i = j
+            j += stride
+            stride *= 2
+        j = min(j, table.bins)
+        if j == table.bins and coordinate_at(curve, j) < level:
+            return BEYOND
+        j -= 1
+    i = _bin_with(curve, level, i, j)
+    centre, half = nodes[YC, i], nodes[HALF, i]
+    a = max(-1.0, (low - centre) / half)
+    b = min(1.0, (high - centre) / half) if high < math.inf else 1.0
+    t = _guess(curve, i, level)
+    if not (a < t < b):
+        t = 0.5 * (a + b)
+    if curve.by_load != 0.0:
+        accuracy = min(accuracy, _UNDER_LOAD)
+    for _ in range(60):
+        value, D, D1 = _value_in(curve, i, t)
+        value -= level
+        if value > 0.0:
+            b = t
+        else:
+            a = t
+        ahead = t - 2.0 * value * D / (2.0 * D * D - value * D1)
+        if not (a <= ahead <= b):
+            ahead = 0.5 * (a + b)
+        step = abs(ahead - t)
+        if (step < accuracy and step * abs(D1) < 4e-2 * abs(D)) or b - a < 1e-12:
+            return centre + half * ahead
+        t = ahead
+    return centre + half * t
+
+
+@kernel
+def polished(curve: Curve, y: float, level: float) -> float:
+    """Return a fold (`level` NaN), or where a branch has a level, to rounding: one step of Newton's method.
+
+    Values forgive the square of the error of a radius, slopes do not.
+    """
+    if not 0.0 < y < end_of(curve.table):
+        return y
+    i, t = place_of(curve.table, y)
+    if math.isnan(level):
+        D, D1, _, _ = slope_near(curve, i, t)
+        step = D / D1
+    else:
+        value, D, _ = _value_in(curve, i, t)
+        step = (value - level) / D
+    return y - step * curve.table.nodes[HALF, i] if abs(step) < 1e-4 else y

@@ -1,0 +1,133 @@
+"""The pull-off: the lowest load up to a rim.
+
+Every load is above an envelope, which is smooth. From the envelope's lowest place troughs are looked at outwards and
+inwards, as long as the envelope lies below the best of them.
+"""
+
+from typing import Final, NamedTuple
+
+from gradhesion.core.curve.folds import pair_in, swing_in, zero_in
+from gradhesion.core.curve.values import Curve, bin_of, depth_and_load, load_curve, place_of, radius_of, slope_at
+from gradhesion.core.jit import kernel, leaf
+from gradhesion.core.table.layout import U1, E, P, T, U, Y, end_of
+
+_MARGIN: Final = 0.002
+"""Of the crest: how far the estimate of a trough may be off (measured: 0.0007)."""
+
+
+class Lowest(NamedTuple):
+    """The lowest load up to a rim and the second lowest trough, in the unit of the curve (0: none)."""
+
+    load: float
+    y: float
+    second: float
+    second_y: float
+    known: bool  # False: the table is too short
+
+
+@leaf
+def deeper(best: Lowest, load: float, y: float) -> Lowest:
+    """Return the lowest two, another trough taken in."""
+    if load < best.load:
+        return Lowest(load, y, best.load, best.y, True)
+    if load < best.second:
+        return Lowest(best.load, best.y, load, y, True)
+    return best
+
+
+@leaf
+def _envelope(curve: Curve, crest: float, i: int) -> float:
+    """Return a load below all loads near the lower edge of bin i; `crest` bounds (y E - g (U - U1))/(y E)."""
+    nodes, table = curve.table.nodes, curve.table
+    return nodes[T, i] * ((1.0 - table.share) * curve.B * nodes[P, i] - crest * nodes[Y, i] * nodes[E, i])
+
+
+@leaf
+def _load_at(curve: Curve, i: int) -> float:
+    """Return the load at the lower edge of bin i."""
+    nodes, table = curve.table.nodes, curve.table
+    smooth = (1.0 - table.share) * curve.B * nodes[P, i]
+    return nodes[T, i] * (smooth + curve.g * (nodes[U, i] - nodes[U1, i]) - nodes[Y, i] * nodes[E, i])
+
+
+@kernel
+def _trough(curve: Curve, crest: float, i: int, before: float, after: float, rim: float, best: Lowest) -> Lowest:
+    """Take in the trough of bin i, at whose edges D is `before` and `after`, if it may be among the lowest."""
+    nodes = curve.table.nodes
+    low, high = -1.0, 1.0
+    if before < 0.0 <= after:
+        # the cubic through values and slopes, at the zero of its linear slope, tells whether the trough can matter
+        width = nodes[Y, i + 1] - nodes[Y, i]
+        s = before / (before - after)
+        r = 1.0 - s
+        first, last = nodes[T, i] * before * width, nodes[T, i + 1] * after * width
+        ends = _load_at(curve, i) * (1.0 + 2.0 * s) * r * r + _load_at(curve, i + 1) * s * s * (3.0 - 2.0 * s)
+        estimate = ends + first * s * r * r - last * s * s * r
+        if estimate - _MARGIN * crest * nodes[T, i + 1] * nodes[Y, i + 1] * nodes[E, i + 1] > best.load:
+            return best
+        guess = 2.0 * s - 1.0
+    elif (before < 0.0) == (after < 0.0) and min(abs(before), abs(after)) <= swing_in(curve, i):
+        found, t, _ = pair_in(curve, i, -1.0 if before < 0.0 else 1.0)
+        if not found:
+            return best
+        if before < 0.0:
+            high = t
+        else:
+            low = t
+        guess = 0.5 * (low + high)
+    else:
+        return best
+    t, _ = zero_in(curve, i, low, high, guess, True)
+    y = radius_of(curve.table, i, t)
+    return deeper(best, depth_and_load(curve, i, t)[1], y) if y <= rim else best
+
+
+@leaf
+def envelope_place(curve: Curve) -> float:
+    """Return the radius at which the envelope of the load is least."""
+    table = curve.table
+    crest, power = 1.0 - curve.g * table.lowest, table.exponent - 0.5 * (1.0 - table.k)
+    return (crest * 0.5 * (3.0 + table.k) / (curve.B * table.exponent)) ** (1.0 / power)
+
+
+@kernel
+def lowest_load(curve: Curve, rim: float, first: int, last: int) -> Lowest:
+    """Return the lowest load for 0 < y <= rim, where the bins `first` to `last` - 1 of the table are filled.
+
+    The bin of a rim within the table is filled as well. `known` is False if others were needed.
+    """
+    curve = load_curve(curve)
+    table = curve.table
+    crest = 1.0 - curve.g * table.lowest
+    end = end_of(table)
+    middle, limit = envelope_place(curve), table.bins
+    best = Lowest(0.0, 0.0, 0.0, 0.0, True)
+    if rim <= end:
+        i, t = place_of(table, rim)
+        best, limit = deeper(best, depth_and_load(curve, i, t)[1], rim), i + 1
+    unknown = Lowest(0.0, 0.0, 0.0, 0.0, False)
+    if rim > end and middle > end:
+        return unknown
+    start = min(bin_of(table, middle), limit - 1)
+    if not first <= start < last:
+        return unknown
+    i = start
+    before = first_slope = slope_at(curve, start)
+    while i < limit and (i == start or _envelope(curve, crest, i) <= best.load):
+        if i >= last:
+            return unknown
+        after = slope_at(curve, i + 1)
+        best = _trough(curve, crest, i, before, after, rim, best)
+        before = after
+        i += 1
+    if i >= table.bins and rim > end and _envelope(curve, crest, table.bins) <= best.load:
+        return unknown
+    i, after = start - 1, first_slope
+    while i >= 0 and _envelope(curve, crest, i + 1) <= best.load:
+        if i < first:
+            return unknown
+        before = slope_at(curve, i)
+        best = _trough(curve, crest, i, before, after, rim, best)
+        after = before
+        i -= 1
+    return best

@@ -1,0 +1,96 @@
+"""Close decisions: those of a cycle that a change of 1e-10 of their terms would turn into others."""
+
+import math
+
+from gradhesion.core.curve.folds import CLOSE
+from gradhesion.core.curve.trace import CLOSE_PAIR, END, END_LEVEL, START, START_LEVEL
+from gradhesion.core.curve.values import Curve, bin_of, coordinate_of, place_of, slope_near, state_in, terms_at
+from gradhesion.core.jit import kernel, leaf
+from gradhesion.core.table.layout import HALF, end_of
+from gradhesion.core.types import Floats
+
+
+@leaf
+def _are_close(curve: Curve, one: float, other: float, y: float) -> bool:
+    """Return whether two values of what is prescribed differ by less than CLOSE of the terms of the one at y."""
+    return abs(one - other) <= CLOSE * terms_at(curve, bin_of(curve.table, y))
+
+
+@kernel
+def rim_is_tied(curve: Curve, rim: float) -> bool:
+    """Return whether a rim, or where a cycle turns, is next to a fold."""
+    if rim > end_of(curve.table):
+        return False
+    i, t = place_of(curve.table, rim)
+    D, D1, _, _ = slope_near(curve, i, t)  # the distance of the fold by a step of Newton's method
+    return abs(D) * curve.table.nodes[HALF, i] <= 2.0 * CLOSE * rim * abs(D1)
+
+
+@leaf
+def _level_at(curve: Curve, rim: float) -> float:
+    """Return what is prescribed at a rim, inf beyond the table, where it is on the endless branch."""
+    if rim > end_of(curve.table):
+        return math.inf
+    depth, load = state_in(curve, rim)
+    return coordinate_of(curve, depth, load)
+
+
+@leaf
+def _pair_is_close(rim: float, trace: Floats, count: int) -> bool:
+    """Return whether two folds within a rim are about to be born or to meet."""
+    return count > 0 and trace[CLOSE_PAIR, 0] <= rim and trace[CLOSE_PAIR, 0] < math.inf
+
+
+@kernel
+def loading_is_tied(curve: Curve, end: float, at_rim: bool, trace: Floats, count: int) -> bool:
+    """Return whether it is close which branches exist, or which of them reach higher than those before.
+
+    Loading ends at its rim, or where it turns: there a jump may land that has passed the target, as high as it was.
+    """
+    if _pair_is_close(end, trace, count):
+        return True
+    highest = 0.0
+    for j in range(count):
+        if trace[START, j] > end:
+            return False
+        top, y = trace[END_LEVEL, j], trace[END, j]
+        if y >= end and not at_rim:
+            return False
+        if y >= end:
+            top, y = _level_at(curve, end), end
+        if top < math.inf and _are_close(curve, top, highest, y):
+            return True
+        highest = max(highest, top)
+    return False
+
+
+@kernel
+def unloading_is_tied(curve: Curve, rim: float, trace: Floats, count: int) -> bool:
+    """Return whether it is close which branches exist, or which of them start lower than those after."""
+    if _pair_is_close(rim, trace, count):
+        return True
+    j = count - 1
+    while j >= 0 and trace[START, j] > rim:
+        j -= 1
+    level, y = _level_at(curve, rim), rim
+    if j >= 0 and trace[END, j] >= rim:
+        level, y = trace[START_LEVEL, j], trace[START, j]
+        j -= 1
+    while j >= 0 and y > 0.0:
+        if level < math.inf and _are_close(curve, trace[START_LEVEL, j], level, y):
+            return True
+        if trace[START_LEVEL, j] < level:
+            level, y = trace[START_LEVEL, j], trace[START, j]
+        j -= 1
+    return False
+
+
+@kernel
+def target_is_tied(measured: Curve, target: float, rim: float, branches: Floats, count: int) -> bool:
+    """Return whether the depth or load at which a cycle turns is close to the top of a branch of it."""
+    for j in range(count):
+        if branches[START, j] > rim:
+            return False
+        if branches[END, j] < math.inf and _are_close(measured, branches[END_LEVEL, j], target, branches[END, j]):
+            return True
+    return False

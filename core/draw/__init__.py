@@ -1,0 +1,1 @@
+"""Curves of one scene for drawing: equilibrium, the path of a cycle, its jumps, approximations, states of contact."""

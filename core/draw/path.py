@@ -1,0 +1,216 @@
+"""The equilibrium curve of a scene, the path of its cycle and the jumps on it.
+
+The corners of a path come first: where it starts, where it jumps to, where depth or load turns, where a branch ends.
+Flags mark how they are reached: along the curve or by a straight line, by a jump or not, on which branch, loading or
+unloading. The curve between them is sampled (sampling.py). Jumps keep what is prescribed. Under load control the punch
+falls without end once contact is lost: the path ends there, with radius 0 at the depth and the load of the last fold.
+"""
+
+from typing import Any, Final, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.core.curve.trace import END, START
+from gradhesion.core.curve.values import Curve
+from gradhesion.core.cycle.jumps import (
+    JUMP_ROWS,
+    LANDED,
+    LANDED_BRANCH,
+    LEFT,
+    LOSS,
+    frozen_loss,
+    list_loading_jumps,
+    list_unloading_jumps,
+)
+from gradhesion.core.draw.sampling import sample, spans_of
+from gradhesion.core.draw.scene import Drawn, Frame, Side
+from gradhesion.core.jit import kernel
+from gradhesion.core.scenes.reduced import BY_DEPTH, BY_LOAD
+from gradhesion.core.types import Floats, Integers
+
+_Corner: TypeAlias = tuple[float, ...]
+Y, DEPTH, LOAD, JOINED, BRANCH, JUMP = range(6)
+"""Rows of corners: point as of sampling.py, the branch from 1 on (0: no contact), and flags."""
+_ROUNDING: Final = 1e-12
+"""Relative distance of radii that are one."""
+
+
+def draw_equilibrium(drawn: Drawn, side: Side) -> tuple[Floats, Floats, Floats, NDArray[np.int8]]:
+    """Return the radius, depth and load of a whole curve, and whether it is stable, from no contact to the end.
+
+    Folds count as not stable, so that the line between two points is stable where one of them is: each branch has a
+    point in its inside.
+    """
+    folds, end = side.folds(drawn.end), drawn.end
+    edges = np.concatenate([[0.0], folds, [end]])
+    extrema = side.extrema[side.extrema < end]
+    lonely = np.searchsorted(extrema, edges[1:]) == np.searchsorted(extrema, edges[:-1])
+    middles = 0.5 * (edges[1:] + edges[:-1])[lonely]
+    places = np.unique(np.concatenate([edges, extrema, middles]))
+    corners = side.line.points(places)
+    points, _ = sample(side.line, corners, np.arange(places.size) > 0, spans_of(corners))
+    y, starts, ends = points[0], side.trace[START, : side.branches], side.trace[END, : side.branches]
+    branch = np.searchsorted(starts, y, "left") - 1  # the last one that starts below
+    stable = (branch >= 0) & (y < np.append(ends, 0.0)[branch])
+    stable |= (y == 0.0) & (starts[:1] == 0.0).any()
+    return drawn.frame.radii(y, end), points[1], points[2], stable.astype(np.int8)
+
+
+@kernel
+def list_jumps(
+    closing: Curve,
+    opening: Curve,
+    turn: float,
+    loading: Floats,
+    visited: Integers,
+    unloading: Floats,
+    count: int,
+    jumps: Floats,
+) -> tuple[int, int]:
+    """Store the jumps of a cycle with their losses in `jumps`; return the number of those of loading, and of all.
+
+    `loading` and `unloading` are the traces of the two curves, the latter of `count` branches.
+    """
+    first = list_loading_jumps(closing, turn, loading, visited, visited.size, jumps)
+    last = list_unloading_jumps(opening, turn, unloading, count, jumps, first)
+    frozen_loss(closing, jumps, 0, first)
+    frozen_loss(opening, jumps, first, last)
+    return first, last
+
+
+class Corners(NamedTuple):
+    """The corners of a path, columns of the rows above, and the jumps of its cycle.
+
+    up      those of loading
+    down    those of unloading, from equilibrium at the turn on
+    pinned  whether loading ends elsewhere than there: the contact is pinned on the way between
+    jumps   (JUMP_ROWS, jumps), in the order of the corners that are reached by a jump
+    loading  the number of those of loading
+    """
+
+    up: Floats
+    down: Floats
+    pinned: bool
+    jumps: Floats
+    loading: int
+
+
+def _level_of(frame: Frame, corner: _Corner) -> float:
+    """Return what is prescribed at a corner, in its unit for opening."""
+    by_depth, by_load = frame.reduced[[BY_DEPTH, BY_LOAD], 0] / frame.units[1:]
+    return float(by_depth * corner[DEPTH] + by_load * corner[LOAD])
+
+
+def _put_along(side: Side, corners: list[_Corner], y: float, branch: float) -> None:
+    """Go on along a branch to a radius, by the extrema between."""
+    start, extrema = corners[-1][Y], side.extrema
+    if abs(y - start) <= _ROUNDING * start:
+        return
+    between = extrema[(extrema > min(y, start)) & (extrema < max(y, start))]
+    places = [*(between if y > start else between[::-1]), y]
+    corners += [(*point, 1.0, branch, 0.0) for point in side.line.points(np.array(places)).T.tolist()]
+
+
+def _put_jump(frame: Frame, side: Side, corners: list[_Corner], y: float, branch: float) -> None:
+    """Jump from the last corner to a radius, 0 out of contact.
+
+    Contact there is a flat punch, pushed off equilibrium until it has what is prescribed: by nothing on a branch. A
+    dead load that lets go keeps its depth.
+    """
+    before = corners[-1]
+    by_depth, by_load = frame.reduced[[BY_DEPTH, BY_LOAD], 0]
+    y, depth, load = side.line.points(np.array([y]))[:, 0].tolist()
+    stiffness = y ** (1.0 + frame.k) * frame.units[2] / frame.units[1]
+    softness = _level_of(frame, (y, 1.0, stiffness))
+    push = (_level_of(frame, before) - _level_of(frame, (y, depth, load))) / softness if softness > 0.0 else 0.0
+    depth = before[DEPTH] if by_load == 0.0 or softness == 0.0 else depth + push
+    load = before[LOAD] if by_depth == 0.0 else load + stiffness * push
+    corners.append((y, depth, load, 0.0, branch, 1.0))
+
+
+def find_corners(drawn: Drawn, closing: Side, opening: Side, *, grows: bool) -> Corners:
+    """Return the corners of the path of a cycle; where the contact `grows` from a point its first jump is none."""
+    frame, turn = drawn.frame, drawn.turn
+    jumps = np.empty((JUMP_ROWS, 2 * (closing.trace.shape[1] + opening.trace.shape[1])))
+    traces = closing.trace, closing.visited, opening.trace, opening.branches
+    loading, total = list_jumps(closing.curve, opening.curve, turn, *traces, jumps)
+    ways = jumps[[LEFT, LANDED, LANDED_BRANCH], :total].T.tolist()
+    up: list[_Corner] = [(0.0,) * 6]
+    branch, pinned = 0.0, frame.root < 1.0
+    for left, landed, to in ways[:loading]:
+        if left > 0.0:
+            _put_along(closing, up, left, branch)
+        branch = to + 1.0
+        if to < 0.0:  # flat against the rim: on none of the branches within it
+            branch, pinned = 1.0 + np.count_nonzero(closing.trace[START, : closing.branches] <= turn), True
+        _put_jump(frame, closing, up, landed, branch)
+    _put_along(closing, up, turn, branch)
+
+    down: list[_Corner] = [(*opening.line.points(np.array([turn]))[:, 0].tolist(), 0.0, branch, 0.0)]
+    branch = float(np.searchsorted(opening.trace[START, : opening.branches], turn, "right"))
+    for left, landed, to in ways[loading:]:
+        if left != turn:
+            _put_along(opening, down, left, branch)
+        branch = to + 1.0
+        _put_jump(frame, opening, down, landed, branch)
+    if branch > 0.0:  # the contact shrinks to a point, or is none (radius 0) to rounding
+        _put_along(opening, down, 0.0, branch)
+    if grows:
+        up[1] = (*up[1][:JUMP], 0.0)
+    return Corners(np.array(up).T, np.array(down).T, pinned, jumps[:, :total], loading)
+
+
+def draw_path(drawn: Drawn, closing: Side, opening: Side, *, grows: bool) -> dict[str, NDArray[Any]]:
+    """Return the path of a cycle: from depth zero without contact up to the turn, and back until contact ends.
+
+    The line from the point before is a jump, or unloading, if a point is marked so. Unloading begins pinned where the
+    equilibrium of opening at the turn is not as deep as loading comes there. The path of an unbounded punch turns at
+    the end of the drawn range. The sum of P d(delta) over its lines is the energy of a cycle but for the chords.
+    """
+    corners = find_corners(drawn, closing, opening, grows=grows)
+    scales = spans_of(np.concatenate([corners.up[:3], corners.down[:3]], axis=1))
+    rows = []
+    for unloading, (own, side) in enumerate(((corners.up, closing), (corners.down, opening))):
+        points, owner = sample(side.line, np.ascontiguousarray(own[:3]), own[JOINED] > 0.0, scales)
+        found = np.array([*points, own[BRANCH, owner], own[JUMP, owner], np.full(owner.size, unloading)])
+        rows.append(found if corners.pinned or not unloading else found[:, 1:])
+    y, depth, load, branch, jump, unloads = np.concatenate(rows, axis=1)
+    return {
+        "path_contact_radius": drawn.frame.radii(y, drawn.turn),
+        "path_indentation": depth,
+        "path_load": load,
+        "path_branch": branch.astype(np.int32),
+        "path_jump": jump.astype(np.int8),
+        "path_unloading": unloads.astype(np.int8),
+    }
+
+
+def draw_jumps(drawn: Drawn, closing: Side, opening: Side, *, grows: bool) -> dict[str, NDArray[Any]]:
+    """Return every jump of a cycle, in the order of the path: from the jump-in to the jump-out.
+
+    An energy may be negative: a jump on loading over a groove that adhesion does not close gains some, but the contact
+    is no single disc then. The jump-out under load control has no bounded energy and is left out, as in
+    `dissipated_energy`.
+    """
+    frame = drawn.frame
+    corners = find_corners(drawn, closing, opening, grows=grows)
+    all_corners = np.concatenate([corners.up, corners.down[:, 0 if corners.pinned else 1 :]], axis=1)
+    after = np.flatnonzero(all_corners[JUMP])
+    jumps, unloading = corners.jumps, np.arange(corners.jumps.shape[1]) >= corners.loading
+    if grows:
+        jumps, unloading = jumps[:, 1:], unloading[1:]
+    kept = (jumps[LANDED] > 0.0) | (frame.reduced[BY_DEPTH, 0] > 0.0)
+    jumps, unloading, after = jumps[:, kept], unloading[kept], after[kept]
+    before, rim = after - 1, drawn.turn if drawn.turn == frame.rim else np.nan
+    work = 2.0 * np.pi * frame.units[0] ** 2 * np.where(unloading, 1.0, frame.root**2)
+    return {
+        "jump_indentation": all_corners[DEPTH, before],
+        "jump_radius_before": frame.radii(jumps[LEFT], drawn.turn),
+        "jump_radius_after": frame.radii(jumps[LANDED], drawn.turn),
+        "jump_energy": work * jumps[LOSS],
+        "jump_load_before": all_corners[LOAD, before],
+        "jump_load_after": all_corners[LOAD, after],
+        "jump_unloading": unloading.astype(np.int8),
+        "jump_at_rim": ((jumps[LEFT] == rim) | (jumps[LANDED] == rim)).astype(np.int8),
+    }

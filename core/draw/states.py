@@ -1,0 +1,214 @@
+"""States of contact as curves: the pressure under the punch, and the surface of the half-space around it.
+
+A state is a contact radius with a depth. Every radius has its state of equilibrium; three states of a loading cycle
+have names: `turning_point`, where unloading begins at a rim that is finite; `pull_off`, where the load is lowest; and
+`jump_out`, the last before contact is lost. Lengths are in R, pressures in dgamma/R. Source: (2.2), (3.1)-(3.5), (4.2),
+(4.9), (4.10) of Jin, Guo & Wan (2013).
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+import numpy as np
+
+from gradhesion.core.draw.draw import draw_curves
+from gradhesion.core.equations import gap, general, pressure
+from gradhesion.core.equations._arguments import Array
+from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.material import stiffness
+from gradhesion.core.problem.profile import Profile
+from gradhesion.core.sweep import solve
+
+NAMED_STATES: Final = ("turning_point", "pull_off", "jump_out")
+"""The states of a cycle that have a name."""
+STATE_CURVES: Final = ("pressure", "surface")
+"""The curves of a state."""
+_FEWEST: Final = 96
+_MOST: Final = 4096
+_A_WAVE: Final = 24
+"""Points of a curve: at least, at most, and for each of the shortest waves."""
+_BEYOND: Final = 2.0
+"""How far the surface is drawn, in contact radii."""
+_WAVES_BEYOND: Final = 2.0
+"""How far it is drawn beyond the contact at least, in wavelengths of a wavy punch."""
+
+
+def series_of(amplitude: float, profile: Profile) -> tuple[list[float], list[float]]:
+    """Return a profile's waves as coefficients of general.py: a_1, a_2, ... and b_1, b_2, ...
+
+    Parameters
+    ----------
+    amplitude
+        A, amplitude over wavelength.
+    profile
+        The shape of the punch.
+
+    Examples
+    --------
+    >>> series_of(0.02, Profile())
+    ([-0.02], [0.0])
+    """
+    waves = profile.harmonics if amplitude > 0.0 else ()
+    count = max((wave.n for wave in waves), default=0)
+    cosines, sines = [0.0] * count, [0.0] * count
+    for wave in waves:
+        cosines[wave.n - 1] -= amplitude * wave.cos
+        sines[wave.n - 1] += amplitude * wave.sin
+    return cosines, sines
+
+
+def equilibrium_states(scene: Mapping[str, float], radii: Sequence[float], profile: Profile | None = None) -> Array:
+    """Return the states of equilibrium of given radii.
+
+    Parameters
+    ----------
+    scene
+        A number for each name of `PARAMETERS`.
+    radii
+        a/R, above 0 and within the rim.
+    profile
+        Shape of the punch, as in `solve`.
+
+    Returns
+    -------
+    Array of shape (2, number of radii): a/R and delta/R; NaN for a radius outside (0, a_max] or a scene out of range.
+
+    Examples
+    --------
+    >>> scene = dict(k=1.0, nu=0.5, modulus=500.0, c0_over_R=1.0, lambda_over_R=0.1, A=0.0, a_max_over_R=0.3)
+    >>> equilibrium_states(scene, [0.2, 0.4]).round(4).tolist()
+    [[0.2, nan], [-0.0694, nan]]
+    """
+    shape = profile or Profile()
+    a = np.asarray(radii, dtype=float)
+    a = np.where((a > 0.0) & (a <= scene["a_max_over_R"]), a, np.nan)
+    with np.errstate(all="ignore"):
+        material = stiffness(scene["k"], scene["nu"], scene["modulus"], scene["c0_over_R"])
+        wave = series_of(scene["A"], shape)
+        depth = general.indentation(scene["k"], material, a, scene["lambda_over_R"], *wave, shape.exponent)
+    return np.array([np.where(np.isnan(depth), np.nan, a), depth])
+
+
+def named_states(
+    scene: Mapping[str, float], profile: Profile | None = None, loading: Loading | None = None
+) -> tuple[Array, int]:
+    """Return the states of a loading cycle that have a name, and the status of the cycle.
+
+    Parameters
+    ----------
+    scene
+        A number for each name of `PARAMETERS`, and `machine_stiffness` under machine control.
+    profile, loading
+        Shape of the punch and what is prescribed, as in `solve`.
+
+    Returns
+    -------
+    states
+        Array of shape (2, 3): a/R and delta/R of the turning point (at the depth to which the rim is pressed),
+        the pull-off and the jump-out. NaN for one that is absent: there is no turning point without a rim or a depth or
+        load to turn at, and no jump-out where contact shrinks to a point.
+    status
+        Bits of status.FLAGS, as `solve` reports them.
+
+    Examples
+    --------
+    The smooth punch jumps out below its pull-off:
+
+    >>> scene = dict(k=0.0, nu=0.3, modulus=500.0, c0_over_R=1.0, lambda_over_R=0.1, A=0.0, a_max_over_R=0.3)
+    >>> states, status = named_states(scene)
+    >>> states.round(4).tolist()
+    [[0.3, 0.1919, 0.0923], [0.0286, -0.0123, -0.0255]]
+    """
+    outputs = ["pull_off_radius", "delta_max", "delta_jump_out", "turning_radius"]
+    solved = solve(scene, outputs, profile=profile, loading=loading)
+    states = np.full((2, 3), np.nan)
+    rim, pull_off = float(solved["turning_radius"]), float(solved["pull_off_radius"])
+    if 0.0 < rim < math.inf:
+        states[:, 0] = rim, float(solved["delta_max"])
+    if pull_off > 0.0:
+        states[:, 1] = equilibrium_states(scene, [pull_off], profile)[:, 0]
+    jumps, _ = draw_curves(scene, ["jumps"], profile, loading)
+    away = np.flatnonzero((jumps["jump_radius_after"] == 0.0) & (jumps["jump_unloading"] == 1))
+    if away.size:
+        states[:, 2] = jumps["jump_radius_before"][away[-1]], float(solved["delta_jump_out"])
+    states[:, np.isnan(states).any(axis=0)] = np.nan
+    return states, int(solved["status"])
+
+
+def draw_states(
+    scene: Mapping[str, float], states: Array, curves: Sequence[str], profile: Profile | None = None
+) -> dict[str, Array]:
+    """Return the pressure under the punch and the surface around it, in given states.
+
+    Parameters
+    ----------
+    scene
+        A number for each name of `PARAMETERS`.
+    states
+        Array of shape (2, number of states): a/R and delta/R.
+    curves
+        Names out of `STATE_CURVES`.
+    profile
+        Shape of the punch, as in `solve`.
+
+    Returns
+    -------
+    The variables of the curves, each of shape (number of states, number of points), NaN in a state that is absent:
+    `pressure_radius` (r/R, from 0 to just short of the edge, where for k < 1 the pressure has no bound, denser there)
+    and `pressure` (p R/dgamma, compression positive); `surface_radius` (r/R, from 0 through the edge to two contact
+    radii, and two wavelengths beyond the edge at least), `surface_displacement` (u_z/R, positive into the half-space)
+    and `surface_gap` (/R; 0 within the contact, NaN beyond the rim, where no punch is).
+
+    Raises
+    ------
+    ValueError
+        For an unknown curve.
+
+    Examples
+    --------
+    >>> scene = dict(k=0.0, nu=0.3, modulus=500.0, c0_over_R=1.0, lambda_over_R=0.1, A=0.0, a_max_over_R=0.3)
+    >>> found = draw_states(scene, equilibrium_states(scene, [0.2]), ["pressure"])
+    >>> found["pressure"].round(2)[0, :2].tolist(), found["pressure_radius"].max().round(4).item()
+    ([23.77, 23.75], 0.2)
+    """
+    unknown = [name for name in curves if name not in STATE_CURVES]
+    if unknown:
+        raise ValueError(f"unknown curves {unknown} of a state; there are {', '.join(STATE_CURVES)}")
+    shape = profile or Profile()
+    k, wavelength = scene["k"], scene["lambda_over_R"]
+    with np.errstate(all="ignore"):
+        material = float(stiffness(k, scene["nu"], scene["modulus"], scene["c0_over_R"]))
+    cosines, sines = series_of(scene["A"], shape)
+    wave = (wavelength, cosines, sines, shape.exponent)
+    furthest = float(np.nanmax(states[0], initial=0.0))
+    waves = furthest * len(cosines) / wavelength
+    count = int(min(_MOST, max(_FEWEST, math.ceil(_A_WAVE * waves))))
+    found: dict[str, Array] = {}
+    there = [i for i in range(states.shape[1]) if not np.isnan(states[:, i]).any()]
+    if "pressure" in curves:
+        # steps that fall to zero towards the edge, which itself is left out
+        share = np.sin(0.5 * math.pi * np.arange(count) / count)
+        found["pressure_radius"], found["pressure"] = (np.full((states.shape[1], count), np.nan) for _ in range(2))
+        for i in there:
+            a, depth = states[:, i]
+            found["pressure_radius"][i] = a * share
+            found["pressure"][i] = pressure.pressure(k, material, a * share, a, depth, *wave)
+    if "surface" in curves:
+        half = count // 2
+        names = ("surface_radius", "surface_displacement", "surface_gap")
+        found |= {name: np.full((states.shape[1], 2 * half + 1), np.nan) for name in names}
+        for i in there:
+            a, depth = states[:, i]
+            end = max(_BEYOND * a, a + (_WAVES_BEYOND * wavelength if cosines else 0.0))
+            # outside they are dense at the edge, where the surface leaves the punch with an upright tangent
+            inside = a * np.arange(half) / half
+            outside = a + (end - a) * (np.arange(half + 1) / half) ** 2
+            r = np.concatenate([inside, outside])
+            opening = np.concatenate([np.zeros(half), gap.series_gap(k, outside, a, depth, *wave)])
+            m = shape.exponent
+            height = r**m / m + wavelength * general.waviness(r / wavelength, cosines, sines)
+            found["surface_radius"][i] = r
+            found["surface_displacement"][i] = depth - height + opening
+            found["surface_gap"][i] = np.where(r <= scene["a_max_over_R"], opening, np.nan)
+    return found

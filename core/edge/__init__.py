@@ -1,0 +1,1 @@
+"""The edge of the contact: a toughness that varies with the radius."""

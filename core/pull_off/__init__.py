@@ -1,1 +1,0 @@
-"""The pull-off force."""

@@ -1,0 +1,520 @@
+"""Sensitivities of pull-off force and dissipated energy to the parameters of scenes.
+
+    d ln(value)/d ln p,    for k and nu, which may be 0, d ln(value)/dp
+
+The kernels find the derivatives by the reduced numbers of a scene, at frozen radii of its jumps (cycle/slopes.py): by B
+and g a difference over half of them is exact, others are of fourth order, those by k on tables of four neighbouring
+exponents. The turn is added by its own condition, the parameters by the chain rule.
+"""
+
+import math
+from collections.abc import Sequence
+from functools import partial
+from typing import Final, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.special import psi
+
+from gradhesion.core.curve.trace import END, LANDING
+from gradhesion.core.curve.values import Curve, bin_of, load_curve
+from gradhesion.core.cycle.disc import profile_of
+from gradhesion.core.cycle.jumps import (
+    JUMP_ROWS,
+    LANDED,
+    LEFT,
+    list_loading_jumps,
+    list_unloading_jumps,
+)
+from gradhesion.core.cycle.path import visited_within
+from gradhesion.core.cycle.pull_off import lowest_load
+from gradhesion.core.cycle.slopes import (
+    GAP,
+    LOADING,
+    OBSERVED,
+    PULL,
+    UNLOADING,
+    Frozen,
+    loading_by_turn,
+    measured_by,
+    observe,
+    rate_at,
+    unloading_by_turn,
+)
+from gradhesion.core.edge.pattern import Pattern, edge_area, toughness_at
+from gradhesion.core.jit import kernel
+from gradhesion.core.problem.material import theta_slopes
+from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, SENSITIVITIES, TURNS
+from gradhesion.core.scenes.cycles import (
+    CLOSING_TRACE,
+    OPENING_TRACE,
+    Task,
+    Walked,
+    curve_end,
+    curve_of,
+    no_value,
+    open_curve,
+    pattern_of,
+    turns_of,
+)
+from gradhesion.core.scenes.reduced import (
+    AMPLITUDE,
+    AT_A_LOAD,
+    AT_DEPTH,
+    AT_RIM,
+    BY_LOAD,
+    BY_POWER,
+    BY_WAVES,
+    C0,
+    LENGTH,
+    MACHINE,
+    NEED,
+    NU,
+    PARAMETER_ROWS,
+    PATTERN_AMPLITUDE,
+    PATTERN_WAVES,
+    RATIO,
+    REDUCED_ROWS,
+    RIM,
+    RIM_Y,
+    TARGET_VALUE,
+    K,
+    Punch,
+)
+from gradhesion.core.scenes.reduced import (
+    CLOSING as CLOSING_ROW,
+)
+from gradhesion.core.scenes.results import RESULT_ROWS, SHORT, TURN, Rooms, Wanted, rooms_for
+from gradhesion.core.scenes.tasks import (
+    NearRooms,
+    Request,
+    columns_of,
+    end_of_exponent,
+    in_groups,
+    long_table,
+    near_rooms,
+    near_task,
+    punch_of,
+    run_parts,
+    scenes_of,
+    solve_far,
+)
+from gradhesion.core.table.basis import NODES, Basis, basis_of, empty_table, fill_table
+from gradhesion.core.table.layout import EXACT, GEOMETRIC, Table, Y, end_of, span_of
+from gradhesion.core.types import Floats, Integers
+
+# Rows of derivatives: d ln(value)/d ln of the reduced numbers B, g, by_load, waves and amplitude of the pattern, k (by
+# itself, at fixed others), radius of the rim, target and ratio.
+OF_POWER, OF_WAVES, OF_MACHINE, OF_PATTERN_WAVES, OF_PATTERN, OF_EXPONENT, OF_RIM, OF_TARGET, OF_RATIO = range(9)
+ROWS: Final = 9
+FORCE, ENERGY = RESULT_ROWS, RESULT_ROWS + ROWS
+"""Where the rows of each value begin, behind those of results, of which TURN and STATUS are used."""
+AREA: Final = OBSERVED
+"""What is observed besides: the area of the edge."""
+UNIT: Final = RESULT_ROWS + 2 * ROWS
+"""The row of the unit of length."""
+_ALL_ROWS: Final = UNIT + 1
+FURTHER: Final = ("machine_stiffness", *TURNS, CLOSING, *PATTERN)
+"""Parameters beyond the seven, in the order of the last axis."""
+_WANTED: Final = Wanted(cycle=True, depth=False, contact=False, residual=False, saturation=False)
+ALL: Final = -1
+"""In the place of a number of bins: the whole table is filled."""
+_STEP: Final = 2.0**-11
+"""Of a difference of fourth order: it leaves step^4/30 of the fifth derivative, and of rounding eps/step."""
+_PHASE_STEP: Final = 2.0**-9
+"""The same for a pattern, in its phase."""
+_PLACES, _WEIGHTS = np.array([-2.0, -1.0, 1.0, 2.0]), np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
+_OF_HALVES: Final = np.array([0.0, -0.5, 0.5, 0.0])
+_NUMBERS: Final = np.array([BY_POWER, BY_WAVES, BY_LOAD, PATTERN_WAVES, PATTERN_AMPLITUDE, K])
+"""Where the numbers of the first rows stand, among reduced ones or (of the pattern's amplitude) parameters."""
+_MOST_BINS: Final = 26_000
+"""Bins of a table at most, of which there are five: 3,250 waves."""
+
+
+class Near(NamedTuple):
+    """What neighbours of a scene are made from.
+
+    tables      of the exponents k + _STEP _PLACES
+    basis, weights  of which their bins are filled, and room for its weights, (NODES,)
+    filled      their bins that are filled, (1,), or ALL
+    rooms       for tables of interfaces with a pattern
+    jumps       those of a cycle, (JUMP_ROWS, .)
+    scene, numbers  one scene and its reduced numbers, (PARAMETER_ROWS, 1) and (REDUCED_ROWS, 1)
+    by          derivatives of what is observed, (ROWS, AREA + 1)
+    value       what is observed, (AREA + 1,)
+    """
+
+    tables: tuple[Table, Table, Table, Table]
+    basis: Basis
+    weights: Floats
+    filled: Integers
+    rooms: Rooms
+    jumps: Floats
+    scene: Floats
+    numbers: Floats
+    by: Floats
+    value: Floats
+
+
+@kernel
+def _near_of(tables: tuple[Table, Table, Table, Table], basis: Basis, rooms: Rooms, bins: int, filled: int) -> Near:
+    """Return tables of neighbouring exponents, of which that many bins are filled, with room for a scene."""
+    jumps, by = np.empty((JUMP_ROWS, 2 * bins + 16)), np.zeros((ROWS, AREA + 1))
+    scene, numbers = np.empty((PARAMETER_ROWS, 1)), np.empty((REDUCED_ROWS, 1))
+    marks = np.array([filled])
+    return Near(tables, basis, np.zeros(NODES), marks, rooms, jumps, scene, numbers, by, np.zeros(AREA + 1))
+
+
+@kernel
+def _fill_tables(near: Near, y: float) -> None:
+    """See to it that the tables of neighbouring exponents are filled up to a radius."""
+    bins = bin_of(near.tables[0], y) + 1
+    if near.filled[0] == ALL or bins <= near.filled[0]:
+        return
+    near.filled[0] = min(max(bins, 2 * near.filled[0]), near.tables[0].bins)
+    for table in near.tables:
+        fill_table(near.basis, table.k, near.weights, near.filled[0], table.nodes, table.polys)
+
+
+class Pair(NamedTuple):
+    """The curves of closing and of opening of a scene, its pattern, and the ratio of the works."""
+
+    closing: Curve
+    opening: Curve
+    pattern: Pattern
+    ratio: float
+
+
+@kernel
+def _neighbour(
+    punch: Punch, crest: float, rooms: Rooms, scene: Floats, numbers: Floats, table: Table, y_end: float
+) -> Pair:
+    """Return the curves of one scene on a table; tables with a pattern are filled up to y_end, into `rooms`."""
+    pattern, ratio, nodes, polys = (
+        pattern_of(punch, scene, numbers, 0),
+        numbers[CLOSING_ROW, 0],
+        rooms.nodes,
+        rooms.polys,
+    )
+    closing = curve_of(table, crest, pattern, numbers, 0, math.sqrt(ratio), y_end, nodes[0], polys[0])
+    opening = closing
+    if ratio != 1.0:
+        opening = curve_of(table, crest, pattern, numbers, 0, 1.0, y_end, nodes[1], polys[1])
+    return Pair(closing, opening, pattern, ratio)
+
+
+@kernel
+def _observe(pair: Pair, frozen: Frozen, weight: float, out: Floats) -> None:
+    """Add what is observed at frozen radii, times a weight, to `out`, (AREA + 1,)."""
+    observe(pair.closing, pair.opening, frozen, weight, out)
+    if frozen.turn < math.inf:
+        out[AREA] += weight * edge_area(pair.opening.table, pair.pattern, frozen.turn)
+
+
+@kernel
+def _freeze(task: Task, walked: Walked, opened: int, y: float, pull: float, turns: bool, jumps: Floats) -> Frozen:
+    """Return the radii of the cycle of a scene that turns at y, short of its rim if it `turns`."""
+    traces, visited = task.rooms.traces, task.rooms.columns[0]
+    own = traces[CLOSING_TRACE]
+    loading = list_loading_jumps(walked.closing, y, own, visited, walked.visits, jumps)
+    n = visited_within(own, visited, walked.visits, y)
+    passed = turns and n > 0 and own[LANDING, visited[n - 1]] == y
+    turn = y
+    if passed:
+        turn = jumps[LANDED, loading - 1]
+    trace = own if walked.ratio == 1.0 else traces[OPENING_TRACE]
+    count = list_unloading_jumps(walked.opening, turn, trace, opened, jumps, loading)
+    by_depth = 1.0 if task.punch.turn == AT_DEPTH else 0.0
+    pull = turn if pull == y else pull
+    left = jumps[LEFT, loading - 1] if passed else 0.0
+    return Frozen(pull, turn, turns, passed, left, by_depth, 1.0 - by_depth, jumps, loading, count)
+
+
+@kernel
+def _farthest(frozen: Frozen, patterned: bool) -> float:
+    """Return the largest radius at which anything is observed: with a pattern the area of the edge up to the turn."""
+    y = frozen.pull
+    if frozen.moves or (patterned and frozen.turn < math.inf):
+        y = frozen.turn
+    for n in range(frozen.total):
+        y = max(y, frozen.jumps[LEFT, n], frozen.jumps[LANDED, n])
+    return y
+
+
+@kernel
+def _least_of(pattern: Pattern) -> float:
+    """Return the least value of a pattern of the work of adhesion, from the bound of its root's slope; 1 of others."""
+    if not pattern.of_work or pattern.steep == 0.0:
+        return 1.0
+    size = 0.0
+    for n in range(pattern.rows.shape[1]):
+        size += (n + 1.0) * math.hypot(pattern.rows[0, n], pattern.rows[1, n])
+    root = 0.5 * abs(pattern.amplitude) * size * pattern.waves / pattern.steep
+    return min(1.0, root * root)
+
+
+@kernel
+def _step_of(near: Near, pattern: Pattern, y_end: float, row: int) -> float:
+    """Return the step of the differences of a row: a half where they are exact in the second order."""
+    if row in (OF_POWER, OF_WAVES):
+        return 0.5
+    if row not in (OF_PATTERN, OF_PATTERN_WAVES):
+        return _STEP
+    phase = near.numbers[PATTERN_WAVES, 0] * pattern.rows.shape[1] * y_end
+    return _PHASE_STEP * _least_of(pattern) / (max(1.0, phase) if row == OF_PATTERN_WAVES else 1.0)
+
+
+@kernel
+def _fill_by(task: Task, near: Near, pattern: Pattern, frozen: Frozen, y_end: float) -> None:
+    """Fill the derivatives of what is observed by all numbers but those of the turn."""
+    near.by[:] = 0.0
+    for row in range(OF_RIM):
+        fixed = row == OF_MACHINE and task.punch.control != MACHINE
+        if fixed or (row in (OF_PATTERN, OF_PATTERN_WAVES) and pattern.rows.shape[1] == 0):
+            continue
+        numbers, number = near.scene if row == OF_PATTERN else near.numbers, _NUMBERS[row]
+        value, step = numbers[number, 0], _step_of(near, pattern, y_end, row)
+        for j in range(4):
+            weight, table = _OF_HALVES[j] if step == 0.5 else _WEIGHTS[j], task.table
+            if weight == 0.0:
+                continue
+            if row == OF_EXPONENT:
+                table = near.tables[j]
+            else:
+                numbers[number, 0] = value * (1.0 + step * _PLACES[j])
+            pair = _neighbour(task.punch, task.crest, near.rooms, near.scene, near.numbers, table, y_end)
+            _observe(pair, frozen, weight / step, near.by[row])
+        numbers[number, 0] = value
+
+
+@kernel
+def _move_of(near: Near, pair: Pair, frozen: Frozen, target: float, row: int) -> float:
+    """Return d ln y/d ln of a number, k: /dk, of where the cycle turns; `target` in units of closing."""
+    if not frozen.moves:
+        return 1.0 if row == OF_RIM else 0.0
+    by = near.by[row, GAP] if row < OF_RIM else 0.0
+    if row == OF_RATIO:
+        by = -0.5 * (near.by[OF_POWER, GAP] + near.by[OF_WAVES, GAP])
+    if not frozen.passed:
+        by += 0.5 * target if row == OF_RATIO else -target if row == OF_TARGET else 0.0
+    return -by / rate_at(measured_by(pair.closing, frozen), frozen.turn)
+
+
+@kernel
+def _put_slopes(near: Near, pair: Pair, frozen: Frozen, target: float, out: Floats, i: int) -> None:
+    """Store the derivatives of force and energy of scene i from those of what is observed."""
+    by, value, y, ratio = near.by, near.value, frozen.turn, pair.ratio
+    energy = ratio * value[LOADING] + value[UNLOADING]
+    force_by_turn = energy_by_turn = 0.0
+    if frozen.pull == y:
+        force_by_turn = rate_at(load_curve(pair.opening), y)
+    if y < math.inf:
+        kappa = toughness_at(pair.pattern, y)
+        energy += (1.0 - ratio) * value[AREA]
+        energy_by_turn = ratio * loading_by_turn(pair.closing, kappa, frozen) + unloading_by_turn(pair.opening, frozen)
+        energy_by_turn += (1.0 - ratio) * (kappa * y) ** 2
+    elif ratio < 1.0:
+        energy = math.nan  # it has no bound
+    else:
+        value[AREA] = math.nan
+    for row in range(ROWS):
+        force = loss = 0.0
+        if row < OF_RIM:
+            force = by[row, PULL]
+            loss = ratio * by[row, LOADING] + by[row, UNLOADING] + (1.0 - ratio) * by[row, AREA]
+        elif row == OF_RATIO:  # B and g of closing go with its root
+            loading = value[LOADING] - 0.5 * (by[OF_POWER, LOADING] + by[OF_WAVES, LOADING])
+            loss = ratio * (loading - value[AREA])
+        move = _move_of(near, pair, frozen, target, row)
+        out[UNIT, i] = near.numbers[LENGTH, 0]
+        out[FORCE + row, i] = (force + force_by_turn * move) / value[PULL]
+        out[ENERGY + row, i] = (loss + energy_by_turn * move) / energy
+
+
+@kernel
+def _fill_scene(
+    task: Task, near: Near, walked: Walked, opened: int, y: float, scenes: Floats, reduced: Floats, i: int, out: Floats
+) -> bool:
+    """Store the derivatives of scene i, which turns at y; return False if the table is too short."""
+    pair = Pair(walked.closing, walked.opening, walked.pattern, walked.ratio)
+    own, n = task.rooms.traces[CLOSING_TRACE], walked.visits
+    lowest = lowest_load(pair.opening, y, 0, pair.opening.table.bins)
+    beyond = y > end_of(pair.closing.table) and (n == 0 or own[END, task.rooms.columns[0, n - 1]] < y)
+    if walked.branches < 0 or opened < 0 or beyond or not (lowest.known and lowest.load < 0.0):
+        return False
+    turns = task.punch.turn != AT_RIM and y < reduced[RIM_Y, i]
+    frozen = _freeze(task, walked, opened, y, lowest.y, turns, near.jumps)
+    near.scene[:, 0], near.numbers[:, 0] = scenes[:, i], reduced[:, i]
+    near.value[:] = 0.0
+    _observe(pair, frozen, 1.0, near.value)
+    y_end = _farthest(frozen, pair.pattern.rows.shape[1] > 0)
+    _fill_tables(near, y_end)
+    _fill_by(task, near, pair.pattern, frozen, y_end)
+    _put_slopes(near, pair, frozen, reduced[TARGET_VALUE, i] / math.sqrt(pair.ratio), out, i)
+    return True
+
+
+@kernel
+def fill_slopes(task: Task, near: Near, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
+    """Store the derivatives of the scenes `first` to `last` - 1 of one exponent, or SHORT as status."""
+    start = first
+    while start < last:
+        end = curve_end(task, scenes, reduced, start, last, out)
+        if end > start:
+            walked = turns_of(task, scenes, reduced, start, end, out)
+            opened, _ = open_curve(task, walked, start, end, out)
+            for i in range(start, end):
+                y = out[TURN, i]
+                if y > 0.0 and not _fill_scene(task, near, walked, opened, y, scenes, reduced, i, out):
+                    no_value(out, i, SHORT)
+        start = max(end, start + 1)
+
+
+@kernel
+def near_slopes(
+    punch: Punch,
+    wanted: Wanted,
+    basis: Basis,
+    profile: Floats,
+    near: NearRooms,
+    own_rooms: Rooms,
+    scenes: Floats,
+    reduced: Floats,
+    out: Floats,
+) -> None:
+    """Store the derivatives of scenes in the order of their exponents; those that reach beyond the basis are SHORT.
+
+    `near` has room for the table of an exponent and its four neighbours.
+    """
+    nodes, polys, first = near.nodes, near.polys, int(np.int64(0))  # a plain 0 would be a type of its own to callees
+    while first < scenes.shape[1]:
+        last, k = end_of_exponent(scenes, first), scenes[K, first]
+        task = near_task(punch, wanted, basis, basis, profile, near, scenes, reduced, first, last)
+        tables = (
+            empty_table(basis, k - 2.0 * _STEP, nodes[1], polys[1]),
+            empty_table(basis, k - _STEP, nodes[2], polys[2]),
+            empty_table(basis, k + _STEP, nodes[3], polys[3]),
+            empty_table(basis, k + 2.0 * _STEP, nodes[4], polys[4]),
+        )
+        fill_slopes(task, _near_of(tables, basis, own_rooms, polys.shape[1], 0), scenes, reduced, first, last, out)
+        first = last
+
+
+def _near(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Floats, out: Floats) -> None:
+    """Store the derivatives of near scenes of one fineness of bins."""
+    basis, patterned = basis_of(punch.exponent, punch.waves, EXACT, finer), punch.rows.shape[1] > 0
+    bins = basis.values.shape[0] - 1
+    near = near_rooms(basis, punch, 5)
+    near.nodes[:, Y] = basis.fixed[0, : bins + 1]  # a table ends where its last bin does, filled or not
+    near_slopes(
+        punch, _WANTED, basis, profile, near, rooms_for(bins if patterned else 0, patterned), scenes, reduced, out
+    )
+
+
+def _far(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Floats, out: Floats) -> None:
+    """Store the derivatives of scenes of one exponent that reach beyond near tables.
+
+    Those of more waves than _MOST_BINS holds have none: here sums over waves would take over.
+    """
+    basis, patterned = basis_of(punch.exponent, punch.waves, EXACT, finer), punch.rows.shape[1] > 0
+    within = np.flatnonzero(reduced[NEED] <= (_MOST_BINS - GEOMETRIC) * basis.width)
+
+    def solve(task: Task, own: Floats, numbers: Floats, first: int, last: int, found: Floats) -> None:
+        """Store those of scenes within the table of a task, on tables of neighbouring exponents as long."""
+        y_end, bins = span_of(task.table), task.table.bins
+        k = task.table.k
+        tables = [long_table(punch, k + _STEP * place, EXACT, finer, y_end)[0] for place in _PLACES]
+        rooms = rooms_for(bins if patterned else 0, patterned)
+        near = _near_of((tables[0], tables[1], tables[2], tables[3]), basis, rooms, bins, ALL)
+        fill_slopes(task, near, own, numbers, first, last, found)
+
+    if within.size:
+        found = np.empty((len(out), within.size))
+        solve_far(
+            punch, _WANTED, EXACT, finer, profile, scenes[:, within], reduced[:, within], found, _MOST_BINS, solve
+        )
+        out[:, within] = found
+
+
+def _by_exponent(k: Floats, nu: Floats, m: float) -> tuple[Floats, Floats, Floats]:
+    """Return d ln theta/dk, d ln theta/dnu and d ln(depth factor of r^m)/dk of scenes, alike ones in a row but once."""
+    start = np.flatnonzero(np.append(True, (k[1:] != k[:-1]) | (nu[1:] != nu[:-1])))
+    times, half = np.diff(np.append(start, k.size)), 0.5 * (1.0 + k[start])
+    slopes = (*theta_slopes(k[start], nu[start]), 0.5 * (psi(half) - psi(half + 0.5 * m)))
+    by_k, by_nu, factor = (np.repeat(slope, times) for slope in slopes)
+    return by_k, by_nu, factor
+
+
+def _by_parameter(
+    punch: Punch, scenes: Floats, length: Floats, by: Floats, material: tuple[Floats, Floats, Floats], *, of_force: bool
+) -> dict[str, Floats]:
+    """Return the sensitivities of a value by parameter, (scenes,) each, from those to reduced numbers, (ROWS, scenes).
+
+    `length` is the unit l of length in R, `material` what `_by_exponent` returns. The units of depth, load and energy
+    are, with M = theta modulus c0^-k, s = sqrt(2^(1+k) pi/M), K = 2^(1-k) M/(1+k) and eta = (1-k)/2,
+
+        s l^eta,    K s l^(1+k+eta),    l^2
+    """
+    k, m, half = scenes[K], punch.exponent, 0.5 * np.log(0.5 * length)
+    eta, smooth = 0.5 * (1.0 - k), scenes[AMPLITUDE] == 0.0
+    theta_by_k, theta_by_nu, factor = material
+
+    def unit(stiffness: float, power: ArrayLike, by_k: ArrayLike) -> Floats:
+        """Return how a unit changes by ln M, ln l and k, (3, scenes)."""
+        return np.stack(np.broadcast_arrays(stiffness, power, by_k, k)[:3])
+
+    depth, load = unit(-0.5, eta, -half), unit(0.5, 1.0 + k + eta, half - 1.0 / (1.0 + k))
+    total = load if of_force else unit(0.0, 2.0, 0.0)
+    total = total + by[OF_POWER] * (unit(0.0, m, factor) - depth) + by[OF_WAVES] * (unit(0.0, 1.0, 0.0) - depth)
+    total += by[OF_MACHINE] * (load - depth) - by[OF_TARGET] * (load if punch.turn == AT_A_LOAD else depth)
+    total += unit(0.0, by[OF_PATTERN_WAVES] - by[OF_RIM], by[OF_EXPONENT])
+    stiffness, wavelength, exponent = total
+    found = {
+        "k": exponent + stiffness * (theta_by_k - np.log(scenes[C0])),
+        "nu": stiffness * theta_by_nu,
+        "modulus": stiffness - by[OF_MACHINE],  # a machine's stiffness is over that of the half-space
+        "c0_over_R": np.where(k == 0.0, 0.0, -k * stiffness),
+        "lambda_over_R": np.where(smooth, 0.0, wavelength),
+        "A": np.where(smooth, 0.0, by[OF_WAVES]),
+        "a_max_over_R": np.where(np.isinf(scenes[RIM]), 0.0, by[OF_RIM]),
+        "machine_stiffness": -by[OF_MACHINE],
+        CLOSING: np.where(scenes[RATIO] == 0.0, 0.0, by[OF_RATIO]),
+        PATTERN[0]: -by[OF_PATTERN_WAVES],
+        PATTERN[1]: by[OF_PATTERN],
+    }
+    return found | dict.fromkeys(TURNS, by[OF_TARGET])
+
+
+def sensitivities(
+    request: Request, shape: tuple[int, ...], outputs: Sequence[str], given: Sequence[str], threads: int | None
+) -> dict[str, NDArray[np.float64]]:
+    """Return sensitivities among `outputs`, arrays of the shape (*shape, parameters).
+
+    The last axis has the parameters of `PARAMETERS`, and those of `FURTHER` that are `given`, in this order. NaN where
+    the value is not positive or has no bound, for nu at k = 1, and for the closing ratio of the energy of an unbounded
+    punch that does not turn.
+    """
+    punch, profile = punch_of(request), profile_of(request.waves)
+    columns, count = columns_of(request)
+    names = [*PARAMETERS, *(name for name in FURTHER if name in given)]
+    found = {name: np.empty((count, len(names))) for name in outputs}
+
+    def work(first: int, last: int) -> None:
+        """Fill a part of the scenes, which are solved in the order of their exponents."""
+        scenes = scenes_of(columns, first, last)
+        order = np.argsort(scenes[K], kind="stable")
+        scenes = np.ascontiguousarray(scenes[:, order])
+        near, far = partial(_near, punch, profile), partial(_far, punch, profile)
+        out, _ = in_groups(punch, EXACT, scenes, _ALL_ROWS, near, far)
+        with np.errstate(all="ignore"):  # what has no value has no sensitivity
+            material = _by_exponent(scenes[K], scenes[NU], punch.exponent)
+            for output in outputs:
+                of_force = output == SENSITIVITIES[0]
+                by = out[FORCE : FORCE + ROWS] if of_force else out[ENERGY : ENERGY + ROWS]
+                slopes = _by_parameter(punch, scenes, out[UNIT], by, material, of_force=of_force)
+                rows = np.array([slopes[name] for name in names])
+                has_value = np.isfinite(by[OF_POWER])
+                found[output][first + order] = np.where(has_value & np.isfinite(rows), rows + 0.0, np.nan).T  # no -0
+
+    run_parts(count, work, threads)
+    return {name: values.reshape(*shape, len(names)) for name, values in found.items()}

@@ -1,1 +1,0 @@
-"""How strongly force and energy depend on each parameter."""

@@ -1,0 +1,234 @@
+"""Tables of any exponent near the centre: bins interpolated in k, filled only as far as they are needed.
+
+All that a bin holds is a smooth function of k, once the powers of the radius are taken out. A basis holds the bins of
+one power, series and form at 21 exponents, the Chebyshev points of [0, 1]; the bins of any k are sums over these, at a
+tenth of the price of new ones. (Those of a long series are not: a basis costs as much as 21 exponents, of which a study
+of rough profiles has one or two.) All scenes within its reach are solved on such tables, whatever else is in their
+call, so that a value does not depend on its neighbours.
+"""
+
+import math
+import threading
+from collections import OrderedDict
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from gradhesion.core.jit import kernel, leaf, quadrature
+from gradhesion.core.table.filling import fill_bins, source_of, width_of, with_bounds
+from gradhesion.core.table.layout import (
+    BE,
+    BP,
+    BV,
+    EXACT,
+    FIRST,
+    GEOMETRIC,
+    HALF,
+    K0,
+    KE,
+    LANES,
+    M0,
+    PC,
+    PE,
+    PP,
+    PU,
+    PU1,
+    ROWS,
+    SLOPE,
+    U1,
+    YC,
+    E,
+    N,
+    P,
+    T,
+    Table,
+    U,
+    V,
+    Y,
+)
+from gradhesion.core.table.leading import crests_of
+from gradhesion.core.types import Floats
+
+NODES: Final = 21
+_MOST_HARMONICS: Final = 8
+"""Harmonics of a series whose bins are interpolated: those of a longer one are filled for each exponent by itself."""
+UNIFORM: Final = 512
+"""Uniform bins of a basis: 64 of the shortest waves."""
+SIZE: Final = 3 * N + 10
+"""Numbers of a bin that depend on k: three lanes; V, U and U1 at the lower edge; six moments; the bound of U'."""
+FIXED: Final = (Y, P, SLOPE, BP, M0, PC, YC, HALF)
+"""Rows that do not depend on k."""
+_KEPT: Final = 16
+"""Bases kept, of five megabytes each: the bins of patterns have up to 13 widths."""
+
+
+class Basis(NamedTuple):
+    """The bins of one power, series and form at the exponents `k`.
+
+    exponent    m, the power of the punch
+    form        exact, or leading terms (layout.py)
+    start, width  of the uniform bins, as of a table
+    k           the exponents, (NODES,), or one alone
+    values      what depends on k, powers of the radius taken out, (bins, exponents, SIZE)
+    fixed       the rows FIXED, (8, bins + 1)
+    powers      the lane of y^m, (bins, N)
+    crest, lowest  bounds at the exponents: those of `fill_bounds` and of a table
+    """
+
+    exponent: float
+    form: int
+    start: float
+    width: float
+    k: Floats
+    values: Floats
+    fixed: Floats
+    powers: Floats
+    crest: Floats
+    lowest: Floats
+
+
+@kernel
+def _pack(k: float, node: int, nodes: Floats, polys: Floats, values: Floats) -> None:
+    """Put the bins of one exponent into column `node` of `values`, powers of the radius taken out."""
+    for i in range(values.shape[0]):
+        stretch = nodes[YC, i] ** (-0.5 * (1.0 + k))
+        power = 1.0 / (stretch * stretch * nodes[YC, i])
+        out = values[i, node]
+        for n in range(N):
+            out[n], out[N + n], out[2 * N + n] = polys[i, PU, n], polys[i, PU1, n], polys[i, PE, n] / stretch
+        out[3 * N], out[3 * N + 1], out[3 * N + 2] = nodes[V, i], nodes[U, i], nodes[U1, i]
+        for row in range(6):
+            out[3 * N + 3 + row] = nodes[K0 + row, i] / power
+        out[SIZE - 1] = nodes[BV, i]
+
+
+def is_interpolated(waves: Floats) -> bool:
+    """Return whether bins of a series are interpolated in k."""
+    return len(waves) <= _MOST_HARMONICS
+
+
+def make_basis(exponent: float, waves: Floats, form: int = EXACT, finer: int = 1, k: float = math.nan) -> Basis:
+    """Return the basis of a punch of a power with harmonics (n, cos, sin); its bins are `finer` times narrower.
+
+    It is that of the exponent `k` alone, if one is given.
+    """
+    width = width_of(waves, finer)
+    bins = GEOMETRIC + UNIFORM + 1  # one more than tables have, for the last edge
+    ends = np.array([k]) if k >= 0.0 else 0.5 - 0.5 * np.cos(np.pi * np.arange(NODES) / (NODES - 1))
+    values = np.empty((bins, ends.size, SIZE))
+    nodes, polys = np.zeros((ROWS, bins + 1)), np.empty((bins, LANES, N))
+    crest, lowest = np.empty(ends.size), np.empty(ends.size)
+    for node, own in enumerate(ends):
+        source = source_of(own, exponent, waves, width, 0.0, form)
+        fill_bins(source, FIRST, GEOMETRIC, bins, nodes, polys)
+        _pack(own, node, nodes, polys, values)
+        crest[node], wave, _ = crests_of(own, waves)
+        near = ((nodes[U] - nodes[U1]) / (nodes[E] * nodes[Y]))[GEOMETRIC - 20 :].min()
+        lowest[node] = min(-wave, 1.02 * near)
+    return Basis(
+        exponent, form, FIRST * width, width, ends, values, nodes[list(FIXED)], polys[:, PP].copy(), crest, lowest
+    )
+
+
+_bases: OrderedDict[tuple[object, ...], Basis] = OrderedDict()
+_lock = threading.Lock()
+
+
+def basis_of(exponent: float, waves: Floats, form: int = EXACT, finer: int = 1, k: float = math.nan) -> Basis:
+    """Return the basis of `make_basis`, one of the last few if it is among them."""
+    key = (exponent, waves.tobytes(), form, finer, k if k >= 0.0 else None)
+    with _lock:
+        if key not in _bases:
+            _bases[key] = make_basis(exponent, waves, form, finer, k)
+            if len(_bases) > _KEPT:
+                _bases.popitem(last=False)
+        _bases.move_to_end(key)
+        return _bases[key]
+
+
+@kernel
+def fill_weights(nodes: Floats, k: float, weights: Floats) -> None:
+    """Put the weights by which values at Chebyshev points add up to the one at k into `weights`, both (NODES,)."""
+    total = 0.0
+    for n in range(nodes.size):
+        if nodes[n] == k:
+            weights[:] = 0.0
+            weights[n] = 1.0
+            return
+        sign = 1.0 if n % 2 == 0 else -1.0
+        weights[n] = sign * (0.5 if n == 0 or n == nodes.size - 1 else 1.0) / (k - nodes[n])
+        total += weights[n]
+    for n in range(nodes.size):
+        weights[n] /= total
+
+
+@quadrature
+def mix_bins(basis: Basis, k: float, weights: Floats, first: int, last: int, nodes: Floats, polys: Floats) -> None:
+    """Fill the bins `first` to `last` - 1 of an exponent, whose weights are given, and the edge of `last`."""
+    power = -0.5 * (1.0 + k)
+    mixed = np.zeros(SIZE)
+    for i in range(first, last + 1):
+        for c in range(SIZE):
+            mixed[c] = 0.0
+        for n in range(basis.k.size):
+            weight = weights[n]
+            for c in range(SIZE):
+                mixed[c] += weight * basis.values[i, n, c]
+        nodes[Y, i], nodes[P, i], nodes[SLOPE, i] = basis.fixed[0, i], basis.fixed[1, i], basis.fixed[2, i]
+        nodes[V, i], nodes[U, i], nodes[U1, i] = mixed[3 * N], mixed[3 * N + 1], mixed[3 * N + 2]
+        centre = basis.fixed[6, i]
+        at_centre = centre**power
+        stretch, sign = 0.0, 1.0  # at the lower edge, t = -1
+        for n in range(N):
+            stretch += sign * mixed[2 * N + n]
+            sign = -sign
+        stretch *= at_centre
+        nodes[E, i] = nodes[KE, i] = stretch
+        nodes[T, i] = 1.0 / (stretch * stretch)
+        if i == last:
+            return
+        for n in range(N):
+            polys[i, PU, n], polys[i, PU1, n] = mixed[n], mixed[N + n]
+            polys[i, PP, n], polys[i, PE, n] = basis.powers[i, n], at_centre * mixed[2 * N + n]
+        of_y_to_k = 1.0 / (at_centre * at_centre * centre)
+        for row in range(6):
+            nodes[K0 + row, i] = mixed[3 * N + 3 + row] * of_y_to_k
+        nodes[BP, i], nodes[M0, i], nodes[PC, i] = basis.fixed[3, i], basis.fixed[4, i], basis.fixed[5, i]
+        nodes[YC, i], nodes[HALF, i] = centre, basis.fixed[7, i]
+        nodes[BV, i] = 1.01 * mixed[SIZE - 1]  # a largest value, which is not quite smooth in k
+        half, low = basis.fixed[7, i], basis.fixed[0, i]
+        nodes[BE, i] = 0.5 * half * half * power * (power - 1.0) * stretch / (low * low)
+
+
+@leaf
+def between(basis: Basis, k: float) -> tuple[int, int]:
+    """Return the two nodes next to k, of which the first is not above it; twice 0 if there is one alone."""
+    last, node = basis.k.size - 1, 0
+    while node < last - 1 and basis.k[node + 1] <= k:
+        node += 1
+    return node, min(node + 1, last)
+
+
+@kernel
+def empty_table(basis: Basis, k: float, nodes: Floats, polys: Floats) -> Table:
+    """Return the table of an exponent of which no bin is filled yet; its room is as large as that of `room_of`."""
+    low, high = between(basis, k)
+    lowest = 1.01 * min(basis.lowest[low], basis.lowest[high])
+    share = (1.0 + k) / (1.0 + k + basis.exponent)
+    bins = basis.values.shape[0] - 1
+    return Table(k, basis.exponent, share, basis.start, basis.width, lowest, 0.0, GEOMETRIC, bins, nodes, polys)
+
+
+@kernel
+def fill_table(basis: Basis, k: float, weights: Floats, bins: int, nodes: Floats, polys: Floats) -> Table:
+    """Return the table of an exponent with its first `bins` bins filled, bounds and integrals included."""
+    fill_weights(basis.k, k, weights)
+    mix_bins(basis, k, weights, 0, bins, nodes, polys)
+    low, high = between(basis, k)
+    crest = 1.01 * max(basis.crest[low], basis.crest[high])
+    return with_bounds(empty_table(basis, k, nodes, polys), crest, bins)
+
+
+def room_of(bins: int, lanes: int = LANES) -> tuple[Floats, Floats]:
+    """Return room for the nodes and polynomials of a table."""
+    return np.zeros((ROWS, bins + 1)), np.zeros((bins, lanes, N))

@@ -1,0 +1,371 @@
+"""Bins filled from the functions of one exponent: sampled at Gauss points, fitted, integrated and bounded."""
+
+import math
+
+import numpy as np
+
+from gradhesion.core.jit import kernel, leaf, quadrature, quadrature_leaf
+from gradhesion.core.table.functions import LAST, TAIL, Functions, functions_of, pairs_at
+from gradhesion.core.table.layout import (
+    BE,
+    BP,
+    BV,
+    BY_LOAD,
+    EXACT,
+    FIRST,
+    HALF,
+    HM,
+    HP,
+    HPP,
+    HPU,
+    HU,
+    HUU,
+    K0,
+    K1,
+    K2,
+    KE,
+    KU,
+    KUU,
+    KV,
+    M0,
+    PC,
+    PE,
+    PER_WAVE,
+    POINTS,
+    PP,
+    PU,
+    PU1,
+    QPOW,
+    QUP,
+    RATIO,
+    RLOW,
+    RPOW,
+    SLOPE,
+    U1,
+    WEIGHTS,
+    YC,
+    E,
+    N,
+    P,
+    Source,
+    T,
+    Table,
+    U,
+    V,
+    Y,
+)
+from gradhesion.core.table.leading import fill_far_leading, leading_at
+from gradhesion.core.types import Floats
+
+_legendre = np.polynomial.legendre
+TO_LEGENDRE = np.linalg.inv(_legendre.legvander(POINTS, N - 1))
+"""From values at the points to Legendre coefficients; in one step with the next, the fit would lose three digits."""
+TO_POWERS = np.array([np.pad(_legendre.leg2poly(row), (0, N - 1 - n)) for n, row in enumerate(np.eye(N))]).T.copy()
+"""From Legendre coefficients to powers."""
+_SHORT_SERIES = 20.0
+"""Centre over half width from which on a power is its binomial series of N terms to 1e-15."""
+
+
+@quadrature_leaf
+def fit(samples: Floats, row: int, poly: Floats, lane: int, legendre: Floats) -> None:
+    """Turn values at the points of a bin, a row of `samples` (., N), into a lane of coefficients of `poly` (., N)."""
+    for n in range(N):
+        total = 0.0
+        for j in range(N):
+            total += TO_LEGENDRE[n, j] * samples[row, j]
+        legendre[n] = total
+    for n in range(N):
+        total = 0.0
+        for j in range(N):
+            total += TO_POWERS[n, j] * legendre[j]
+        poly[lane, n] = total
+
+
+@kernel
+def fill_far(
+    functions: Functions, waves: Floats, width: float, shift: float, far_waves: Floats, far_mean: Floats
+) -> None:
+    """Add up the expansions in 1/y of all harmonics at every point of the bins of one wave.
+
+    U = sum_i far_mean[0, i] y^(-2i) + y E sum_i far_waves[0, i, bin, point] y^(-i); U1 the same but for the factor y.
+    """
+    power = -0.5 * (1.0 + functions.k)
+    for h in range(len(waves)):
+        n, cos, sin = waves[h]
+        for pair in range(2):
+            for i in range(TAIL):
+                far_mean[pair, i] += cos * functions.slow[pair, i] * n ** (-2.0 * i)
+        for b in range(far_waves.shape[2]):
+            for j in range(N):
+                x = n * width * (b + shift + 0.5 + 0.5 * POINTS[j])
+                sine, cosine = math.sin(x), math.cos(x)
+                for pair in range(2):
+                    s = sine * functions.phase[pair, 0] - cosine * functions.phase[pair, 1]
+                    c = cosine * functions.phase[pair, 0] + sine * functions.phase[pair, 1]
+                    factor = n ** (1.0 + power - pair)
+                    for i in range(TAIL // 2):
+                        far_waves[pair, 2 * i, b, j] += factor * functions.real[pair, i] * (cos * s + sin * c)
+                        factor /= n
+                        far_waves[pair, 2 * i + 1, b, j] += factor * functions.imaginary[pair, i] * (cos * c - sin * s)
+                        factor /= n
+
+
+@kernel
+def source_of(k: float, exponent: float, waves: Floats, width: float, shift: float, form: int) -> Source:
+    """Return what bins of an exponent are filled from; `waves` are rows (n, cos, sin)."""
+    functions = functions_of(k)
+    per = round(2.0 * math.pi / width)
+    far_waves, far_mean = np.zeros((2, TAIL, per, N)), np.zeros((2, TAIL))
+    if form == EXACT:
+        fill_far(functions, waves, width, shift, far_waves, far_mean)
+    else:
+        fill_far_leading(k, waves, form, width, shift, far_waves, far_mean)
+    return Source(k, exponent, (FIRST + shift) * width, width, waves, functions, far_waves, far_mean, form, shift)
+
+
+@kernel
+def waves_at(source: Source, y: float) -> tuple[float, float]:
+    """Return U and U1 at y, harmonic by harmonic."""
+    if source.form != EXACT:
+        return leading_at(source.k, source.waves, source.form, y)
+    u = u1 = 0.0
+    for h in range(len(source.waves)):
+        n, cos, sin = source.waves[h]
+        S0, C0, S1, C1 = pairs_at(source.functions, n * y)
+        u += n * (cos * S0 + sin * C0)
+        u1 += n * (cos * S1 + sin * C1)
+    return y * u, y * u1
+
+
+@quadrature_leaf
+def _sample_powers(
+    m: float, power: float, centre: float, half: float, poly: Floats, values: Floats, room: Floats
+) -> None:
+    """Fill the lanes of y^m and of E, y to a `power`, and their values at the points, rows PP and PE of `values`."""
+    if half * _SHORT_SERIES > centre:
+        for j in range(N):
+            y = centre + half * POINTS[j]
+            values[PP, j], values[PE, j] = y**m, y**power
+        fit(values, PP, poly, PP, room)
+        fit(values, PE, poly, PE, room)
+        return
+    ratio = half / centre
+    a, b = centre**m, centre**power
+    for n in range(N):
+        poly[PP, n], poly[PE, n] = a, b
+        a *= (m - n) / (n + 1.0) * ratio
+        b *= (power - n) / (n + 1.0) * ratio
+    for j in range(N):
+        values[PP, j] = values[PE, j] = 0.0
+    for n in range(N - 1, -1, -1):
+        for j in range(N):
+            values[PP, j] = values[PP, j] * POINTS[j] + poly[PP, n]
+            values[PE, j] = values[PE, j] * POINTS[j] + poly[PE, n]
+
+
+@quadrature_leaf
+def _sample_far(source: Source, b: int, low: float, centre: float, half: float, values: Floats, room: Floats) -> None:
+    """Fill rows PU and PU1 of `values` with U and U1 at the points of a bin beyond y = 40, the b-th bin of its wave."""
+    terms = TAIL - 1 if low < 80.0 else 8 if low < 400.0 else 5
+    for j in range(N):
+        values[PU, j] = values[PU1, j] = 0.0
+        room[j] = 1.0 / (centre + half * POINTS[j])
+    for n in range(terms, -1, -1):
+        for j in range(N):
+            values[PU, j] = values[PU, j] * room[j] + source.far_waves[0, n, b, j]
+            values[PU1, j] = values[PU1, j] * room[j] + source.far_waves[1, n, b, j]
+    for j in range(N):
+        square = room[j] * room[j]
+        u = u1 = 0.0
+        for n in range(terms if terms > 8 else 4, -1, -1):
+            u = u * square + source.far_mean[0, n]
+            u1 = u1 * square + source.far_mean[1, n]
+        values[PU, j] = values[PU, j] * values[PE, j] / room[j] + u
+        values[PU1, j] = values[PU1, j] * values[PE, j] / (room[j] if source.form == BY_LOAD else 1.0) + u1
+
+
+@quadrature_leaf
+def _integrate(m: float, values: Floats, centre: float, half: float, i: int, nodes: Floats) -> None:
+    """Fill the moments of bin i from the values at its points."""
+    at_centre = centre**m
+    k0 = k1 = k2 = ku = kuu = kv = 0.0
+    for j in range(N):
+        weight = half * WEIGHTS[j] / (values[PE, j] * values[PE, j] * (centre + half * POINTS[j]))  # of y^k
+        u = values[PP, j] - at_centre
+        k0 += weight
+        k1 += weight * u
+        k2 += weight * u * u
+        ku += weight * values[PU, j]
+        kuu += weight * u * values[PU, j]
+        kv += weight * values[PU, j] * values[PU, j]
+    nodes[K0, i], nodes[K1, i], nodes[K2, i], nodes[KU, i], nodes[KUU, i], nodes[KV, i] = k0, k1, k2, ku, kuu, kv
+    nodes[M0, i], nodes[PC, i], nodes[YC, i], nodes[HALF, i] = 2.0 * centre * half, at_centre, centre, half
+
+
+@leaf
+def fill_edge(m: float, poly: Floats, centre: float, half: float, t: float, column: int, nodes: Floats) -> None:
+    """Fill the rows of an edge, at t = -1 or 1 of a bin."""
+    power = stretch = u = u1 = slope = 0.0
+    for n in range(N - 1, -1, -1):
+        slope = slope * t + u
+        u = u * t + poly[PU, n]
+        u1 = u1 * t + poly[PU1, n]
+        power = power * t + poly[PP, n]
+        stretch = stretch * t + poly[PE, n]
+    y = centre + t * half
+    nodes[Y, column], nodes[P, column], nodes[SLOPE, column] = y, power, m * power / y
+    nodes[U, column], nodes[U1, column], nodes[V, column] = u, u1, slope / half
+    nodes[E, column] = nodes[KE, column] = stretch
+    nodes[T, column] = 1.0 / (stretch * stretch)
+
+
+@leaf
+def bend_of(poly: Floats, half: float) -> float:
+    """Return a bound of how far U' swings beyond the edges of a bin: h^2/2 sup of its second derivative."""
+    top = bottom = 0.0
+    sign = -1.0
+    for n in range(3, N):
+        third = poly[PU, n] * (n * (n - 1.0) * (n - 2.0))
+        top += third
+        bottom -= third * sign
+        sign = -sign
+    return 0.6 * max(abs(top), abs(bottom), abs(6.0 * poly[PU, 3])) / half
+
+
+@leaf
+def bend_of_power(m: float, low: float, high: float) -> float:
+    """Return the same bound of m y^(m-1) between two radii."""
+    if m == 2.0 or m == 1.0:  # noqa: PLR1714 (numba compiles a set more slowly)
+        return 0.0
+    half = 0.5 * (high - low)
+    return 0.5 * half * half * abs(m * (m - 1.0) * (m - 2.0)) * (high if m > 3.0 else low) ** (m - 3.0)
+
+
+@quadrature
+def fill_bins(source: Source, first: int, geometric: int, count: int, nodes: Floats, polys: Floats) -> None:
+    """Fill `count` bins: `geometric` ones up to y = (first + shift) width, and uniform ones from there on.
+
+    Rows of bounds and integrals from 0 are left to `fill_bounds`, for they need all bins from the first one.
+    """
+    k, m, width, shift = source.k, source.exponent, source.width, source.shift
+    start, power = (first + shift) * width, -0.5 * (1.0 + k)
+    per = source.far_waves.shape[2]
+    values, room = np.zeros((4, N)), np.zeros(N)
+    longest = source.waves[:, 0].min()
+    for i in range(count):
+        number = i - geometric
+        if number < 0:
+            low = start * RATIO**number
+            high = start * RATIO ** (number + 1) if number < -1 else start
+        else:
+            low, high = (first + shift + number) * width, (first + shift + number + 1) * width
+        centre, half = 0.5 * (low + high), 0.5 * (high - low) if number < 0 else 0.5 * width
+        poly = polys[i]
+        _sample_powers(m, power, centre, half, poly, values, room)
+        if low * longest >= LAST:
+            _sample_far(source, (first + number) % per, low, centre, half, values, room)
+        else:
+            for j in range(N):
+                values[PU, j], values[PU1, j] = waves_at(source, centre + half * POINTS[j])
+        fit(values, PU, poly, PU, room)
+        fit(values, PU1, poly, PU1, room)
+        if source.form == BY_LOAD:  # any U with this derivative will do: only U' and U - U1 are used of it
+            for n in range(N - 1, -1, -1):
+                integral = poly[PU, n - 1] * half / n if n > 0 else 0.0
+                poly[PU1, n], poly[PU, n] = integral - poly[PU1, n], integral
+        _integrate(m, values, centre, half, i, nodes)
+        fill_edge(m, poly, centre, half, -1.0, i, nodes)
+        nodes[BV, i] = bend_of(poly, half)
+        nodes[BP, i] = bend_of_power(m, low, high)
+        nodes[BE, i] = 0.5 * half * half * power * (power - 1.0) * nodes[E, i] / (low * low)
+    if count > 0:
+        fill_edge(m, polys[count - 1], nodes[YC, count - 1], nodes[HALF, count - 1], 1.0, count, nodes)
+
+
+@leaf
+def _bend_at_zero(nodes: Floats) -> float:
+    """Return U'' below the first bin, where U is of degree 2 to rounding."""
+    return (nodes[V, 1] - nodes[V, 0]) / (nodes[Y, 1] - nodes[Y, 0])
+
+
+@kernel
+def _fill_below(k: float, zero: float, nodes: Floats) -> None:
+    """Fill the integrals from 0 to the first bin, where U is zero + slope y + bend y^2/2."""
+    y, unit, power = nodes[Y, 0], nodes[T, 0], nodes[P, 0]
+    m = nodes[SLOPE, 0] * y / power if power > 0.0 else 1.0
+    bent = 0.5 * _bend_at_zero(nodes) * y * y
+    rise = nodes[V, 0] * y - 2.0 * bent
+    kappa = nodes[KE, 0] / nodes[E, 0]
+    nodes[HM, 0] = 0.5 * (kappa * y) ** 2
+    q = 1.0 + k
+    nodes[HU, 0] = unit * (zero / q + rise / (q + 1.0) + bent / (q + 2.0))
+    squares = zero * zero / q + 2.0 * zero * rise / (q + 1.0) + (rise * rise + 2.0 * zero * bent) / (q + 2.0)
+    nodes[HUU, 0] = unit * (squares + 2.0 * rise * bent / (q + 3.0) + bent * bent / (q + 4.0))
+    q += m
+    nodes[HP, 0], nodes[HPP, 0] = unit * power / q, unit * power * power / (q + m)
+    nodes[HPU, 0] = unit * power * (zero / q + rise / (q + 1.0) + bent / (q + 2.0))
+
+
+@kernel
+def fill_bounds(k: float, zero: float, crest: float, geometric: int, bins: int, nodes: Floats) -> None:
+    """Fill the running bounds over the first `bins` bins, and the integrals from 0 to the edges of the geometric ones.
+
+    `zero` is U at y = 0, `crest` a bound of -U' y^((k-1)/2) beyond the last bin. V/E and V/(y E) are bounded within
+    bins as well, by what V can swing there.
+    """
+    highest, lowest = -math.inf, -crest
+    for i in range(bins + 1):
+        swing = nodes[BV, i - 1] / nodes[E, i] if i > 0 else 0.0
+        highest = max(highest, nodes[V, i] / nodes[E, i] + swing)
+        nodes[QUP, i] = highest
+        nodes[QPOW, i] = nodes[SLOPE, i] / nodes[E, i]
+        nodes[RPOW, i] = nodes[QPOW, i] / nodes[Y, i]
+    for i in range(bins, -1, -1):
+        swing = nodes[BV, i] if i < bins else 0.0
+        lowest = min(lowest, (nodes[V, i] - swing) / (nodes[E, i] * nodes[Y, i]))
+        nodes[RLOW, i] = lowest
+    _fill_below(k, zero, nodes)
+    for i in range(min(geometric, bins)):
+        c = nodes[PC, i]
+        nodes[HM, i + 1] = nodes[HM, i] + nodes[M0, i]
+        nodes[HP, i + 1] = nodes[HP, i] + nodes[K1, i] + c * nodes[K0, i]
+        nodes[HPP, i + 1] = nodes[HPP, i] + nodes[K2, i] + c * (2.0 * nodes[K1, i] + c * nodes[K0, i])
+        nodes[HU, i + 1] = nodes[HU, i] + nodes[KU, i]
+        nodes[HPU, i + 1] = nodes[HPU, i] + nodes[KUU, i] + c * nodes[KU, i]
+        nodes[HUU, i + 1] = nodes[HUU, i] + nodes[KV, i]
+
+
+@kernel
+def with_bounds(table: Table, crest: float, bins: int) -> Table:
+    """Return a table whose first `bins` bins are filled, with its bounds (those of `fill_bounds`) and U at 0."""
+    nodes = table.nodes
+    zero = nodes[U, 0] - (nodes[V, 0] - 0.5 * _bend_at_zero(nodes) * nodes[Y, 0]) * nodes[Y, 0]
+    fill_bounds(table.k, zero, crest, table.geometric, bins, nodes)
+    return Table(
+        table.k,
+        table.exponent,
+        table.share,
+        table.start,
+        table.width,
+        table.lowest,
+        zero,
+        table.geometric,
+        bins,
+        nodes,
+        table.polys,
+    )
+
+
+def width_of(waves: Floats, finer: int = 1) -> float:
+    """Return the width of uniform bins for harmonics (n, cos, sin), `finer` times narrower than usual."""
+    return 2.0 * math.pi / (PER_WAVE * float(waves[:, 0].max()) * finer)
+
+
+@kernel
+def piece_of(table: Table, source: Source, first: int, count: int, nodes: Floats, polys: Floats) -> Table:
+    """Fill the given room with `count` uniform bins from y = (first + shift) width on, and return them as a table."""
+    fill_bins(source, first, 0, count, nodes, polys)
+    start = (first + source.shift) * source.width
+    return Table(
+        table.k, table.exponent, table.share, start, table.width, table.lowest, table.zero, 0, count, nodes, polys
+    )

@@ -1,1 +1,0 @@
-"""Where a cycle turns before the rim."""

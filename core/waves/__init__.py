@@ -1,1 +1,0 @@
-"""One wave far out on a curve, and sums over many."""

@@ -1,0 +1,154 @@
+"""The first run of a version says that it compiles, once; what starts meanwhile waits, and nothing is compiled twice."""
+
+import json
+import os
+import subprocess
+import sys
+import threading
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import gradhesion as gr
+from gradhesion.cli.dataset import compute
+from gradhesion.cli.locks import closing, try_lock
+from gradhesion.cli.study import study_from
+from gradhesion.cli.work import compiling
+from gradhesion.core.jit import Place
+
+Call = Callable[..., Any]
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder for compiled code, in which no process has compiled yet."""
+    folder = tmp_path / "kernels"
+    folder.mkdir()
+    monkeypatch.setattr(compiling, "place", lambda: Place(folder, ""))
+    monkeypatch.setattr(compiling, "PAUSE", 0.01)
+    return folder
+
+
+@pytest.mark.usefixtures("folder")
+def test_the_first_run_says_that_it_compiles_and_no_later_one(
+    gradhesion: Call, study_file: Path, tmp_path: Path
+) -> None:
+    run = ("run", study_file, "--quiet")
+    assert len(gradhesion(*run, "-o", tmp_path / "first.nc").stderr.splitlines()) == 1, "also where it is quiet"
+    assert gradhesion(*run, "-o", tmp_path / "second.nc").stderr == ""
+    assert gradhesion("plan", study_file).stderr == ""
+
+
+@pytest.mark.usefixtures("folder")
+def test_it_is_an_event_of_the_log(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
+    for events in (["compile", "done"], ["done"]):
+        lines = gradhesion("run", study_file, "--log-json", "--overwrite", "-o", tmp_path / "x.nc").stderr.splitlines()
+        assert [event for event in (json.loads(line)["event"] for line in lines) if event != "progress"] == events
+
+
+@pytest.mark.usefixtures("folder")
+def test_another_process_does_not_say_it_again(
+    data: dict[str, Any], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    compute(study_from(data))
+    assert capsys.readouterr().err
+    monkeypatch.setattr(compiling, "_begun", set())
+    compute(study_from(data))
+    assert capsys.readouterr().err == ""
+
+
+def test_a_plan_and_python_say_it_as_well(
+    folder: Path,
+    gradhesion: Call,
+    study_file: Path,
+    data: dict[str, Any],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert len(gradhesion("plan", study_file, "--json").stderr.splitlines()) == 1
+    (folder / "another").mkdir()
+    monkeypatch.setattr(compiling, "place", lambda: Place(folder / "another", ""))
+    scene = dict.fromkeys(data["parameters"], 0.3)
+    gr.solve(scene, "pull_off_force")
+    gr.curves(scene, "path")
+    assert len(capsys.readouterr().err.splitlines()) == 1
+
+
+def test_where_nothing_is_kept_it_says_why_once(
+    data: dict[str, Any], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(compiling, "place", lambda: Place(None, "a folder is not used, and why"))
+    monkeypatch.setattr(compiling, "_begun", set())
+    for is_first in (True, False):
+        compute(study_from(data))
+        assert ("a folder is not used, and why" in capsys.readouterr().err) == is_first
+
+
+def test_what_starts_while_another_process_compiles_waits_for_it(folder: Path) -> None:
+    """The other process is this one: it holds the lock."""
+    handle = try_lock(folder / "lock")
+    assert handle is not None
+    with closing(handle):
+        waiting = threading.Thread(target=compiling.prepare)
+        waiting.start()
+        waiting.join(0.3)
+        assert waiting.is_alive()
+    waiting.join(60)
+    assert not waiting.is_alive()
+    handle = try_lock(folder / "lock")
+    assert handle is not None
+    with closing(handle):
+        compiling.prepare()  # all is compiled, and nobody waits
+
+
+@pytest.mark.usefixtures("folder")
+def test_a_map_compiles_what_it_needs_before_it_is_solved(
+    data: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A scene at either end of its axes is solved; blocks that raise are left to the run."""
+    solved: list[Any] = []
+
+    def solve_block(_study: Any, block: Any, _threads: Any) -> None:
+        solved.append(block)
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(compiling, "solve_block", solve_block)
+    study = study_from(data)
+    compiling.compile_for(study)
+    ends = [tuple((part.start, part.stop) for part in block) for block in solved]
+    assert ends == [tuple((0, 1) for _ in study.shape), tuple((size - 1, size) for size in study.shape)]
+
+
+@pytest.mark.usefixtures("folder")
+def test_a_warmup_takes_the_options_of_earlier_versions(gradhesion: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[bool] = []
+    monkeypatch.setattr("gradhesion.core.warm_up", lambda _report, *, everything: asked.append(everything))
+    for arguments in ([], ["--all"], ["--all", "--workers", "2", "--quiet"]):
+        result = gradhesion("warmup", *arguments)
+        assert result.exit_code == 0
+        assert ("--quiet" in arguments) == (result.stderr == "")
+    assert asked == [False, True, True]
+
+
+@pytest.mark.slow
+def test_after_a_warmup_a_map_compiles_nothing(study_file: Path, tmp_path: Path) -> None:
+    """By processes that share a cache of their own."""
+
+    def command(*arguments: str | Path) -> tuple[str, set[str]]:
+        """Return what a command writes to stderr, and the files of compiled code that are there then."""
+        done = subprocess.run(
+            [sys.executable, "-m", "gradhesion", *arguments],
+            env=os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "cache")},
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        return done.stderr, {path.name for path in (tmp_path / "cache").rglob("*.nbc")}
+
+    said, compiled = command("warmup")
+    assert str(tmp_path / "cache") in said
+    assert compiled
+    assert command("run", study_file, "--quiet", "-o", "out.nc") == ("", compiled)
