@@ -242,7 +242,7 @@ def scan(curve: Curve, first: int, last: int, count: int, trace: Floats) -> tupl
                 trace[CLOSE_PAIR, 0] = min(trace[CLOSE_PAIR, 0], nodes[Y, i])
             older, before = before, after
         start += size
-    return count, False
+    return count, ends and B * nodes[RPOW, last] + g * nodes[RLOW, last] > highest / nodes[Y, last]
 
 
 @leaf

@@ -42,17 +42,22 @@ def _pair_is_close(rim: float, trace: Floats, count: int) -> bool:
 
 
 @kernel
-def loading_is_tied(curve: Curve, rim: float, trace: Floats, count: int) -> bool:
-    """Return whether it is close which branches exist, or which of them reach higher than those before."""
-    if _pair_is_close(rim, trace, count):
+def loading_is_tied(curve: Curve, end: float, at_rim: bool, trace: Floats, count: int) -> bool:
+    """Return whether it is close which branches exist, or which of them reach higher than those before.
+
+    Loading ends at its rim, or where it turns: there a jump may land that has passed the target, as high as it was.
+    """
+    if _pair_is_close(end, trace, count):
         return True
     highest = 0.0
     for j in range(count):
-        if trace[START, j] > rim:
+        if trace[START, j] > end:
             return False
         top, y = trace[END_LEVEL, j], trace[END, j]
-        if y >= rim:
-            top, y = _level_at(curve, rim), rim
+        if y >= end and not at_rim:
+            return False
+        if y >= end:
+            top, y = _level_at(curve, end), end
         if top < math.inf and _are_close(curve, top, highest, y):
             return True
         highest = max(highest, top)

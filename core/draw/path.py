@@ -115,17 +115,18 @@ def _put_along(side: Side, corners: list[_Corner], y: float, branch: float) -> N
 def _put_jump(frame: Frame, side: Side, corners: list[_Corner], y: float, branch: float) -> None:
     """Jump from the last corner to a radius, 0 out of contact.
 
-    Contact there is a flat punch, pushed off equilibrium until it has what is prescribed: by nothing on a branch.
+    Contact there is a flat punch, pushed off equilibrium until it has what is prescribed: by nothing on a branch. A
+    dead load that lets go keeps its depth.
     """
     before = corners[-1]
+    by_depth, by_load = frame.reduced[[BY_DEPTH, BY_LOAD], 0]
     y, depth, load = side.line.points(np.array([y]))[:, 0].tolist()
     stiffness = y ** (1.0 + frame.k) * frame.units[2] / frame.units[1]
     softness = _level_of(frame, (y, 1.0, stiffness))
-    if softness > 0.0:
-        push = (_level_of(frame, before) - _level_of(frame, (y, depth, load))) / softness
-        corners.append((y, depth + push, load + stiffness * push, 0.0, branch, 1.0))
-    else:  # a dead load that lets go
-        corners.append((y, *before[DEPTH:JOINED], 0.0, branch, 1.0))
+    push = (_level_of(frame, before) - _level_of(frame, (y, depth, load))) / softness if softness > 0.0 else 0.0
+    depth = before[DEPTH] if by_load == 0.0 or softness == 0.0 else depth + push
+    load = before[LOAD] if by_depth == 0.0 else load + stiffness * push
+    corners.append((y, depth, load, 0.0, branch, 1.0))
 
 
 def find_corners(drawn: Drawn, closing: Side, opening: Side, *, grows: bool) -> Corners:

@@ -81,8 +81,8 @@ def spans_of(corners: Floats) -> Floats:
 
 
 def _across(step: Floats, chord: Floats) -> Truths:
-    """Return where a step from the start of a chord leads out of the tolerance of it, in some plane; both (3, n)."""
-    far = np.zeros(chord.shape[1], dtype=np.bool_)
+    """Return where steps (3, ..., n) from the start of chords (3, n) lead out of their tolerance, in some plane."""
+    far = np.zeros(step.shape[1:], dtype=np.bool_)
     for i, j in combinations(range(3), 2):
         far |= np.abs(chord[i] * step[j] - chord[j] * step[i]) > TOLERANCE * np.hypot(chord[i], chord[j])
     return far
@@ -103,31 +103,24 @@ def sample(line: Line, corners: Floats, joined: Truths, scales: Floats) -> tuple
         Those of `spans_of`, of all that is drawn.
     """
     ends = np.flatnonzero(joined)
-    # a place is the number of a corner less the share of the way to it that is still to go
-    start = ends.astype(np.float64) - 1.0
-    width = np.ones(ends.size)
-    places = [np.arange(corners.shape[1], dtype=float)]
-
-    def at(place: Floats) -> Floats:
-        """Return the points of places."""
-        before = np.minimum(place.astype(int), max(corners.shape[1] - 2, 0))
-        after = np.minimum(before + 1, corners.shape[1] - 1)
-        points = line.points(corners[0, before] + (place - before) * (corners[0, after] - corners[0, before]))
-        whole = place == np.rint(place)
-        points[:, whole] = corners[:, place[whole].astype(int)]
-        return points
-
+    first, last = corners[:, ends - 1], corners[:, ends]  # of each piece
+    start, width = ends.astype(np.float64) - 1.0, np.ones(ends.size)  # its place: corners have their numbers
+    places, points = [np.arange(corners.shape[1], dtype=np.float64)], [corners]
     for _ in range(_HALVINGS):
         if not start.size:
             break
-        first, last = at(start), at(start + width)
+        steps = last[0] - first[0]
+        inner = line.points(np.concatenate([first[0] + share * steps for share in (0.25, 0.5, 0.75)])).reshape(3, 3, -1)
         chord = (last - first) * scales
-        bent = np.abs(last[0] - first[0]) > line.half_wave
+        bent = np.abs(steps) > line.half_wave
         bent[bent] = _across(line.swing(np.maximum(first[0], last[0])[bent]) * scales, chord[:, bent])
-        for share in (0.25, 0.5, 0.75):
-            bent |= _across((at(start + share * width) - first) * scales, chord)
-        start, width = start[bent], 0.5 * width[bent]
+        bent |= _across((inner - first[:, None]) * scales[:, None], chord).any(axis=0)
+        start, width, first, last = start[bent], 0.5 * width[bent], first[:, bent], last[:, bent]
+        middle = inner[:, 1, bent]
         places.append(start + width)
+        points.append(middle)
         start, width = np.concatenate([start, start + width]), np.tile(width, 2)
-    ordered: Floats = np.sort(np.concatenate(places))
-    return at(ordered), np.ceil(ordered).astype(np.int64)
+        first, last = np.concatenate([first, middle], axis=1), np.concatenate([middle, last], axis=1)
+    place = np.concatenate(places)
+    order = np.argsort(place)
+    return np.concatenate(points, axis=1)[:, order], np.ceil(place[order]).astype(np.int64)

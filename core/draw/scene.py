@@ -189,8 +189,8 @@ def waves_of(frame: Frame) -> tuple[float, float]:
 
 
 def table_for(frame: Frame, form: int, y_end: float) -> tuple[Table, Source, float] | None:
-    """Return the table of a scene up to y_end, its source, and the crest of -U'; None: it has too many bins."""
-    if not y_end <= _MOST_BINS * width_of(frame.punch.waves, frame.finer):
+    """Return the table of a scene up to y_end, its source, and the crest of -U'; None where it cannot be resolved."""
+    if not min(y_end, frame.place(1.0, 1.0)) >= _LEAST or y_end > _MOST_BINS * width_of(frame.punch.waves, frame.finer):
         return None
     return long_table(frame.punch, frame.k, form, frame.finer, y_end)
 
@@ -256,8 +256,6 @@ def draw_scene(frame: Frame, turn: float | None, pulled: float) -> Drawn:
     if frame.is_patterned and y_end < math.inf:
         need = y_end
     source, sides, end = None, None, y_end
-    if min(y_end, frame.place(1.0, 1.0)) < _LEAST:
-        need = math.inf
     while sides is None and (made := table_for(frame, EXACT, need)) is not None:
         source = made[1]
         opening = _side(frame, 1.0, made, y_end)

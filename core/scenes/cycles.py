@@ -51,7 +51,6 @@ from gradhesion.core.scenes.reduced import (
     TARGET,
     TARGET_VALUE,
     UNIT_OF_FORCE,
-    WINDOW,
     Punch,
     is_valid,
 )
@@ -173,13 +172,12 @@ def _walk(task: Task, scenes: Floats, reduced: Floats, i: int, y_end: float) -> 
     """Trace the curve of closing of scene i up to y_end, and let loading go along it."""
     rooms, turn = task.rooms, task.punch.turn
     ratio = reduced[CLOSING, i]
-    filled = y_end if y_end < math.inf else reduced[WINDOW, i]
     pattern = pattern_of(task.punch, scenes, reduced, i)
     nodes, polys, table, crest = rooms.nodes, rooms.polys, task.table, task.crest
-    closing = curve_of(table, crest, pattern, reduced, i, math.sqrt(ratio), filled, nodes[0], polys[0])
+    closing = curve_of(table, crest, pattern, reduced, i, math.sqrt(ratio), y_end, nodes[0], polys[0])
     opening = closing
     if ratio != 1.0:
-        opening = curve_of(table, crest, pattern, reduced, i, 1.0, filled, nodes[1], polys[1])
+        opening = curve_of(table, crest, pattern, reduced, i, 1.0, y_end, nodes[1], polys[1])
     trace = rooms.traces[CLOSING_TRACE]
     count = find_folds(closing, y_end, trace)
     visits, measured = 0, -1
@@ -251,7 +249,8 @@ def _loading_keeps_one_disc(task: Task, walked: Walked, y: float, reduced: Float
 def _is_tied(task: Task, walked: Walked, opened: int, y: float, reduced: Floats, i: int) -> bool:
     """Return whether a decision of the cycle of scene i, which turns at y, is close."""
     traces, closing, opening = task.rooms.traces, walked.closing, walked.opening
-    if rim_is_tied(closing, y) or loading_is_tied(closing, y, traces[CLOSING_TRACE], walked.branches):
+    at_rim = y >= reduced[RIM_Y, i]
+    if rim_is_tied(closing, y) or loading_is_tied(closing, y, at_rim, traces[CLOSING_TRACE], walked.branches):
         return True
     if walked.ratio < 1.0 and rim_is_tied(opening, y):
         return True

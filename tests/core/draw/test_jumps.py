@@ -121,7 +121,7 @@ def test_loading_goes_outwards_and_unloading_inwards(any_scene: dict[str, float]
 
 def test_jumps_at_the_rim_are_marked(scene: dict[str, float]) -> None:
     free = _jumps(scene | {"a_max_over_R": math.inf})
-    rim = float(0.3 * free["radius_before"][2] + 0.7 * free["radius_after"][2])  # within a jump of loading
+    rim = float(0.8 * free["radius_before"][2] + 0.2 * free["radius_after"][2])  # within a jump of loading
     jumps = _jumps(scene | {"a_max_over_R": rim})
     last = int((jumps["unloading"] == 0).sum()) - 1
     assert np.flatnonzero(jumps["at_rim"]).tolist() == [last, last + 1]

@@ -64,7 +64,7 @@ def _twin() -> list[dict[str, Any]]:
     rows = [dict(zip(file["columns"], row, strict=True)) for row in file["scenes"]]
     names = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
     return [
-        {"parameters": {name: math.inf if row[name] is None else row[name] for name in names}, "expected": row}
+        {"parameters": {name: float("inf" if row[name] is None else row[name]) for name in names}, "expected": row}
         for row in rows[::20]
         if row["margin_jumps"] >= 1e-12
     ]
@@ -126,9 +126,7 @@ def test_loading_goes_deeper_and_outwards_unloading_back(any_scene: dict[str, fl
 def test_a_jump_keeps_its_depth_and_leaves_its_branch(any_scene: dict[str, float]) -> None:
     path = _path(any_scene)
     jumps = np.flatnonzero(path["jump"])
-    np.testing.assert_allclose(
-        path["indentation"][jumps], path["indentation"][jumps - 1], rtol=0, atol=1e-14 * np.ptp(path["indentation"])
-    )
+    assert np.array_equal(path["indentation"][jumps], path["indentation"][jumps - 1])
     assert (path["branch"][jumps] != path["branch"][jumps - 1]).all()
 
 
@@ -154,12 +152,11 @@ def test_points_lie_on_the_branch_that_they_name(any_scene: dict[str, float], eq
 def test_a_rim_in_a_jump_pins_the_contact(scene: dict[str, float], slow_curve: Callable[..., Any]) -> None:
     free = _path(scene | {"a_max_over_R": math.inf})
     third = np.flatnonzero((free["jump"] == 1) & (free["unloading"] == 0))[2]
-    rim = float(0.3 * free["contact_radius"][third - 1] + 0.7 * free["contact_radius"][third])
-    branch = free["branch"][third - 1]
+    rim = float(0.8 * free["contact_radius"][third - 1] + 0.2 * free["contact_radius"][third])
     path, slow = _path(scene | {"a_max_over_R": rim}), slow_curve(scene)
     pinned = path["contact_radius"] == rim
     assert pinned.sum() == 2
-    assert (path["branch"][pinned] == branch + 1).all()
+    assert (path["branch"][pinned] == path["branch"].max()).all()
     (before, after) = np.flatnonzero(pinned)
     assert (path["jump"][before], path["unloading"][before]) == (1, 0)
     assert (path["jump"][after], path["unloading"][after]) == (0, 1)
@@ -169,7 +166,7 @@ def test_a_rim_in_a_jump_pins_the_contact(scene: dict[str, float], slow_curve: C
     assert path["indentation"][after] == pytest.approx(float(slow.depth(rim)), rel=1e-12)
     # it lies on a falling part: unloading goes on with a jump inwards
     assert path["jump"][after + 1] == 1
-    assert path["branch"][after + 1] == branch
+    assert path["branch"][after + 1] < path["branch"].max()
 
 
 def test_a_rim_before_any_equilibrium_is_one_jump_there_and_back(scene: dict[str, float]) -> None:
@@ -179,8 +176,7 @@ def test_a_rim_before_any_equilibrium_is_one_jump_there_and_back(scene: dict[str
     assert path["jump"].tolist() == [0, 1, 0, 1]
     assert path["unloading"].tolist() == [0, 0, 1, 1]
     depth = path["indentation"]
-    assert depth[:2].tolist() == pytest.approx([0.0, 0.0], abs=1e-14 * np.ptp(depth))
-    assert 0.0 > depth[2] == pytest.approx(depth[3], rel=1e-14)
+    assert depth[0] == depth[1] == 0.0 > depth[2] == depth[3]
 
 
 def test_an_unbounded_punch_turns_on_its_last_branch(scene: dict[str, float], equation: Callable[..., Any]) -> None:
