@@ -75,6 +75,10 @@ NEAR: Final = 24
 """The last wave next to the centre that is walked in any case."""
 MOST: Final = 1_000_000
 """Waves within the contact, at most."""
+_LONG: Final = 3.0
+"""Length of a panel, in its distance from a place where losses are not smooth."""
+_AT_ONCE: Final = 4
+"""Waves that are walked at once, in the room for five."""
 _SMOOTH: Final = 3e-7
 """Of a sum: the most that its last two polynomials may find; what is missed is about the square."""
 _MOST_WALKED: Final = 200_000
@@ -204,11 +208,11 @@ def on(curve: Curve, table: Table) -> Curve:
 
 @kernel
 def _trace(curve: Curve, per: int, trace: Floats) -> tuple[int, int, int]:
-    """Trace a few waves; return the numbers of branches that begin in the first, in the first two, and in all of them.
+    """Trace a few waves; return how many branches begin in the first, in all but the last, and in all of them.
 
     A branch that comes from below them begins where they do.
     """
-    first = second = count = 0
+    first = others = count = 0
     trace[CLOSE_PAIR, 0] = math.inf
     if slope_at(curve, 0) > 0.0:
         depth, load = depth_and_load(curve, 0, -1.0)
@@ -217,13 +221,13 @@ def _trace(curve: Curve, per: int, trace: Floats) -> tuple[int, int, int]:
         trace[END, 0] = trace[END_LEVEL, 0] = math.inf
         trace[UNLOADED, 0] = math.nan
         count = 1
-    for wave in range(curve.table.bins // per):
+    waves = curve.table.bins // per
+    for wave in range(waves):
+        others = count
         count, _ = scan(curve, wave * per, (wave + 1) * per, count, trace)
         if wave == 0:
             first = count
-        if wave == 1:
-            second = count
-    return first, second, count
+    return first, others, count
 
 
 @kernel
@@ -284,10 +288,10 @@ def _is_past(long: Long, sought: Sought, number: int) -> bool:
     if sought.what == FOLDS:
         table = waves_from(long.waves, float(number), long.scratch.nodes, long.scratch.polys)
         return slope_at(on(sought.curve, table), 0) >= 0.0
-    curve, first, second, _ = _trace_waves(long, sought.curve, float(number), long.scratch)
+    curve, first, _, count = _trace_waves(long, sought.curve, float(number), long.scratch)
     if sought.what == BOTTOM:
         own = trace[START_LEVEL, _lowest(trace, 0, first)] if first > 0 else math.inf
-        after = trace[START_LEVEL, _lowest(trace, first, second)] if second > first else math.inf
+        after = trace[START_LEVEL, _lowest(trace, first, count)] if count > first else math.inf
         return slope_at(curve, 0) >= 0.0 or after > own
     top = coordinate_at(curve, per) if slope_at(curve, per) >= 0.0 else -math.inf
     for j in range(first):
@@ -370,15 +374,17 @@ def _jumps_are_open(long: Long, curve: Curve, space: Space, visits: int, rim: fl
 
 
 @kernel
-def _wave_losses(long: Long, curve: Curve, number: float, outwards: bool, inwards: bool, out: Floats) -> bool:
-    """Put what a wave loses into `out` (LOSSES,), on the ways that are asked for; return whether it is regular."""
-    space, per = long.scratch, long.waves.per
+def _losses(long: Long, curve: Curve, number: float, space: Space, outwards: bool, inwards: bool, out: Floats) -> bool:
+    """Put what some waves lose into `out` (LOSSES,), on the ways that are asked for; return whether they are regular.
+
+    They are those from `number` on that a space holds besides the one before.
+    """
     trace, visited = space.trace, space.visited
-    piece, first, count, _ = _trace_waves(long, curve, number - 1.0, space)
-    for edge in range(3):
-        if slope_at(piece, edge * per) >= 0.0:
+    piece, first, others, count = _trace_waves(long, curve, number - 1.0, space)
+    for edge in range(0, piece.table.bins + 1, long.waves.per):
+        if slope_at(piece, edge) >= 0.0:
             return False
-    if first < 1 or count <= first:
+    if first < 1 or count <= others:
         return False
     out[:] = 0.0
     if outwards:
@@ -387,13 +393,13 @@ def _wave_losses(long: Long, curve: Curve, number: float, outwards: bool, inward
         visited[0], visits = top, count - count + 1
         visits = walk_on(piece, trace, first, count, visited, visits, end_state(trace, top))
         last = visited[visits - 1]
-        if last == top:
+        if last < others:
             return False
         out[OUTWARDS], out[JUMPS_OUTWARDS] = trace[LOADED, last], trace[LOADING_JUMPS, last]
         if long.contact and not _jumps_are_open(long, piece, space, visits, trace[LANDING, last]):
             out[SHUT] = 1.0
     if inwards:
-        low, inner = _lowest(trace, first, count), _lowest(trace, 0, first)
+        low, inner = _lowest(trace, others, count), _lowest(trace, 0, first)
         if trace[START_LEVEL, inner] >= trace[START_LEVEL, low]:
             return False
         trace[UNLOADED, inner] = trace[UNLOADING_JUMPS, inner] = 0.0
@@ -416,7 +422,7 @@ def _panel(
     for i in range(-2, GAUSS):
         place = places[i] + 1.0 if i >= 0 else 0.0 if i == -1 else count - 1.0
         own = values[i + 2]
-        if not _wave_losses(long, curve, first + place, outwards, inwards, own):
+        if not _losses(long, curve, first + place, long.scratch, outwards, inwards, own):
             return False
         out, back = own[JUMPS_OUTWARDS], own[JUMPS_INWARDS]
         if out != values[0, JUMPS_OUTWARDS] or back != values[0, JUMPS_INWARDS]:
@@ -439,7 +445,7 @@ def _sum_waves(long: Long, curve: Curve, out: int, back: int, last: int, folds: 
     """Add what the waves up to `last` lose to `total` (LOSSES,), outwards those after wave `out`, inwards after `back`.
 
     Return whether they are regular. Losses are not smooth next to where the bottoms are lowest and next to the end of
-    `folds`: panels are as long as twice their distance from these, and halved where that proves too long.
+    `folds`: panels are _LONG times as long as their distance from these, and halved where that proves too long.
     """
     values, part = np.empty((GAUSS + 2, LOSSES)), np.empty(LOSSES)
     lowest = min(_guess(long, Sought(BOTTOM, curve, 0.0, curve)), back - 1.0)
@@ -449,7 +455,7 @@ def _sum_waves(long: Long, curve: Curve, out: int, back: int, last: int, folds: 
         outwards, inwards = left > out, left > back
         inner = max(lowest, 0.5 * left) if inwards else 0.5 * left
         ahead = min(last + 1.0, 1.0 + (out if out >= left else back if back >= left else last)) - left
-        count = int(min(2.0 * (left - inner), (outer - left) / 1.5, longest, ahead))
+        count = int(min(_LONG * (left - inner), (outer - left) * _LONG / (1.0 + _LONG), longest, ahead))
         if count > 2 * GAUSS + 2:
             if not _panel(long, curve, left, count, outwards, inwards, values, part):
                 longest = 0.5 * count
@@ -460,10 +466,14 @@ def _sum_waves(long: Long, curve: Curve, out: int, back: int, last: int, folds: 
             walked += count
             if walked > _MOST_WALKED:
                 return False
-            for number in range(left, left + count):
-                if not _wave_losses(long, curve, float(number), outwards, inwards, part):
+            number = left
+            while number < left + count:
+                several = number + _AT_ONCE <= left + count
+                space = long.ends if several else long.scratch
+                if not _losses(long, curve, float(number), space, outwards, inwards, part):
                     return False
                 total += part
+                number += _AT_ONCE if several else 1
         left += count
         longest *= 2.0
     return True
@@ -557,11 +567,11 @@ def leave(long: Long, curve: Curve, starts: int, last: int) -> Leaving:
         depth = trace[START_DEPTH, int(trace[LAST, low])]
         return Leaving(wave, trace[UNLOADED, low], trace[UNLOADING_JUMPS, low], depth, tied)
     space = long.window
-    piece, first, second, count = _trace_waves(long, curve, wave - 1.0, space)
+    piece, first, others, count = _trace_waves(long, curve, wave - 1.0, space)
     _from_zero(long, wave - 1, space)
-    after = space.trace[START, _lowest(space.trace, second, count)]
+    after = space.trace[START, _lowest(space.trace, others, count)]
     tied = unloading_is_tied(piece, after, space.trace, count)
-    left = _leave_far(long, piece, start_state(space.trace, _lowest(space.trace, first, second)), starts)
+    left = _leave_far(long, piece, start_state(space.trace, _lowest(space.trace, first, others)), starts)
     return Leaving(wave, left.lost, left.jumps, left.last, tied)
 
 
@@ -639,6 +649,10 @@ def finish_loading(
         snap = snap if before.jumps > 0.0 else snap_in(piece, trace[LANDING, visited[0]])
     loaded = load_to(piece, rim, trace, visited, visits)
     if loaded.known and n > 0:
+        if loaded.deepest == math.inf and wave_of(long.waves, rim) < long.most:  # on the endless branch
+            table = waves_from(long.waves, float(int(wave_of(long.waves, rim))), long.window.nodes, long.window.polys)
+            depth, _ = state_in(on(piece, table), rim)
+            loaded = Loaded(loaded.lost, loaded.jumps, depth, loaded.in_to_rim, True)
         return loaded, Loading(last, True, state, lost, jumps, 0.0, snap, landing, one_disc, tied)
     if n > 0:
         _from_zero(long, last, space)

@@ -165,12 +165,12 @@ def _fill_doubling(source: Source, index: int, doubling: int, values: Floats, no
 
 
 @quadrature
-def mix_wave(waves: Waves, number: float, column: int, nodes: Floats, polys: Floats) -> None:
-    """Put the bins of a wave into the columns from `column` on, and the edge after them."""
+def mix_wave(waves: Waves, number: float, column: int, nodes: Floats, polys: Floats, room: Floats) -> None:
+    """Put the bins of a wave into the columns from `column` on, and the edge after them; `room` is (3, SIZE)."""
     k, bins, width, y = waves.k, waves.per, waves.width, start_of(waves, number)
     place = max(math.log2(number / FIRST_WAVE), 0.0)
     doubling = min(int(place), waves.values.shape[0] - 1)
-    scales, weights, mixed = np.empty(SIZE), np.empty(PLACES), np.empty(SIZE)
+    scales, weights, mixed = room[0], room[1], room[2]
     _fill_scales(k, waves.exponent, y, scales)
     total, exact = 0.0, -1
     for n in range(PLACES):
@@ -219,9 +219,9 @@ def mix_wave(waves: Waves, number: float, column: int, nodes: Floats, polys: Flo
 @kernel
 def waves_from(waves: Waves, number: float, nodes: Floats, polys: Floats) -> Table:
     """Return a table of as many waves, from one on, as the given room holds."""
-    bins = len(polys)
+    bins, room = len(polys), np.empty((3, SIZE))
     for j in range(bins // waves.per):
-        mix_wave(waves, number + j, j * waves.per, nodes, polys)
+        mix_wave(waves, number + j, j * waves.per, nodes, polys, room)
     start = start_of(waves, number)
     return Table(waves.k, waves.exponent, waves.share, start, waves.width, waves.lowest, 0.0, 0, bins, nodes, polys)
 

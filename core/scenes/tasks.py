@@ -81,7 +81,7 @@ _MOST_BINS: Final = 130_000
 """Bins of a table, at most: 76 MB."""
 _KEPT_BINS: Final = 260_000
 """Bins of all long tables that are kept between calls."""
-_WALKED: Final = 300
+_WALKED: Final = 600
 """Waves that are walked; scenes of more are summed."""
 _WALKED_WITH_WORK: Final = 2000
 """The same where the loop integral is wanted, which is not summed."""
