@@ -7,9 +7,9 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core.curves import CURVES, draw_curves
+from gradhesion.core.draw.draw import draw_curves
 from gradhesion.core.problem.control import Loading
-from gradhesion.core.problem.names import OUTPUTS, REPORTS, SENSITIVITIES
+from gradhesion.core.problem.names import CURVES, OUTPUTS, REPORTS, SENSITIVITIES
 from gradhesion.core.problem.profile import Harmonic, Profile
 from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
@@ -44,7 +44,7 @@ _OF_BOTH_CONTROLS: Final = ("equilibrium", "closing_equilibrium", "path", "smoot
 
 def _states() -> None:
     """Draw pressure and surface of the states of a cycle."""
-    from gradhesion.core.curves import states  # noqa: PLC0415 (SciPy)
+    from gradhesion.core.draw import states  # noqa: PLC0415 (SciPy)
 
     chosen, _ = states.named_states(SCENE, Profile(), Loading())
     states.draw_states(SCENE, chosen, ("pressure", "surface"), Profile())

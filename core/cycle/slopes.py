@@ -80,7 +80,7 @@ def rate_at(curve: Curve, y: float) -> float:
     """Return d(what is prescribed)/d ln y on a curve."""
     i, t = place_of(curve.table, y)
     D, _, _, _ = slope_near(curve, i, t)
-    return D * softness(curve, y ** (1.0 + curve.table.k)) * y / curve.table.nodes[HALF, i]
+    return float(D * softness(curve, y ** (1.0 + curve.table.k)) * y / curve.table.nodes[HALF, i])
 
 
 @kernel
@@ -92,7 +92,7 @@ def loading_by_turn(closing: Curve, kappa: float, frozen: Frozen) -> float:
     k = closing.table.k
     over = coordinate_of(closing, frozen.jumps[LEFT_DEPTH, n], frozen.jumps[LEFT_LOAD, n]) - value_at(closing, y)
     rho = kappa - over / (softness(closing, y ** (1.0 + k)) * y ** (0.5 * (1.0 - k)))
-    return y * y * (kappa * kappa - rho * rho)
+    return float(y * y * (kappa * kappa - rho * rho))
 
 
 @kernel

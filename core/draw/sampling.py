@@ -104,7 +104,8 @@ def sample(line: Line, corners: Floats, joined: Truths, scales: Floats) -> tuple
     """
     ends = np.flatnonzero(joined)
     # a place is the number of a corner less the share of the way to it that is still to go
-    start, width = ends - 1.0, np.ones(ends.size)
+    start = ends.astype(np.float64) - 1.0
+    width = np.ones(ends.size)
     places = [np.arange(corners.shape[1], dtype=float)]
 
     def at(place: Floats) -> Floats:
@@ -128,5 +129,5 @@ def sample(line: Line, corners: Floats, joined: Truths, scales: Floats) -> tuple
         start, width = start[bent], 0.5 * width[bent]
         places.append(start + width)
         start, width = np.concatenate([start, start + width]), np.tile(width, 2)
-    ordered = np.sort(np.concatenate(places))
+    ordered: Floats = np.sort(np.concatenate(places))
     return at(ordered), np.ceil(ordered).astype(np.int64)

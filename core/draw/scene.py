@@ -52,8 +52,10 @@ BEYOND: Final = 1.05
 """How far an unbounded punch is drawn beyond its last fold or jump."""
 _BEYOND_SMOOTH: Final = 1.5
 """How far it is drawn at least, in radii where the smooth curve is at zero depth."""
-_MOST_BINS: Final = 128_000
+_MOST_BINS: Final = 130_000
 """Bins of a curve that is drawn, at most: 16,000 of the shortest waves."""
+_LEAST: Final = 1e-5
+"""Radii y that are resolved: a wave may be some hundred thousand times as long as the contact is wide."""
 _SAME: Final = 1e-8
 """Relative distance below which the turn of a cycle and the landing of a jump are one."""
 
@@ -188,10 +190,9 @@ def waves_of(frame: Frame) -> tuple[float, float]:
 
 def table_for(frame: Frame, form: int, y_end: float) -> tuple[Table, Source, float] | None:
     """Return the table of a scene up to y_end, its source, and the crest of -U'; None: it has too many bins."""
-    punch, width = frame.punch, width_of(frame.punch.waves, frame.finer)
-    if not y_end <= _MOST_BINS * width:
+    if not y_end <= _MOST_BINS * width_of(frame.punch.waves, frame.finer):
         return None
-    return long_table(punch, frame.k, form, frame.finer, y_end)
+    return long_table(frame.punch, frame.k, form, frame.finer, y_end)
 
 
 def _side(frame: Frame, root: float, made: tuple[Table, Source, float], y_end: float) -> Side | None:
@@ -255,6 +256,8 @@ def draw_scene(frame: Frame, turn: float | None, pulled: float) -> Drawn:
     if frame.is_patterned and y_end < math.inf:
         need = y_end
     source, sides, end = None, None, y_end
+    if min(y_end, frame.place(1.0, 1.0)) < _LEAST:
+        need = math.inf
     while sides is None and (made := table_for(frame, EXACT, need)) is not None:
         source = made[1]
         opening = _side(frame, 1.0, made, y_end)

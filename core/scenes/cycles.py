@@ -129,13 +129,24 @@ def pattern_of(punch: Punch, scenes: Floats, reduced: Floats, i: int) -> Pattern
 
 
 @kernel
-def curve_of(task: Task, pattern: Pattern, reduced: Floats, i: int, root: float, y_end: float, which: int) -> Curve:
-    """Return a curve of scene i, sizes over `root`; a table with its pattern is filled up to y_end into room `which`."""
+def curve_of(
+    table: Table,
+    crest: float,
+    pattern: Pattern,
+    reduced: Floats,
+    i: int,
+    root: float,
+    y_end: float,
+    nodes: Floats,
+    polys: Floats,
+) -> Curve:
+    """Return a curve of scene i, sizes over `root`: on a table, or of a table with its pattern, filled up to y_end.
+
+    `crest` is that of a task, `nodes` and `polys` are room for the table with a pattern.
+    """
     B, g = reduced[BY_POWER, i] / root, reduced[BY_WAVES, i] / root
-    table = task.table
     if pattern.rows.shape[1] > 0:
-        nodes, polys = task.rooms.nodes[which], task.rooms.polys[which]
-        table = patterned_table(table, task.crest, g, pattern, min(y_end, end_of(table)), nodes, polys)
+        table = patterned_table(table, crest, g, pattern, min(y_end, end_of(table)), nodes, polys)
         g = 1.0
     return Curve(table, B, g, reduced[BY_DEPTH, i], reduced[BY_LOAD, i])
 
@@ -164,8 +175,11 @@ def _walk(task: Task, scenes: Floats, reduced: Floats, i: int, y_end: float) -> 
     ratio = reduced[CLOSING, i]
     filled = y_end if y_end < math.inf else reduced[WINDOW, i]
     pattern = pattern_of(task.punch, scenes, reduced, i)
-    closing = curve_of(task, pattern, reduced, i, math.sqrt(ratio), filled, 0)
-    opening = closing if ratio == 1.0 else curve_of(task, pattern, reduced, i, 1.0, filled, 1)
+    nodes, polys, table, crest = rooms.nodes, rooms.polys, task.table, task.crest
+    closing = curve_of(table, crest, pattern, reduced, i, math.sqrt(ratio), filled, nodes[0], polys[0])
+    opening = closing
+    if ratio != 1.0:
+        opening = curve_of(table, crest, pattern, reduced, i, 1.0, filled, nodes[1], polys[1])
     trace = rooms.traces[CLOSING_TRACE]
     count = find_folds(closing, y_end, trace)
     visits, measured = 0, -1
@@ -442,7 +456,9 @@ def _may_be_solved(task: Task, scenes: Floats, reduced: Floats, i: int, out: Flo
 def curve_end(task: Task, scenes: Floats, reduced: Floats, start: int, last: int, out: Floats) -> int:
     """Return the end of the scenes from `start` on that share its curve; `start` if it cannot be solved (stored)."""
     end = start
-    while end < last and same_curve(scenes, reduced, start, end) and _may_be_solved(task, scenes, reduced, end, out):
+    while end < last and (end == start or same_curve(scenes, reduced, start, end)):  # NaN is no curve, not even its own
+        if not _may_be_solved(task, scenes, reduced, end, out):
+            return end
         end += 1
     return end
 

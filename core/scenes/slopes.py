@@ -52,6 +52,7 @@ from gradhesion.core.scenes.cycles import (
     Walked,
     curve_end,
     curve_of,
+    no_value,
     open_curve,
     pattern_of,
     turns_of,
@@ -67,6 +68,7 @@ from gradhesion.core.scenes.reduced import (
     C0,
     LENGTH,
     MACHINE,
+    NEED,
     NU,
     PARAMETER_ROWS,
     PATTERN_AMPLITUDE,
@@ -82,7 +84,7 @@ from gradhesion.core.scenes.reduced import (
 from gradhesion.core.scenes.reduced import (
     CLOSING as CLOSING_ROW,
 )
-from gradhesion.core.scenes.results import RESULT_ROWS, SHORT, STATUS, TURN, Rooms, Wanted, rooms_for
+from gradhesion.core.scenes.results import RESULT_ROWS, SHORT, TURN, Rooms, Wanted, rooms_for
 from gradhesion.core.scenes.tasks import (
     NearRooms,
     Request,
@@ -98,11 +100,11 @@ from gradhesion.core.scenes.tasks import (
     solve_far,
 )
 from gradhesion.core.table.basis import NODES, Basis, basis_of, empty_table, fill_table
-from gradhesion.core.table.layout import EXACT, Table, Y, end_of, span_of
+from gradhesion.core.table.layout import EXACT, GEOMETRIC, Table, Y, end_of, span_of
 from gradhesion.core.types import Floats, Integers
 
-# Rows of derivatives: d ln(value)/d ln of the reduced numbers B, g, by_load, waves and amplitude of the pattern, of k (by
-# k itself, at fixed others), and of the radius of the rim, the target and the ratio.
+# Rows of derivatives: d ln(value)/d ln of the reduced numbers B, g, by_load, waves and amplitude of the pattern, k (by
+# itself, at fixed others), radius of the rim, target and ratio.
 OF_POWER, OF_WAVES, OF_MACHINE, OF_PATTERN_WAVES, OF_PATTERN, OF_EXPONENT, OF_RIM, OF_TARGET, OF_RATIO = range(9)
 ROWS: Final = 9
 FORCE, ENERGY = RESULT_ROWS, RESULT_ROWS + ROWS
@@ -184,14 +186,20 @@ class Pair(NamedTuple):
 
 
 @kernel
-def _neighbour(task: Task, near: Near, table: Table, y_end: float) -> Pair:
-    """Return the curves, on a table, of the scene and the numbers that `near` holds."""
-    made = Task(task.punch, task.wanted, table, table, task.crest, task.disc, near.rooms, task.reach)
-    pattern, ratio = pattern_of(task.punch, near.scene, near.numbers, 0), near.numbers[CLOSING_ROW, 0]
-    closing = curve_of(made, pattern, near.numbers, 0, math.sqrt(ratio), y_end, 0)
+def _neighbour(
+    punch: Punch, crest: float, rooms: Rooms, scene: Floats, numbers: Floats, table: Table, y_end: float
+) -> Pair:
+    """Return the curves of one scene on a table; tables with a pattern are filled up to y_end, into `rooms`."""
+    pattern, ratio, nodes, polys = (
+        pattern_of(punch, scene, numbers, 0),
+        numbers[CLOSING_ROW, 0],
+        rooms.nodes,
+        rooms.polys,
+    )
+    closing = curve_of(table, crest, pattern, numbers, 0, math.sqrt(ratio), y_end, nodes[0], polys[0])
     opening = closing
     if ratio != 1.0:
-        opening = curve_of(made, pattern, near.numbers, 0, 1.0, y_end, 1)
+        opening = curve_of(table, crest, pattern, numbers, 0, 1.0, y_end, nodes[1], polys[1])
     return Pair(closing, opening, pattern, ratio)
 
 
@@ -274,7 +282,8 @@ def _fill_by(task: Task, near: Near, pattern: Pattern, frozen: Frozen, y_end: fl
                 table = near.tables[j]
             else:
                 numbers[number, 0] = value * (1.0 + step * _PLACES[j])
-            _observe(_neighbour(task, near, table, y_end), frozen, weight / step, near.by[row])
+            pair = _neighbour(task.punch, task.crest, near.rooms, near.scene, near.numbers, table, y_end)
+            _observe(pair, frozen, weight / step, near.by[row])
         numbers[number, 0] = value
 
 
@@ -325,14 +334,14 @@ def _put_slopes(near: Near, pair: Pair, frozen: Frozen, target: float, out: Floa
 @kernel
 def _fill_scene(
     task: Task, near: Near, walked: Walked, opened: int, y: float, scenes: Floats, reduced: Floats, i: int, out: Floats
-) -> float:
-    """Store the derivatives of scene i, which turns at y; return its status, SHORT if the table is too short."""
+) -> bool:
+    """Store the derivatives of scene i, which turns at y; return False if the table is too short."""
     pair = Pair(walked.closing, walked.opening, walked.pattern, walked.ratio)
     own, n = task.rooms.traces[CLOSING_TRACE], walked.visits
     lowest = lowest_load(pair.opening, y, 0, pair.opening.table.bins)
     beyond = y > end_of(pair.closing.table) and (n == 0 or own[END, task.rooms.columns[0, n - 1]] < y)
     if walked.branches < 0 or opened < 0 or beyond or not (lowest.known and lowest.load < 0.0):
-        return SHORT
+        return False
     turns = task.punch.turn != AT_RIM and y < reduced[RIM_Y, i]
     frozen = _freeze(task, walked, opened, y, lowest.y, turns, near.jumps)
     near.scene[:, 0], near.numbers[:, 0] = scenes[:, i], reduced[:, i]
@@ -342,7 +351,7 @@ def _fill_scene(
     _fill_tables(near, y_end)
     _fill_by(task, near, pair.pattern, frozen, y_end)
     _put_slopes(near, pair, frozen, reduced[TARGET_VALUE, i] / math.sqrt(pair.ratio), out, i)
-    return 0.0
+    return True
 
 
 @kernel
@@ -356,10 +365,8 @@ def fill_slopes(task: Task, near: Near, scenes: Floats, reduced: Floats, first: 
             opened, _ = open_curve(task, walked, start, end, out)
             for i in range(start, end):
                 y = out[TURN, i]
-                if not math.isnan(y):
-                    out[STATUS, i] = 0.0
-                    if y > 0.0:
-                        out[STATUS, i] = _fill_scene(task, near, walked, opened, y, scenes, reduced, i, out)
+                if y > 0.0 and not _fill_scene(task, near, walked, opened, y, scenes, reduced, i, out):
+                    no_value(out, i, SHORT)
         start = max(end, start + 1)
 
 
@@ -379,7 +386,7 @@ def near_slopes(
 
     `near` has room for the table of an exponent and its four neighbours.
     """
-    nodes, polys, first = near.nodes, near.polys, np.int64(0)  # a plain 0 would be a type of its own to callees
+    nodes, polys, first = near.nodes, near.polys, int(np.int64(0))  # a plain 0 would be a type of its own to callees
     while first < scenes.shape[1]:
         last, k = end_of_exponent(scenes, first), scenes[K, first]
         task = near_task(punch, wanted, basis, basis, profile, near, scenes, reduced, first, last)
@@ -405,8 +412,12 @@ def _near(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Fl
 
 
 def _far(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Floats, out: Floats) -> None:
-    """Store the derivatives of scenes of one exponent that reach beyond near tables; NaN where tables end before."""
+    """Store the derivatives of scenes of one exponent that reach beyond near tables.
+
+    Those of more waves than _MOST_BINS holds have none: here sums over waves would take over.
+    """
     basis, patterned = basis_of(punch.exponent, punch.waves, EXACT, finer), punch.rows.shape[1] > 0
+    within = np.flatnonzero(reduced[NEED] <= (_MOST_BINS - GEOMETRIC) * basis.width)
 
     def solve(task: Task, own: Floats, numbers: Floats, first: int, last: int, found: Floats) -> None:
         """Store those of scenes within the table of a task, on tables of neighbouring exponents as long."""
@@ -417,21 +428,36 @@ def _far(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Flo
         near = _near_of((tables[0], tables[1], tables[2], tables[3]), basis, rooms, bins, ALL)
         fill_slopes(task, near, own, numbers, first, last, found)
 
-    solve_far(punch, _WANTED, EXACT, finer, profile, scenes, reduced, out, _MOST_BINS, solve)
+    if within.size:
+        found = np.empty((len(out), within.size))
+        solve_far(
+            punch, _WANTED, EXACT, finer, profile, scenes[:, within], reduced[:, within], found, _MOST_BINS, solve
+        )
+        out[:, within] = found
 
 
-def _chained(
-    punch: Punch, scenes: Floats, length: Floats, by: Floats, *, of_force: bool
-) -> tuple[Floats, Floats, Floats]:
-    """Return derivatives of ln(value) by ln M, by ln lambda and, at fixed M, by k, from those by reduced numbers.
+def _by_exponent(k: Floats, nu: Floats, m: float) -> tuple[Floats, Floats, Floats]:
+    """Return d ln theta/dk, d ln theta/dnu and d ln(depth factor of r^m)/dk of scenes, alike ones in a row but once."""
+    start = np.flatnonzero(np.append(True, (k[1:] != k[:-1]) | (nu[1:] != nu[:-1])))
+    times, half = np.diff(np.append(start, k.size)), 0.5 * (1.0 + k[start])
+    slopes = (*theta_slopes(k[start], nu[start]), 0.5 * (psi(half) - psi(half + 0.5 * m)))
+    by_k, by_nu, factor = (np.repeat(slope, times) for slope in slopes)
+    return by_k, by_nu, factor
 
-    `length` is the unit l of length in R. The units of depth, load and energy are, with M = theta modulus c0^-k,
-    s = sqrt(2^(1+k) pi/M), K = 2^(1-k) M/(1+k) and eta = (1-k)/2,
+
+def _by_parameter(
+    punch: Punch, scenes: Floats, length: Floats, by: Floats, material: tuple[Floats, Floats, Floats], *, of_force: bool
+) -> dict[str, Floats]:
+    """Return the sensitivities of a value by parameter, (scenes,) each, from those to reduced numbers, (ROWS, scenes).
+
+    `length` is the unit l of length in R, `material` what `_by_exponent` returns. The units of depth, load and energy
+    are, with M = theta modulus c0^-k, s = sqrt(2^(1+k) pi/M), K = 2^(1-k) M/(1+k) and eta = (1-k)/2,
 
         s l^eta,    K s l^(1+k+eta),    l^2
     """
     k, m, half = scenes[K], punch.exponent, 0.5 * np.log(0.5 * length)
-    eta, factor = 0.5 * (1.0 - k), 0.5 * (psi(0.5 * (1.0 + k)) - psi(0.5 * (1.0 + k + m)))
+    eta, smooth = 0.5 * (1.0 - k), scenes[AMPLITUDE] == 0.0
+    theta_by_k, theta_by_nu, factor = material
 
     def unit(stiffness: float, power: ArrayLike, by_k: ArrayLike) -> Floats:
         """Return how a unit changes by ln M, ln l and k, (3, scenes)."""
@@ -442,21 +468,14 @@ def _chained(
     total = total + by[OF_POWER] * (unit(0.0, m, factor) - depth) + by[OF_WAVES] * (unit(0.0, 1.0, 0.0) - depth)
     total += by[OF_MACHINE] * (load - depth) - by[OF_TARGET] * (load if punch.turn == AT_A_LOAD else depth)
     total += unit(0.0, by[OF_PATTERN_WAVES] - by[OF_RIM], by[OF_EXPONENT])
-    return total[0], total[1], total[2]
-
-
-def _by_parameter(punch: Punch, scenes: Floats, length: Floats, by: Floats, *, of_force: bool) -> dict[str, Floats]:
-    """Return the sensitivities of scenes by the name of a parameter, (scenes,) each."""
-    k, amplitude = scenes[K], scenes[AMPLITUDE]
-    stiffness, wavelength, exponent = _chained(punch, scenes, length, by, of_force=of_force)
-    theta_by_k, theta_by_nu = theta_slopes(k, scenes[NU])
+    stiffness, wavelength, exponent = total
     found = {
         "k": exponent + stiffness * (theta_by_k - np.log(scenes[C0])),
         "nu": stiffness * theta_by_nu,
         "modulus": stiffness - by[OF_MACHINE],  # a machine's stiffness is over that of the half-space
         "c0_over_R": np.where(k == 0.0, 0.0, -k * stiffness),
-        "lambda_over_R": np.where(amplitude == 0.0, 0.0, wavelength),
-        "A": np.where(amplitude == 0.0, 0.0, by[OF_WAVES]),
+        "lambda_over_R": np.where(smooth, 0.0, wavelength),
+        "A": np.where(smooth, 0.0, by[OF_WAVES]),
         "a_max_over_R": np.where(np.isinf(scenes[RIM]), 0.0, by[OF_RIM]),
         "machine_stiffness": -by[OF_MACHINE],
         CLOSING: np.where(scenes[RATIO] == 0.0, 0.0, by[OF_RATIO]),
@@ -486,13 +505,15 @@ def sensitivities(
         order = np.argsort(scenes[K], kind="stable")
         scenes = scenes[:, order]
         out = in_groups(punch, EXACT, scenes, _ALL_ROWS, partial(_near, punch, profile), partial(_far, punch, profile))
-        for name in outputs:
-            of_force = name == SENSITIVITIES[0]
-            start = FORCE if of_force else ENERGY
-            with np.errstate(all="ignore"):  # what has no value has no sensitivity
-                slopes = _by_parameter(punch, scenes, out[UNIT], out[start : start + ROWS], of_force=of_force)
-            rows = np.array([slopes[name] for name in names])
-            found[name][first + order] = np.where(np.isfinite(rows), rows, np.nan).T
+        with np.errstate(all="ignore"):  # what has no value has no sensitivity
+            material = _by_exponent(scenes[K], scenes[NU], punch.exponent)
+            for output in outputs:
+                of_force = output == SENSITIVITIES[0]
+                by = out[FORCE : FORCE + ROWS] if of_force else out[ENERGY : ENERGY + ROWS]
+                slopes = _by_parameter(punch, scenes, out[UNIT], by, material, of_force=of_force)
+                rows = np.array([slopes[name] for name in names])
+                has_value = np.isfinite(by[OF_POWER])
+                found[output][first + order] = np.where(has_value & np.isfinite(rows), rows, np.nan).T
 
     run_parts(count, work, threads)
     return {name: values.reshape(*shape, len(names)) for name, values in found.items()}

@@ -218,7 +218,7 @@ def near_cycles(
     out: Floats,
 ) -> None:
     """Solve cycles in the order of their exponents; scenes that reach beyond the basis are left as SHORT."""
-    first = np.int64(0)  # a plain 0 would be a type of its own, for which callees are compiled once more
+    first = int(np.int64(0))  # a plain 0 would be a type of its own, for which callees are compiled once more
     while first < scenes.shape[1]:
         last = end_of_exponent(scenes, first)
         task = near_task(punch, wanted, basis, by_load, profile, near, scenes, reduced, first, last)
@@ -328,7 +328,7 @@ def solve_far(
         rooms = rooms_for(table.bins, punch.rows.shape[1] > 0)
         task = Task(punch, wanted, table, pull, crest, disc, rooms, math.inf)
         chosen, own = np.ascontiguousarray(scenes[:, left]), np.ascontiguousarray(reduced[:, left])
-        found = np.empty((len(out), left.size))
+        found = np.full((len(out), left.size), np.nan)
         solve(task, chosen, own, 0, left.size, found)
         out[:, left] = found
         left = left[found[STATUS] == SHORT]

@@ -31,7 +31,7 @@ CONFIGS = [path for pattern in ("fig*", "extra_*") for path in sorted((ROOT / "c
 FORCE = 1.5 * math.pi
 """The unit of loads, in R dgamma."""
 CHORDS = 1e-3
-"""Five times what a chord of a curve is off, of the span that is drawn (core/curves)."""
+"""Five times what a chord of a curve is off, of the span that is drawn (core/draw)."""
 
 
 def values(dataset: xarray.Dataset, *names: str) -> list[Values]:

@@ -13,7 +13,7 @@ from gradhesion.cli.picture.curves.picture import drawn_curves
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.words.words import described
-from gradhesion.core.curves import states
+from gradhesion.core.draw import states
 
 SCENE = {"k": 0.1, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.2, "A": 0.055}
 
