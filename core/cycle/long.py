@@ -448,7 +448,9 @@ def _sum_waves(long: Long, curve: Curve, out: int, back: int, last: int, folds: 
     `folds`: panels are _LONG times as long as their distance from these, and halved where that proves too long.
     """
     values, part = np.empty((GAUSS + 2, LOSSES)), np.empty(LOSSES)
-    lowest = min(_guess(long, Sought(BOTTOM, curve, 0.0, curve)), back - 1.0)
+    lowest = back - 1.0
+    if back == long.near:  # it may be anywhere below
+        lowest = min(lowest, 1.1 * _guess(long, Sought(BOTTOM, curve, 0.0, curve)) + 1.0)
     outer = folds - 1.0 if folds < long.most else 1e300
     left, longest, walked = min(out, back) + 1, 1e300, 0
     while left <= last:
@@ -602,9 +604,10 @@ def _far_landing(long: Long, curve: Curve, before: Loading, rim: float) -> tuple
         before.lost + jump_energy(piece, 0.0, state.depth, state.load, landing) - before.below,
         before.jumps + 1.0,
     )
-    snap = snap_in(piece, landing) if before.jumps == 0.0 else before.snap
-    loaded = Loaded(lost, jumps, deepest, at_rim and before.jumps == 0.0, True)
-    return loaded, Loading(wave, True, state, lost, jumps, 0.0, snap, landing, before.one_disc, before.tied)
+    first = before.jumps == 0.0
+    snap, last = snap_in(piece, landing) if first else before.snap, landing if first or not at_rim else before.last
+    loaded = Loaded(lost, jumps, deepest, at_rim and first, True)
+    return loaded, Loading(wave, True, state, lost, jumps, 0.0, snap, last, before.one_disc, before.tied)
 
 
 @kernel

@@ -5,12 +5,11 @@ import math
 from gradhesion.core.curve.values import Curve
 from gradhesion.core.cycle.long import Long, begin, end_of_folds, last_fold, loop_far, lowest_far, turn_far
 from gradhesion.core.cycle.pull_off import lowest_load
-from gradhesion.core.jit import kernel
+from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.scenes.cycles import (
     Cycle,
     Task,
-    curve_of,
     measured_curve,
     no_value,
     pattern_of,
@@ -18,9 +17,29 @@ from gradhesion.core.scenes.cycles import (
     put_no_contact,
     put_pull_off,
 )
-from gradhesion.core.scenes.reduced import AT_DEPTH, AT_RIM, CLOSING, LENGTH, RIM_Y, TARGET_VALUE, WINDOW, is_valid
+from gradhesion.core.scenes.reduced import (
+    AT_DEPTH,
+    AT_RIM,
+    BY_DEPTH,
+    BY_LOAD,
+    BY_POWER,
+    BY_WAVES,
+    CLOSING,
+    LENGTH,
+    RIM_Y,
+    TARGET_VALUE,
+    WINDOW,
+    is_valid,
+)
 from gradhesion.core.scenes.results import SATURATION, SHORT, STATUS, TURN
 from gradhesion.core.types import Floats
+
+
+@leaf
+def _curve(task: Task, reduced: Floats, i: int, root: float) -> Curve:
+    """Return a curve of scene i, sizes over `root`."""
+    B, g = reduced[BY_POWER, i] / root, reduced[BY_WAVES, i] / root
+    return Curve(task.table, B, g, reduced[BY_DEPTH, i], reduced[BY_LOAD, i])
 
 
 @kernel
@@ -29,10 +48,9 @@ def _solve(task: Task, long: Long, pull: Long, scenes: Floats, reduced: Floats, 
     ratio, edge, turn, tied = reduced[CLOSING, i], reduced[RIM_Y, i], task.punch.turn, False
     if turn == AT_DEPTH and reduced[TARGET_VALUE, i] < 0.0:
         return put_no_contact(scenes, i, out)
-    y, same, root, which = edge, ratio == 1.0, math.sqrt(ratio), 1
+    y, same, root = edge, ratio == 1.0, math.sqrt(ratio)
     pattern = pattern_of(task.punch, scenes, reduced, i)
-    closing = curve_of(task, pattern, reduced, i, root, y, which)
-    opening = curve_of(task, pattern, reduced, i, 1.0, y, which)
+    closing, opening = _curve(task, reduced, i, root), _curve(task, reduced, i, 1.0)
     folds = end_of_folds(long, closing)
     begun, starts = begin(long, closing, folds)
     if turn != AT_RIM:
@@ -73,12 +91,11 @@ def solve_long(task: Task, long: Long, pull: Long, scenes: Floats, reduced: Floa
 
 
 @kernel
-def fill_saturation(task: Task, long: Long, scenes: Floats, reduced: Floats, out: Floats) -> None:
+def fill_saturation(task: Task, long: Long, reduced: Floats, out: Floats) -> None:
     """Store the radii of the outermost folds of opening, of scenes that have a value."""
-    for i in range(scenes.shape[1]):
+    for i in range(reduced.shape[1]):
         if out[STATUS, i] < NO_VALUE or not int(out[STATUS, i]) & NO_VALUE:
-            curve = curve_of(task, pattern_of(task.punch, scenes, reduced, i), reduced, i, 1.0, math.inf, 1)
-            y = last_fold(long, curve) if reduced[WINDOW, i] < math.inf else math.inf
+            y = last_fold(long, _curve(task, reduced, i, 1.0)) if reduced[WINDOW, i] < math.inf else math.inf
             if math.isnan(y):
                 no_value(out, i, NO_VALUE | TOO_MANY_WAVES)
             else:

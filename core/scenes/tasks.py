@@ -397,7 +397,7 @@ def _sum(
         solve_far(punch, near, form, 1, profile, np.ascontiguousarray(chosen[:, left]), numbers, rest)
         found[:, left] = rest
     if wanted.saturation:
-        fill_saturation(task, long, chosen, own, found)
+        fill_saturation(task, long, own, found)
     out[:, far] = found
 
 
