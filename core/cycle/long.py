@@ -758,7 +758,7 @@ def last_fold(long: Long, curve: Curve) -> float:
         count = find_folds(on(curve, long.table), start_of(long.waves, long.near + 1.0), trace)
     if count <= 0:
         return 0.0
-    return trace[END, count - 1] if trace[END, count - 1] < math.inf else trace[START, count - 1]
+    return float(trace[END, count - 1] if trace[END, count - 1] < math.inf else trace[START, count - 1])
 
 
 @kernel

@@ -363,8 +363,8 @@ def _walked(punch: Punch, wanted: Wanted) -> float:
     per = PER_WAVE * float(punch.waves[:, 0].max())
     if punch.rows.shape[1] > 0 or per > _BINS_OF_A_WAVE:
         return math.inf
-    waves = _WALKED_WITH_WORK if wanted.residual else _WALKED
-    return 2.0 * math.pi * min(waves, max(_WALKED_BINS / per, 64.0))
+    waves, bins = (_WALKED_WITH_WORK, _MOST_BINS - 2 * GEOMETRIC) if wanted.residual else (_WALKED, _WALKED_BINS)
+    return 2.0 * math.pi * min(waves, max(bins / per, 64.0))
 
 
 def _sum(
