@@ -79,7 +79,7 @@ _LONG: Final = 3.0
 """Length of a panel, in its distance from a place where losses are not smooth."""
 _AT_ONCE: Final = 4
 """Waves that are walked at once, in the room for five."""
-_SMOOTH: Final = 3e-7
+_SMOOTH: Final = 5e-8
 """Of a sum: the most that its last two polynomials may find; what is missed is about the square."""
 _MOST_WALKED: Final = 200_000
 """Waves between that are walked, at most."""
