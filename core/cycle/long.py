@@ -303,32 +303,20 @@ def _is_past(long: Long, sought: Sought, number: int) -> bool:
 def _first_wave(long: Long, sought: Sought, low: int, high: int) -> int:
     """Return the first wave from `low` on that is past what is looked for, `high` if none below is.
 
-    From a guess on in steps that are doubled, and by bisection.
+    From a guess on in steps that are doubled until it lies between, and then by bisection.
     """
-    at = int(max(min(_guess(long, sought), high - 1.0), float(low)))
     before, past, step = low - 1, high, 1
-    if at < high and _is_past(long, sought, at):
-        past = at
-        while past > low:
-            at = max(past - step, low)
-            if not _is_past(long, sought, at):
-                before = at
-                break
-            past, step = at, 2 * step
-    else:
-        before = min(at, high - 1)
-        while before + step < high:
-            at = before + step
-            if _is_past(long, sought, at):
-                past = at
-                break
-            before, step = at, 2 * step
+    at = int(max(min(_guess(long, sought), high - 1.0), float(low)))
     while past - before > 1:
-        at = (past + before) // 2
         if _is_past(long, sought, at):
             past = at
         else:
             before = at
+        if past < high and before >= low:
+            at = (past + before) // 2
+        else:
+            at = max(past - step, low) if past < high else min(before + step, high - 1)
+            step *= 2
     return past
 
 

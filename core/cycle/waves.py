@@ -130,6 +130,7 @@ def _fill_scales(k: float, m: float, y: float, scales: Floats) -> None:
 def _fill_doubling(source: Source, index: int, doubling: int, values: Floats, nodes: Floats, polys: Floats) -> None:
     """Fill one doubling of `values`; `index` is the bin of `source` in which wave 0 would begin, the rest is room."""
     per, scales = values.shape[1] - 1, np.empty(SIZE)
+    none = per - per  # not a plain 0, for which callees would be compiled once more
     for place in range(PLACES):
         number = FIRST_WAVE * 2.0 ** (doubling + _PLACE[place])
         whole = int(number)
@@ -145,7 +146,7 @@ def _fill_doubling(source: Source, index: int, doubling: int, values: Floats, no
             source.form,
             source.shift + per * (number - whole),
         )
-        fill_bins(moved, per * whole + index, 0, per, nodes, polys)
+        fill_bins(moved, per * whole + index, none, per, nodes, polys)
         _fill_scales(source.k, source.exponent, nodes[Y, 0], scales)
         for i in range(per + 1):
             out = values[doubling, i, place]

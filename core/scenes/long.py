@@ -13,6 +13,7 @@ from gradhesion.core.scenes.cycles import (
     measured_curve,
     no_value,
     pattern_of,
+    put_force,
     put_losses,
     put_no_contact,
     put_pull_off,
@@ -31,7 +32,7 @@ from gradhesion.core.scenes.reduced import (
     WINDOW,
     is_valid,
 )
-from gradhesion.core.scenes.results import SATURATION, SHORT, STATUS, TURN
+from gradhesion.core.scenes.results import SATURATION, SHORT, STATUS
 from gradhesion.core.types import Floats
 
 
@@ -43,51 +44,49 @@ def _curve(task: Task, reduced: Floats, i: int, root: float) -> Curve:
 
 
 @kernel
-def _solve(task: Task, long: Long, pull: Long, scenes: Floats, reduced: Floats, i: int, out: Floats) -> int:
-    """Store the results of scene i; return its status, -1 if it must be walked."""
-    ratio, edge, turn, tied = reduced[CLOSING, i], reduced[RIM_Y, i], task.punch.turn, False
-    if turn == AT_DEPTH and reduced[TARGET_VALUE, i] < 0.0:
-        return put_no_contact(scenes, i, out)
-    y, same, root = edge, ratio == 1.0, math.sqrt(ratio)
-    pattern = pattern_of(task.punch, scenes, reduced, i)
-    closing, opening = _curve(task, reduced, i, root), _curve(task, reduced, i, 1.0)
-    folds = end_of_folds(long, closing)
-    begun, starts = begin(long, closing, folds)
-    if turn != AT_RIM:
-        y, tied = turn_far(long, closing, measured_curve(closing, turn), reduced[TARGET_VALUE, i] / root, begun, edge)
-    if y < 2.0 * math.pi * (long.near + 4.0):
-        return -1
-    load = Curve(task.by_load, opening.B, opening.g, 0.0, 1.0)
-    lowest = lowest_load(load, y, 0, task.by_load.bins)
-    if not lowest.known:
-        lowest = lowest_far(pull, load, y)
-    if not (lowest.known and lowest.load < 0.0):
-        return NO_VALUE | TOO_MANY_WAVES
-    bits = put_pull_off(lowest, y, reduced, i, out)
-    out[TURN, i] = y * reduced[LENGTH, i]
-    if not task.wanted.cycle and turn == AT_RIM:
-        return bits
-    looped = loop_far(long, closing, opening, same, folds, begun, starts, y, edge)
-    if not looped.loaded.known:
-        return NO_VALUE | TOO_MANY_WAVES
-    cycle = Cycle(looped.loaded, looped.unloaded, y, looped.reach, looped.snap)
-    bits |= put_losses(cycle, opening, pattern, ratio, reduced, i, out)
-    if not looped.one_disc:
-        bits |= LOADING_NOT_ONE_DISC
-    return bits | (CLOSE_TO_A_JUMP if tied or looped.tied else 0)
-
-
-@kernel
 def solve_long(task: Task, long: Long, pull: Long, scenes: Floats, reduced: Floats, out: Floats) -> None:
-    """Solve scenes of one exponent; `pull` is `long` with the waves of the pull-off."""
+    """Solve scenes of one exponent; those that turn or end next to the centre are left as SHORT.
+
+    `pull` is `long` with the waves of the pull-off.
+    """
+    turn, bins = task.punch.turn, task.by_load.bins
     for i in range(scenes.shape[1]):
         no_value(out, i, NO_VALUE)
         if not is_valid(task.punch, scenes, reduced, i):
             continue
-        status = _solve(task, long, pull, scenes, reduced, i, out)
-        if status < 0 or status & NO_VALUE:
+        if turn == AT_DEPTH and reduced[TARGET_VALUE, i] < 0.0:
+            put_no_contact(scenes, i, out)
+            continue
+        edge, tied, root = reduced[RIM_Y, i], False, math.sqrt(reduced[CLOSING, i])
+        closing, opening = _curve(task, reduced, i, root), _curve(task, reduced, i, 1.0)
+        folds, y = end_of_folds(long, closing), edge
+        begun, starts = begin(long, closing, folds)
+        if turn != AT_RIM:
+            target = reduced[TARGET_VALUE, i] / root
+            y, tied = turn_far(long, closing, measured_curve(closing, turn), target, begun, edge)
+        if y < 2.0 * math.pi * (long.near + 4.0):
             no_value(out, i, SHORT)
-        out[STATUS, i] = SHORT if status < 0 else status
+            continue
+        load = Curve(task.by_load, opening.B, opening.g, 0.0, 1.0)
+        lowest = lowest_load(load, y, 0, bins)
+        if not lowest.known:
+            lowest = lowest_far(pull, load, y)
+        out[STATUS, i] = NO_VALUE | TOO_MANY_WAVES
+        if not (lowest.known and lowest.load < 0.0):
+            continue
+        if not task.wanted.cycle and turn == AT_RIM:
+            put_force(lowest, reduced, i, out)
+            continue
+        looped = loop_far(long, closing, opening, root == 1.0, folds, begun, starts, y, edge)
+        if not looped.loaded.known:
+            continue
+        cycle = Cycle(looped.loaded, looped.unloaded, y, looped.reach, looped.snap)
+        pattern = pattern_of(task.punch, scenes, reduced, i)
+        bits = put_losses(cycle, opening, pattern, reduced[CLOSING, i], reduced, i, out)
+        bits |= put_pull_off(lowest, y, reduced, i, out)
+        if not looped.one_disc:
+            bits |= LOADING_NOT_ONE_DISC
+        out[STATUS, i] = bits | (CLOSE_TO_A_JUMP if tied or looped.tied else 0)
 
 
 @kernel
