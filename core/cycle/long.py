@@ -331,6 +331,7 @@ def _guess(long: Long, sought: Sought) -> float:
         return wave_of(waves, (curve.g * waves.steepest / (curve.B * m)) ** (1.0 / power)) if power > 0.0 else 1e300
     y = 1.0
     for _ in range(6):
+        y = max(y, 1.0)  # the envelope has no meaning within a wave
         weight = softness(curve, y ** (1.0 + k))
         share = 1.0 - curve.by_depth / weight  # of the load in what is prescribed
         if sought.what == BOTTOM:
