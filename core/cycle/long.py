@@ -75,6 +75,8 @@ NEAR: Final = 24
 """The last wave next to the centre that is walked in any case."""
 MOST: Final = 1_000_000
 """Waves within the contact, at most."""
+_BORN: Final = 3
+"""Waves from the first that may have folds on that are walked before others are summed."""
 _LONG: Final = 3.0
 """Length of a panel, in its distance from a place where losses are not smooth."""
 _AT_ONCE: Final = 4
@@ -89,8 +91,9 @@ _MOST_WALKED: Final = 200_000
 OUTWARDS, INWARDS, JUMPS_OUTWARDS, JUMPS_INWARDS, SHUT = range(5)
 LOSSES: Final = 5
 
-FOLDS, LEVEL, BOTTOM, TURN = range(4)
-"""What is looked for over waves: the end of folds; a level that is reached; the lowest bottom; where a cycle turns."""
+FOLDS, BIRTH, LEVEL, BOTTOM, TURN = range(5)
+"""What is looked for over waves: the end of folds, or, where waves win over the power, their beginning; a level that is
+reached; the lowest bottom; where a cycle turns."""
 
 
 class Space(NamedTuple):
@@ -115,7 +118,7 @@ class Long(NamedTuple):
 
     table     from 0 to beyond wave `near`
     waves     those of the table
-    near      the last wave next to the centre, NEAR
+    near      the last wave next to the centre, NEAR or more
     most      the first wave that is not looked at
     disc      what the tests of the contact need
     contact   whether they are wanted
@@ -285,9 +288,9 @@ def _is_past(long: Long, sought: Sought, number: int) -> bool:
     trace, per = long.scratch.trace, long.waves.per
     if sought.what == TURN:
         return _turn_in(long, sought, number) < math.inf
-    if sought.what == FOLDS:
+    if sought.what <= BIRTH:
         table = waves_from(long.waves, float(number), long.scratch.nodes, long.scratch.polys)
-        return slope_at(on(sought.curve, table), 0) >= 0.0
+        return (slope_at(on(sought.curve, table), 0) < 0.0) == (sought.what == BIRTH)
     curve, first, _, count = _trace_waves(long, sought.curve, float(number), long.scratch)
     if sought.what == BOTTOM:
         own = trace[START_LEVEL, _lowest(trace, 0, first)] if first > 0 else math.inf
@@ -326,10 +329,13 @@ def _guess(long: Long, sought: Sought) -> float:
     waves, curve = long.waves, sought.measured
     k, m, eta = waves.k, waves.exponent, 0.5 * (1.0 - waves.k)
     crest = 1.0 - curve.g * waves.lowest
-    if sought.what == FOLDS:
+    if sought.what <= BIRTH:
         power = m - 1.0 - eta
-        return wave_of(waves, (curve.g * waves.steepest / (curve.B * m)) ** (1.0 / power)) if power > 0.0 else 1e300
+        steep = curve.g * waves.steepest / (curve.B * m)
+        return wave_of(waves, steep ** (1.0 / power)) if power != 0.0 else 1e300
     y = 1.0
+    if sought.what == BOTTOM:  # through a machine there may be two: from outside to the outer one
+        y = ((eta + 1.0 + k) * crest / (curve.B * m)) ** (1.0 / (m - eta))
     for _ in range(6):
         y = max(y, 1.0)  # the envelope has no meaning within a wave
         weight = softness(curve, y ** (1.0 + k))
@@ -346,7 +352,29 @@ def _guess(long: Long, sought: Sought) -> float:
 @kernel
 def end_of_folds(long: Long, curve: Curve) -> int:
     """Return the first wave that begins on the endless branch, next to the last folds; long.most if there is none."""
+    if long.waves.exponent - 1.0 < 0.5 * (1.0 - long.waves.k):  # waves win over the power
+        return long.most
     return _first_wave(long, Sought(FOLDS, curve, 0.0, curve), long.near + 1, long.most)
+
+
+@kernel
+def from_birth(long: Long, curve: Curve) -> Long:
+    """Return the same with more waves next to the centre where folds begin only beyond them: a curve of low power."""
+    near = long.near
+    if long.waves.exponent - 1.0 < 0.5 * (1.0 - long.waves.k):
+        near = max(near, _BORN + _first_wave(long, Sought(BIRTH, curve, 0.0, curve), near, long.most))
+    return Long(
+        long.table,
+        long.waves,
+        near,
+        long.most,
+        long.disc,
+        long.contact,
+        long.start,
+        long.scratch,
+        long.window,
+        long.ends,
+    )
 
 
 @kernel
@@ -445,6 +473,8 @@ def _sum_waves(long: Long, curve: Curve, out: int, back: int, last: int, folds: 
     while left <= last:
         outwards, inwards = left > out, left > back
         inner = max(lowest, 0.5 * left) if inwards else 0.5 * left
+        if long.near > NEAR:  # folds have just begun
+            inner = max(inner, float(long.near - _BORN))
         ahead = min(last + 1.0, 1.0 + (out if out >= left else back if back >= left else last)) - left
         count = int(min(_LONG * (left - inner), (outer - left) * _LONG / (1.0 + _LONG), longest, ahead))
         if count > 2 * GAUSS + 2:
@@ -545,7 +575,10 @@ def _leave_far(long: Long, curve: Curve, state: State, starts: int) -> Unloaded:
 
 @kernel
 def leave(long: Long, curve: Curve, starts: int, last: int) -> Leaving:
-    """Find the wave of the lowest bottom, and what unloading loses from there on, if it is no later than `last`."""
+    """Find the wave of the lowest bottom, and what unloading loses from there on, if it is no later than `last`.
+
+    The wave is -1 if there are lower bottoms inside of it that are not next to the centre (a cone in a soft machine).
+    """
     wave = _first_wave(long, Sought(BOTTOM, curve, 0.0, curve), long.near, last + 1)
     if wave > last:
         return Leaving(wave, 0.0, 0.0, 0.0, False)
@@ -562,7 +595,11 @@ def leave(long: Long, curve: Curve, starts: int, last: int) -> Leaving:
     _from_zero(long, wave - 1, space)
     after = space.trace[START, _lowest(space.trace, others, count)]
     tied = unloading_is_tied(piece, after, space.trace, count)
-    left = _leave_far(long, piece, start_state(space.trace, _lowest(space.trace, first, others)), starts)
+    state = start_state(space.trace, _lowest(space.trace, first, others))
+    inner = inner_branch(long.start.trace, starts - 1, coordinate_of(piece, state.depth, state.load))
+    if inner >= 0 and long.start.trace[START, inner] > start_of(long.waves, float(long.near)):
+        return Leaving(-1, 0.0, 0.0, 0.0, False)
+    left = _leave_far(long, piece, state, starts)
     return Leaving(wave, left.lost, left.jumps, left.last, tied)
 
 
@@ -780,7 +817,7 @@ def loop_far(
         begun, _ = land(long, closing, begun)
     left = leave(long, opening, starts, last) if same else Leaving(last + 1, 0.0, 0.0, 0.0, False)
     from_top = begun.wave if begun.landed else last
-    if not _sum_waves(long, closing, from_top, min(left.wave, last), last, folds, total):
+    if left.wave < 0 or not _sum_waves(long, closing, from_top, min(left.wave, last), last, folds, total):
         return unknown
     if begun.landed:
         one_disc = begun.one_disc and total[SHUT] == 0.0
@@ -798,7 +835,7 @@ def loop_far(
         last = _end_wave(long, folds, rim)
         left = leave(long, opening, starts, last)
         total[:] = 0.0
-        if not _sum_waves(long, opening, last, min(left.wave, last), last, folds, total):
+        if left.wave < 0 or not _sum_waves(long, opening, last, min(left.wave, last), last, folds, total):
             return unknown
         piece, _, _, count = _trace_waves(long, opening, float(last), long.ends)
         if left.wave > last:

@@ -3,8 +3,9 @@
 import math
 
 from gradhesion.core.curve.values import Curve
-from gradhesion.core.cycle.long import Long, begin, end_of_folds, last_fold, loop_far, lowest_far, turn_far
+from gradhesion.core.cycle.long import Long, begin, end_of_folds, from_birth, last_fold, loop_far, lowest_far, turn_far
 from gradhesion.core.cycle.pull_off import lowest_load
+from gradhesion.core.cycle.waves import start_of
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.scenes.cycles import (
@@ -27,12 +28,14 @@ from gradhesion.core.scenes.reduced import (
     BY_WAVES,
     CLOSING,
     LENGTH,
+    NEED,
     RIM_Y,
     TARGET_VALUE,
     WINDOW,
     is_valid,
 )
 from gradhesion.core.scenes.results import SATURATION, SHORT, STATUS
+from gradhesion.core.table.layout import end_of
 from gradhesion.core.types import Floats
 
 
@@ -44,10 +47,12 @@ def _curve(task: Task, reduced: Floats, i: int, root: float) -> Curve:
 
 
 @kernel
-def solve_long(task: Task, long: Long, pull: Long, scenes: Floats, reduced: Floats, out: Floats) -> None:
-    """Solve scenes of one exponent; those that turn or end next to the centre are left as SHORT.
+def solve_long(
+    task: Task, every: Long, pull: Long, scenes: Floats, reduced: Floats, walkable: float, out: Floats
+) -> None:
+    """Solve scenes of one exponent; others are left as SHORT: irregular ones, and those that end next to the centre.
 
-    `pull` is `long` with the waves of the pull-off.
+    Of the latter NEED is set to what they need; irregular ones that reach beyond `walkable` have no value. `pull` is `every` with the waves of the pull-off.
     """
     turn, bins = task.punch.turn, task.by_load.bins
     for i in range(scenes.shape[1]):
@@ -59,13 +64,18 @@ def solve_long(task: Task, long: Long, pull: Long, scenes: Floats, reduced: Floa
             continue
         edge, tied, root = reduced[RIM_Y, i], False, math.sqrt(reduced[CLOSING, i])
         closing, opening = _curve(task, reduced, i, root), _curve(task, reduced, i, 1.0)
+        long = from_birth(every, closing)
+        if start_of(long.waves, long.near + 2.0) > end_of(long.table):
+            out[STATUS, i] = NO_VALUE | TOO_MANY_WAVES
+            continue
         folds, y = end_of_folds(long, closing), edge
         begun, starts = begin(long, closing, folds)
         if turn != AT_RIM:
             target = reduced[TARGET_VALUE, i] / root
             y, tied = turn_far(long, closing, measured_curve(closing, turn), target, begun, edge)
-        if y < 2.0 * math.pi * (long.near + 4.0):
+        if y < start_of(long.waves, long.near + 4.0):
             no_value(out, i, SHORT)
+            reduced[NEED, i] = start_of(long.waves, long.near + 8.0)
             continue
         load = Curve(task.by_load, opening.B, opening.g, 0.0, 1.0)
         lowest = lowest_load(load, y, 0, bins)
@@ -79,6 +89,7 @@ def solve_long(task: Task, long: Long, pull: Long, scenes: Floats, reduced: Floa
             continue
         looped = loop_far(long, closing, opening, root == 1.0, folds, begun, starts, y, edge)
         if not looped.loaded.known:
+            no_value(out, i, SHORT if reduced[NEED, i] < walkable else NO_VALUE | TOO_MANY_WAVES)
             continue
         cycle = Cycle(looped.loaded, looped.unloaded, y, looped.reach, looped.snap)
         pattern = pattern_of(task.punch, scenes, reduced, i)

@@ -343,7 +343,10 @@ _waves: OrderedDict[tuple[object, ...], Waves] = OrderedDict()
 
 def _long_of(punch: Punch, wanted: Wanted, k: float, form: int, profile: Floats, most: int) -> tuple[Task, Long]:
     """Return what scenes of an exponent are summed with, up to a number of waves."""
-    table, source, crest = long_table(punch, k, form, 1, 2.0 * math.pi * (NEAR + 3))
+    near = NEAR + 3.0
+    if punch.exponent - 1.0 < 0.5 * (1.0 - k):  # folds may begin far out
+        near = _WALKED_BINS / (PER_WAVE * float(punch.waves[:, 0].max()))
+    table, source, crest = long_table(punch, k, form, 1, 2.0 * math.pi * near)
     key = (punch.exponent, punch.waves.tobytes(), k, form)
     with _lock:
         waves = _waves.pop(key, None)
@@ -387,14 +390,13 @@ def _sum(
     if form != EXACT:
         by_load, pull = _long_of(punch, wanted, k, BY_LOAD, profile, most)
         task = task._replace(by_load=by_load.table)
-    solve_long(task, long, pull, chosen, own, found)
+    walkable = (_MOST_BINS - 2 * GEOMETRIC) * width_of(punch.waves)
+    solve_long(task, long, pull, chosen, own, walkable, found)
     left = np.flatnonzero(found[STATUS] == SHORT)
-    if left.size:  # they turn, or end, next to the centre
+    if left.size:
         rest = np.full((RESULT_ROWS, left.size), np.nan)
-        own[NEED] = walked
-        near = wanted._replace(saturation=False)
-        numbers = np.ascontiguousarray(own[:, left])
-        solve_far(punch, near, form, 1, profile, np.ascontiguousarray(chosen[:, left]), numbers, rest)
+        again, numbers = np.ascontiguousarray(chosen[:, left]), np.ascontiguousarray(own[:, left])
+        solve_far(punch, wanted._replace(saturation=False), form, 1, profile, again, numbers, rest)
         found[:, left] = rest
     if wanted.saturation:
         fill_saturation(task, long, own, found)
