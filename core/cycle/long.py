@@ -557,7 +557,8 @@ def land(long: Long, curve: Curve, before: Loading) -> tuple[Loading, int]:
 def _leave_far(long: Long, curve: Curve, state: State, starts: int) -> Unloaded:
     """Return what unloading loses from a state on that jumps to a branch next to the centre, or out of contact.
 
-    `curve` stands on waves that know the integrals from 0; `starts` branches are traced next to the centre.
+    `curve` stands on waves that know the integrals from 0; `starts` branches are traced next to the centre. The loss is
+    inf, for unknown, if waves between may be lower as well (a cone in a soft machine).
     """
     trace, level = long.start.trace, coordinate_of(curve, state.depth, state.load)
     j = inner_branch(trace, starts - 1, level)
@@ -565,6 +566,8 @@ def _leave_far(long: Long, curve: Curve, state: State, starts: int) -> Unloaded:
         dead = curve.by_depth == 0.0  # a dead load falls without end: its jump-out is left out
         lost = 0.0 if dead else jump_energy(curve, state.y, state.depth, state.load, 0.0)
         return Unloaded(lost, 1.0, state.depth)
+    if trace[START, j] > start_of(long.waves, float(long.near)):
+        return Unloaded(math.inf, 0.0, 0.0)
     start = on(curve, long.table)
     landing = at_level(start, level, trace[START, j], trace[END, j], ACCURACY)
     lost = jump_energy(start, 0.0, state.depth, state.load, landing) - energy_between(curve, state.depth, 0.0, state.y)
@@ -575,10 +578,7 @@ def _leave_far(long: Long, curve: Curve, state: State, starts: int) -> Unloaded:
 
 @kernel
 def leave(long: Long, curve: Curve, starts: int, last: int) -> Leaving:
-    """Find the wave of the lowest bottom, and what unloading loses from there on, if it is no later than `last`.
-
-    The wave is -1 if there are lower bottoms inside of it that are not next to the centre (a cone in a soft machine).
-    """
+    """Find the wave of the lowest bottom, and what unloading loses from there on, if it is no later than `last`."""
     wave = _first_wave(long, Sought(BOTTOM, curve, 0.0, curve), long.near, last + 1)
     if wave > last:
         return Leaving(wave, 0.0, 0.0, 0.0, False)
@@ -595,11 +595,7 @@ def leave(long: Long, curve: Curve, starts: int, last: int) -> Leaving:
     _from_zero(long, wave - 1, space)
     after = space.trace[START, _lowest(space.trace, others, count)]
     tied = unloading_is_tied(piece, after, space.trace, count)
-    state = start_state(space.trace, _lowest(space.trace, first, others))
-    inner = inner_branch(long.start.trace, starts - 1, coordinate_of(piece, state.depth, state.load))
-    if inner >= 0 and long.start.trace[START, inner] > start_of(long.waves, float(long.near)):
-        return Leaving(-1, 0.0, 0.0, 0.0, False)
-    left = _leave_far(long, piece, state, starts)
+    left = _leave_far(long, piece, start_state(space.trace, _lowest(space.trace, first, others)), starts)
     return Leaving(wave, left.lost, left.jumps, left.last, tied)
 
 
@@ -817,7 +813,7 @@ def loop_far(
         begun, _ = land(long, closing, begun)
     left = leave(long, opening, starts, last) if same else Leaving(last + 1, 0.0, 0.0, 0.0, False)
     from_top = begun.wave if begun.landed else last
-    if left.wave < 0 or not _sum_waves(long, closing, from_top, min(left.wave, last), last, folds, total):
+    if not _sum_waves(long, closing, from_top, min(left.wave, last), last, folds, total):
         return unknown
     if begun.landed:
         one_disc = begun.one_disc and total[SHUT] == 0.0
@@ -835,7 +831,7 @@ def loop_far(
         last = _end_wave(long, folds, rim)
         left = leave(long, opening, starts, last)
         total[:] = 0.0
-        if left.wave < 0 or not _sum_waves(long, opening, last, min(left.wave, last), last, folds, total):
+        if not _sum_waves(long, opening, last, min(left.wave, last), last, folds, total):
             return unknown
         piece, _, _, count = _trace_waves(long, opening, float(last), long.ends)
         if left.wave > last:
@@ -843,4 +839,6 @@ def loop_far(
     lost, jumps = left.lost + total[INWARDS], left.jumps + total[JUMPS_INWARDS]
     left = Leaving(left.wave, lost, jumps, left.depth, left.tied or (not same and rim_is_tied(piece, rim)))
     unloaded, tied = finish_unloading(long, piece, count, left, starts, last, rim)
+    if unloaded.lost == math.inf:
+        return unknown
     return Looped(loaded, unloaded, ended.last, ended.snap, ended.one_disc, ended.tied or tied)

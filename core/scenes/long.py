@@ -52,7 +52,8 @@ def solve_long(
 ) -> None:
     """Solve scenes of one exponent; others are left as SHORT: irregular ones, and those that end next to the centre.
 
-    Of the latter NEED is set to what they need; irregular ones that reach beyond `walkable` have no value. `pull` is `every` with the waves of the pull-off.
+    Of the latter NEED is set to what they need; irregular ones that reach beyond `walkable` have no value. `pull` is
+    `every` with the waves of the pull-off.
     """
     turn, bins = task.punch.turn, task.by_load.bins
     for i in range(scenes.shape[1]):
