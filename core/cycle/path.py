@@ -7,6 +7,8 @@ branch. Energies are in 2 pi l^2 dgamma, depths and loads in the units of the cu
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from gradhesion.core.curve.energy import jump_energy
 from gradhesion.core.curve.levels import BEYOND, at_level
 from gradhesion.core.curve.levels import LANDING as ACCURACY
@@ -98,7 +100,18 @@ def walk_on(curve: Curve, trace: Floats, first: int, count: int, visited: Intege
 @kernel
 def walk_loading(curve: Curve, trace: Floats, count: int, visited: Integers) -> int:
     """Let loading go from no contact over all branches; return how many it visits, whose columns are `visited`."""
-    return walk_on(curve, trace, 0, count, visited, 0, State(0.0, 0.0, 0.0))
+    none = np.int64(0)  # a plain 0 would be a type of its own, for which callees are compiled once more
+    return walk_on(curve, trace, none, count, visited, none, State(0.0, 0.0, 0.0))
+
+
+@kernel
+def snap_in(closing: Curve, landing: float) -> float:
+    """Return the pull after the jump from zero contact to a radius, at the coordinate 0, in loads of closing."""
+    if landing > end_of(closing.table):
+        return math.nan
+    depth, load = state_in(closing, landing)
+    stiffness = landing ** (1.0 + closing.table.k)
+    return stiffness * coordinate_of(closing, depth, load) / softness(closing, stiffness) - load
 
 
 @leaf

@@ -26,7 +26,7 @@ class Lowest(NamedTuple):
 
 
 @leaf
-def _deeper(best: Lowest, load: float, y: float) -> Lowest:
+def deeper(best: Lowest, load: float, y: float) -> Lowest:
     """Return the lowest two, another trough taken in."""
     if load < best.load:
         return Lowest(load, y, best.load, best.y, True)
@@ -79,7 +79,7 @@ def _trough(curve: Curve, crest: float, i: int, before: float, after: float, rim
         return best
     t, _ = zero_in(curve, i, low, high, guess, True)
     y = radius_of(curve.table, i, t)
-    return _deeper(best, depth_and_load(curve, i, t)[1], y) if y <= rim else best
+    return deeper(best, depth_and_load(curve, i, t)[1], y) if y <= rim else best
 
 
 @leaf
@@ -104,7 +104,7 @@ def lowest_load(curve: Curve, rim: float, first: int, last: int) -> Lowest:
     best = Lowest(0.0, 0.0, 0.0, 0.0, True)
     if rim <= end:
         i, t = place_of(table, rim)
-        best, limit = _deeper(best, depth_and_load(curve, i, t)[1], rim), i + 1
+        best, limit = deeper(best, depth_and_load(curve, i, t)[1], rim), i + 1
     unknown = Lowest(0.0, 0.0, 0.0, 0.0, False)
     if rim > end and middle > end:
         return unknown

@@ -13,9 +13,9 @@ import numpy as np
 from gradhesion.core.curve.folds import CLOSE, find_folds
 from gradhesion.core.curve.levels import polished
 from gradhesion.core.curve.trace import END, END_LEVEL, LANDING, START
-from gradhesion.core.curve.values import Curve, coordinate_of, softness, state_in
+from gradhesion.core.curve.values import Curve, softness, state_in
 from gradhesion.core.cycle.disc import Disc, gap_is_open, loading_is_one_disc
-from gradhesion.core.cycle.path import load_to, unload_from, visited_within, walk_loading
+from gradhesion.core.cycle.path import Loaded, Unloaded, load_to, snap_in, unload_from, visited_within, walk_loading
 from gradhesion.core.cycle.pull_off import Lowest, lowest_load
 from gradhesion.core.cycle.residual import work_of_cycle
 from gradhesion.core.cycle.ties import loading_is_tied, rim_is_tied, target_is_tied, unloading_is_tied
@@ -219,16 +219,6 @@ def _turn(task: Task, walked: Walked, reduced: Floats, i: int) -> float:
 
 
 @kernel
-def _snap_in(closing: Curve, landing: float) -> float:
-    """Return the pull after the jump from zero contact to a radius, at the coordinate 0, in loads of closing."""
-    if landing > end_of(closing.table):
-        return math.nan
-    depth, load = state_in(closing, landing)
-    stiffness = landing ** (1.0 + closing.table.k)
-    return stiffness * coordinate_of(closing, depth, load) / softness(closing, stiffness) - load
-
-
-@kernel
 def _loading_keeps_one_disc(task: Task, walked: Walked, y: float, reduced: Floats, i: int) -> bool:
     """Return whether the contact stays one disc on loading up to y, where the cycle turns, and around it there."""
     rooms, rim, root = task.rooms, reduced[RIM_Y, i], math.sqrt(walked.ratio)
@@ -273,15 +263,16 @@ def no_value(out: Floats, i: int, status: float) -> None:
 
 
 @kernel
-def _no_contact(scenes: Floats, i: int, out: Floats) -> None:
-    """Store a cycle that turns before contact is made."""
+def put_no_contact(scenes: Floats, i: int, out: Floats) -> int:
+    """Store a cycle that turns before contact is made; return its status."""
     out[:, i] = 0.0
     out[PULL_OFF_RADIUS, i] = out[JUMP_OUT, i] = out[SNAP, i] = math.nan
     out[DEEPEST, i], out[STATUS, i] = scenes[TARGET, i], NO_CONTACT
+    return NO_CONTACT
 
 
 @kernel
-def _put_pull_off(lowest: Lowest, y: float, reduced: Floats, i: int, out: Floats) -> int:
+def put_pull_off(lowest: Lowest, y: float, reduced: Floats, i: int, out: Floats) -> int:
     """Store the pull-off of a cycle that turns at y; return its bits of status."""
     out[FORCE, i] = -lowest.load * reduced[LOAD, i] * UNIT_OF_FORCE
     out[PULL_OFF_RADIUS, i] = lowest.y * reduced[LENGTH, i]
@@ -290,23 +281,51 @@ def _put_pull_off(lowest: Lowest, y: float, reduced: Floats, i: int, out: Floats
 
 
 @kernel
-def _put_edge(task: Task, walked: Walked, y: float, reduced: Floats, i: int, out: Floats) -> None:
+def _put_edge(opening: Curve, pattern: Pattern, ratio: float, y: float, reduced: Floats, i: int, out: Floats) -> None:
     """Store what depends on the edge being stuck between closing and opening, for a cycle that turns at y."""
-    opening, root, k = walked.opening, math.sqrt(walked.ratio), task.table.k
-    out[FRONT, i] = out[PINNED, i] = out[SNAP, i] = 0.0
-    if walked.ratio < 1.0:
-        out[FRONT, i] = out[PINNED, i] = math.inf
-        if y < math.inf:
-            area = 2.0 * math.pi * reduced[LENGTH, i] ** 2
-            out[FRONT, i] = (1.0 - walked.ratio) * area * edge_area(opening.table, walked.pattern, y)
-            stretch = toughness_at(walked.pattern, y) * y ** (0.5 * (1.0 - k)) * reduced[DEPTH, i]
-            by_machine = softness(opening, y ** (1.0 + k)) if opening.by_depth > 0.0 else 1.0
-            out[PINNED, i] = (1.0 - root) * stretch * by_machine
-    if opening.by_depth > 0.0:
-        rooms, landing = task.rooms, float(reduced[RIM_Y, i])
-        if walked.visits > 0:
-            landing = min(landing, rooms.traces[CLOSING_TRACE, LANDING, rooms.columns[0, 0]])
-        out[SNAP, i] = _snap_in(walked.closing, landing) * root * reduced[LOAD, i] * UNIT_OF_FORCE
+    root, k = math.sqrt(ratio), opening.table.k
+    out[FRONT, i] = out[PINNED, i] = 0.0
+    if ratio == 1.0:
+        return
+    out[FRONT, i] = out[PINNED, i] = math.inf
+    if y < math.inf:
+        area = 2.0 * math.pi * reduced[LENGTH, i] ** 2
+        out[FRONT, i] = (1.0 - ratio) * area * edge_area(opening.table, pattern, y)
+        stretch = toughness_at(pattern, y) * y ** (0.5 * (1.0 - k)) * reduced[DEPTH, i]
+        by_machine = softness(opening, y ** (1.0 + k)) if opening.by_depth > 0.0 else 1.0
+        out[PINNED, i] = (1.0 - root) * stretch * by_machine
+
+
+class Cycle(NamedTuple):
+    """What a cycle has lost, in the units of its curves.
+
+    turn      the radius at which it turns
+    reach     of the last landing of loading
+    snap      the pull after the jump-in
+    """
+
+    loaded: Loaded
+    unloaded: Unloaded
+    turn: float
+    reach: float
+    snap: float
+
+
+@kernel
+def put_losses(
+    cycle: Cycle, opening: Curve, pattern: Pattern, ratio: float, reduced: Floats, i: int, out: Floats
+) -> int:
+    """Store what the cycle of scene i loses; return its bits of status."""
+    area, root = 2.0 * math.pi * reduced[LENGTH, i] ** 2, math.sqrt(ratio)
+    loaded, unloaded = cycle.loaded, cycle.unloaded
+    out[LOADING, i], out[UNLOADING, i] = loaded.lost * area * ratio, unloaded.lost * area
+    out[LOADING_JUMPS, i], out[UNLOADING_JUMPS, i] = loaded.jumps, unloaded.jumps
+    out[DEEPEST, i], out[JUMP_OUT, i] = loaded.deepest * reduced[DEPTH, i] * root, unloaded.last * reduced[DEPTH, i]
+    out[SNAP, i] = cycle.snap * root * reduced[LOAD, i] * UNIT_OF_FORCE if opening.by_depth > 0.0 else 0.0
+    _put_edge(opening, pattern, ratio, cycle.turn, reduced, i, out)
+    out[ENERGY, i] = out[LOADING, i] + out[UNLOADING, i] + out[FRONT, i]
+    out[TURN, i], out[REACH, i] = cycle.turn * reduced[LENGTH, i], cycle.reach * reduced[LENGTH, i]
+    return JUMP_IN_TO_RIM if loaded.in_to_rim and cycle.turn == reduced[RIM_Y, i] else 0
 
 
 @kernel
@@ -319,20 +338,14 @@ def _put_cycle(task: Task, walked: Walked, opened: int, y: float, reduced: Float
     if not loaded.known:
         return -1
     unloaded = unload_from(opening, y, unloading, opened, rooms.columns[1])
-    area = 2.0 * math.pi * reduced[LENGTH, i] ** 2
-    out[LOADING, i], out[UNLOADING, i] = loaded.lost * area * walked.ratio, unloaded.lost * area
-    out[LOADING_JUMPS, i], out[UNLOADING_JUMPS, i] = loaded.jumps, unloaded.jumps
-    out[DEEPEST, i] = loaded.deepest * reduced[DEPTH, i] * math.sqrt(walked.ratio)
-    out[JUMP_OUT, i] = unloaded.last * reduced[DEPTH, i]
-    _put_edge(task, walked, y, reduced, i, out)
-    out[ENERGY, i] = out[LOADING, i] + out[UNLOADING, i] + out[FRONT, i]
-    out[TURN, i] = y * reduced[LENGTH, i]
     n = visited_within(loading, visited, walked.visits, y)
-    out[REACH, i] = (loading[LANDING, visited[n - 1]] if n > 0 else y) * reduced[LENGTH, i]
+    reach = loading[LANDING, visited[n - 1]] if n > 0 else y
+    landing = min(loading[LANDING, visited[0]] if walked.visits > 0 else math.inf, reduced[RIM_Y, i])
+    cycle = Cycle(loaded, unloaded, y, reach, snap_in(closing, landing))
+    bits = put_losses(cycle, opening, walked.pattern, walked.ratio, reduced, i, out)
     if task.wanted.residual:
         work = work_of_cycle(closing, opening, y, loading, walked.visits, visited, unloading, opened)
-        out[RESIDUAL, i] = out[LOADING, i] + out[UNLOADING, i] + out[FRONT, i] - work * area
-    bits = JUMP_IN_TO_RIM if loaded.in_to_rim and y == reduced[RIM_Y, i] else 0
+        out[RESIDUAL, i] = out[ENERGY, i] - work * 2.0 * math.pi * reduced[LENGTH, i] ** 2
     if task.wanted.contact and not _loading_keeps_one_disc(task, walked, y, reduced, i):
         bits |= LOADING_NOT_ONE_DISC
     if _is_tied(task, walked, opened, y, reduced, i):
@@ -411,7 +424,7 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
         if math.isnan(y):
             continue
         if y == 0.0:
-            _no_contact(scenes, i, out)
+            put_no_contact(scenes, i, out)
             continue
         own = lowest
         if y < farthest and max(lowest.y, lowest.second_y) > y:
@@ -422,7 +435,7 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
         if bits < 0:
             no_value(out, i, SHORT)
             continue
-        out[STATUS, i] = bits | _put_pull_off(own, y, reduced, i, out)
+        out[STATUS, i] = bits | put_pull_off(own, y, reduced, i, out)
         out[SATURATION, i] = last_fold * reduced[LENGTH, i]
 
 
@@ -465,4 +478,4 @@ def put_force(lowest: Lowest, reduced: Floats, i: int, out: Floats) -> None:
     """Store the pull-off of scene i, whose cycle ends at its rim, and nothing else."""
     out[:, i] = math.nan
     out[TURN, i] = reduced[RIM_Y, i] * reduced[LENGTH, i]
-    out[STATUS, i] = _put_pull_off(lowest, reduced[RIM_Y, i], reduced, i, out) if lowest.known else SHORT
+    out[STATUS, i] = put_pull_off(lowest, reduced[RIM_Y, i], reduced, i, out) if lowest.known else SHORT

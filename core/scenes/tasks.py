@@ -16,12 +16,15 @@ from numpy.typing import NDArray
 
 from gradhesion.core.curve.values import Curve, bin_of
 from gradhesion.core.cycle.disc import disc_of, profile_of
+from gradhesion.core.cycle.long import MOST, NEAR, Long, space_for
 from gradhesion.core.cycle.pull_off import envelope_place, lowest_load
+from gradhesion.core.cycle.waves import Waves, reach_of, waves_of
 from gradhesion.core.edge.pattern import bins_of_wave, bounds_of, rows_by_number
 from gradhesion.core.jit import kernel
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.processors import processors
 from gradhesion.core.scenes.cycles import Task, no_value, put_force, solve_cycles
+from gradhesion.core.scenes.long import fill_saturation, solve_long
 from gradhesion.core.scenes.reduced import (
     AT_RIM,
     BY_POWER,
@@ -78,6 +81,16 @@ _MOST_BINS: Final = 130_000
 """Bins of a table, at most: 76 MB."""
 _KEPT_BINS: Final = 260_000
 """Bins of all long tables that are kept between calls."""
+_WALKED: Final = 600
+"""Waves that are walked; scenes of more are summed."""
+_WALKED_WITH_WORK: Final = 2000
+"""The same where the loop integral is wanted, which is not summed."""
+_WALKED_BINS: Final = 40_000
+"""Bins that are walked at most, where waves have many: 23 MB."""
+_BINS_OF_A_WAVE: Final = 1024
+"""Bins of a wave at most, where waves are summed: 5 MB for each doubling of their number."""
+_KEPT_WAVES: Final = 64e6
+"""Bytes of all waves (cycle/waves.py) that are kept between calls."""
 _AROUND: Final = 6
 """Bins around the lowest place of the envelope that are filled at once for a pull-off."""
 _LONGEST: Final = 30.0
@@ -325,6 +338,71 @@ def solve_far(
     out[STATUS, left] = NO_VALUE | TOO_MANY_WAVES
 
 
+_waves: OrderedDict[tuple[object, ...], Waves] = OrderedDict()
+
+
+def _long_of(punch: Punch, wanted: Wanted, k: float, form: int, profile: Floats, most: int) -> tuple[Task, Long]:
+    """Return what scenes of an exponent are summed with, up to a number of waves."""
+    near = NEAR + 3.0
+    if punch.exponent - 1.0 < 0.5 * (1.0 - k):  # folds may begin far out
+        near = _WALKED_BINS / (PER_WAVE * float(punch.waves[:, 0].max()))
+    table, source, crest = long_table(punch, k, form, 1, 2.0 * math.pi * near)
+    key = (punch.exponent, punch.waves.tobytes(), k, form)
+    with _lock:
+        waves = _waves.pop(key, None)
+        if waves is None or most + 8 > reach_of(waves):
+            waves = waves_of(table, source, crest, crests_of(k, punch.waves)[2], most + 8.0)
+        _waves[key] = waves
+        while len(_waves) > 1 and sum(own.values.nbytes for own in _waves.values()) > _KEPT_WAVES:
+            _waves.popitem(last=False)
+    disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
+    task = Task(punch, wanted, table, table, crest, disc, rooms_for(0, patterned=False), math.inf)
+    spaces = (space_for(bins) for bins in (table.bins, 2 * waves.per, 3 * waves.per, 5 * waves.per))
+    return task, Long(table, waves, NEAR, most, disc, wanted.contact, *spaces)
+
+
+def _walked(punch: Punch, wanted: Wanted) -> float:
+    """Return the radius up to which scenes are walked, beyond which they are summed: inf for those that cannot be."""
+    per = PER_WAVE * float(punch.waves[:, 0].max())
+    if punch.rows.shape[1] > 0 or per > _BINS_OF_A_WAVE:
+        return math.inf
+    waves, bins = (_WALKED_WITH_WORK, _MOST_BINS - 2 * GEOMETRIC) if wanted.residual else (_WALKED, _WALKED_BINS)
+    return 2.0 * math.pi * min(waves, max(bins / per, 64.0))
+
+
+def _sum(
+    punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes: Floats, reduced: Floats, out: Floats
+) -> None:
+    """Solve scenes of one exponent that have more waves than are walked; others are left as SHORT."""
+    out[STATUS] = SHORT
+    walked = _walked(punch, wanted)
+    far = np.flatnonzero(reduced[NEED] > walked)
+    if not far.size:
+        return
+    chosen, own = np.ascontiguousarray(scenes[:, far]), np.ascontiguousarray(reduced[:, far])
+    found = np.empty((RESULT_ROWS, far.size))
+    k, reach = float(scenes[K, 0]), own[NEED]
+    if punch.turn != AT_RIM:  # a jump may pass where a cycle turns
+        reach = np.minimum(np.fmax(reach, own[WINDOW]), own[RIM_Y])
+    most = int(min(reach.max() / (2.0 * math.pi) + 3.0, MOST + 8.0))
+    task, long = _long_of(punch, wanted, k, form, profile, most)
+    pull = long
+    if form != EXACT:
+        by_load, pull = _long_of(punch, wanted, k, BY_LOAD, profile, most)
+        task = task._replace(by_load=by_load.table)
+    walkable = (_MOST_BINS - 2 * GEOMETRIC) * width_of(punch.waves)
+    solve_long(task, long, pull, chosen, own, walkable, found)
+    left = np.flatnonzero(found[STATUS] == SHORT)
+    if left.size:
+        rest = np.full((RESULT_ROWS, left.size), np.nan)
+        again, numbers = np.ascontiguousarray(chosen[:, left]), np.ascontiguousarray(own[:, left])
+        solve_far(punch, wanted._replace(saturation=False), form, 1, profile, again, numbers, rest)
+        found[:, left] = rest
+    if wanted.saturation:
+        fill_saturation(task, long, own, found)
+    out[:, far] = found
+
+
 def _finer_bins(punch: Punch, scenes: Floats, least: Floats) -> Integers:
     """Return by which power of 2 the bins of each scene must be narrower than those of its profile."""
     if punch.rows.shape[1] == 0:
@@ -397,8 +475,14 @@ def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes
 
     def far(finer: int, own: Floats, reduced: Floats, out: Floats) -> None:
         """Solve others."""
-        solve = solve_cycles if cycles else far_forces
-        solve_far(punch, wanted, form, finer, profile, own, reduced, out, _MOST_BINS, solve)
+        _sum(punch, wanted, form, profile, own, reduced, out)
+        left = np.flatnonzero(out[STATUS] == SHORT)
+        if left.size:
+            rest = np.full((RESULT_ROWS, left.size), np.nan)
+            numbers = np.ascontiguousarray(reduced[:, left])
+            solve = solve_cycles if cycles else far_forces
+            solve_far(punch, wanted, form, finer, profile, own[:, left], numbers, rest, _MOST_BINS, solve)
+            out[:, left] = rest
 
     out = in_groups(punch, form, scenes, RESULT_ROWS, near, far, whole=wanted.saturation)
     if wanted.depth:

@@ -54,7 +54,7 @@ from gradhesion.core.table.layout import (
     V,
     Y,
 )
-from gradhesion.core.table.leading import leading_at
+from gradhesion.core.table.leading import fill_far_leading, leading_at
 from gradhesion.core.types import Floats
 
 _legendre = np.polynomial.legendre
@@ -118,6 +118,8 @@ def source_of(k: float, exponent: float, waves: Floats, width: float, shift: flo
     far_waves, far_mean = np.zeros((2, TAIL, per, N)), np.zeros((2, TAIL))
     if form == EXACT:
         fill_far(functions, waves, width, shift, far_waves, far_mean)
+    else:
+        fill_far_leading(k, waves, form, width, shift, far_waves, far_mean)
     return Source(k, exponent, (FIRST + shift) * width, width, waves, functions, far_waves, far_mean, form, shift)
 
 
@@ -179,7 +181,7 @@ def _sample_far(source: Source, b: int, low: float, centre: float, half: float, 
             u = u * square + source.far_mean[0, n]
             u1 = u1 * square + source.far_mean[1, n]
         values[PU, j] = values[PU, j] * values[PE, j] / room[j] + u
-        values[PU1, j] = values[PU1, j] * values[PE, j] + u1
+        values[PU1, j] = values[PU1, j] * values[PE, j] / (room[j] if source.form == BY_LOAD else 1.0) + u1
 
 
 @quadrature_leaf
@@ -257,10 +259,10 @@ def fill_bins(source: Source, first: int, geometric: int, count: int, nodes: Flo
             high = start * RATIO ** (number + 1) if number < -1 else start
         else:
             low, high = (first + shift + number) * width, (first + shift + number + 1) * width
-        centre, half = 0.5 * (low + high), 0.5 * (high - low)
+        centre, half = 0.5 * (low + high), 0.5 * (high - low) if number < 0 else 0.5 * width
         poly = polys[i]
         _sample_powers(m, power, centre, half, poly, values, room)
-        if source.form == EXACT and low * longest >= LAST:
+        if low * longest >= LAST:
             _sample_far(source, (first + number) % per, low, centre, half, values, room)
         else:
             for j in range(N):

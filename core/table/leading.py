@@ -11,8 +11,8 @@ import math
 
 import numpy as np
 
-from gradhesion.core.jit import leaf
-from gradhesion.core.table.layout import BY_LOAD
+from gradhesion.core.jit import kernel, leaf
+from gradhesion.core.table.layout import BY_DEPTH, BY_LOAD, POINTS, N
 from gradhesion.core.types import Floats
 
 
@@ -35,7 +35,11 @@ def crests_of(k: float, waves: Floats) -> tuple[float, float, float]:
         slope += size * n * (cos * cosine - sin * sine)
         wave += size * (cos * sine + sin * cosine)
     margin = 1.005  # of the maxima between the phases that are looked at, and of the terms after the leading one
-    return -margin * float(slope.min()), -margin * float(wave.min()), float(phases[slope.argmin()])
+    at = int(slope[:-1].argmin())
+    before, least, after = slope[at - 1 if at > 0 else -2], slope[at], slope[at + 1]
+    step = 0.5 * (before - after) / (before - 2.0 * least + after)  # to the vertex of the parabola
+    steepest = float(phases[at] + step * phases[1]) % (2.0 * np.pi)
+    return -margin * float(slope.min()), -margin * float(wave.min()), steepest
 
 
 @leaf
@@ -61,3 +65,27 @@ def leading_at(k: float, waves: Floats, form: int, y: float) -> tuple[float, flo
             mean += cos
         return wave, mean
     return mean + stretch * wave, mean
+
+
+@kernel
+def fill_far_leading(
+    k: float, waves: Floats, form: int, width: float, shift: float, far_waves: Floats, far_mean: Floats
+) -> None:
+    """Fill the expansions of filling.fill_far with the leading terms; by load those of U1 are over y."""
+    size = 2.0 ** (0.5 * (k - 1.0)) * math.gamma(0.5 * (1.0 + k))
+    for h in range(len(waves)):
+        n, cos, sin = waves[h]
+        size_n = size * n ** (0.5 * (1.0 - k))
+        if form == BY_DEPTH:
+            far_mean[0, 0] += cos
+            far_mean[1, 0] += cos
+        for b in range(far_waves.shape[2]):
+            for j in range(N):
+                x = n * width * (b + shift + 0.5 + 0.5 * POINTS[j]) - 0.25 * math.pi * (1.0 + k)
+                wave = size_n * (cos * math.sin(x) + sin * math.cos(x))
+                if form == BY_DEPTH:
+                    far_waves[0, 0, b, j] += wave
+                else:
+                    far_waves[0, 0, b, j] += size_n * n * (cos * math.cos(x) - sin * math.sin(x))
+                    far_waves[0, 1, b, j] += 0.5 * (3.0 + k) * wave
+                    far_waves[1, 0, b, j] += wave

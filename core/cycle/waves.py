@@ -1,0 +1,332 @@
+"""Waves far out: the bins of any of them, mixed from a few, and sums of what is smooth in their number.
+
+Wave w begins at y = 2 pi w + cut, where waves fall most steeply. All that its bins hold is a smooth function of w, once
+powers of the radius are taken out: known at ten places of each doubling of w, it is known everywhere, at a fifth of the
+price of new bins. The number need not be whole: the phase of the waves is kept, the radius alone follows.
+"""
+
+import math
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from gradhesion.core.jit import kernel, leaf, quadrature
+from gradhesion.core.table.filling import fill_bins
+from gradhesion.core.table.layout import (
+    BE,
+    BP,
+    BV,
+    HALF,
+    HM,
+    HP,
+    HPP,
+    HPU,
+    HU,
+    HUU,
+    K0,
+    K1,
+    K2,
+    KE,
+    KU,
+    KUU,
+    KV,
+    LANES,
+    M0,
+    PC,
+    PE,
+    PP,
+    PU,
+    PU1,
+    ROWS,
+    SLOPE,
+    U1,
+    YC,
+    E,
+    N,
+    P,
+    Source,
+    T,
+    Table,
+    U,
+    V,
+    Y,
+)
+from gradhesion.core.types import Floats
+
+FIRST_WAVE: Final = 16
+"""Where the first doubling begins: far enough out for the expansions of filling.py."""
+PLACES: Final = 10
+"""Places of a doubling: what is left of w^(-1/2) there is 1e-17."""
+_EDGE: Final = (V, U, U1, P, SLOPE, E)
+"""Rows of an edge that are mixed."""
+_BIN: Final = (K0, K1, K2, KU, KUU, KV, PC, BV, BP, BE)
+"""Rows of a bin that are mixed."""
+_LANES_AT: Final = len(_EDGE) + len(_BIN)
+SIZE: Final = _LANES_AT + LANES * N
+"""Numbers of a bin that are mixed: rows of its lower edge, its own, its polynomials."""
+_ANGLES = (np.arange(PLACES) + 0.5) * np.pi / PLACES
+_PLACE = 0.5 - 0.5 * np.cos(_ANGLES)
+"""Chebyshev's points, in the logarithm to base 2."""
+_BARYCENTRIC = np.sin(_ANGLES) * (-1.0) ** np.arange(PLACES)
+GAUSS: Final = 10
+"""Places at which a sum over waves is sampled."""
+_LEGENDRE = np.polynomial.legendre.leggauss(GAUSS)[0]
+
+
+class Waves(NamedTuple):
+    """The bins of one wave of a table, at chosen numbers.
+
+    k, exponent, share, width, lowest   as of the table
+    steepest    a bound of -U' y^((k-1)/2)
+    cut         y at which wave 0 begins
+    per         bins of a wave
+    values      (doublings, per + 1, PLACES, SIZE); the last bin is an edge alone
+    sums        integrals from 0 to where each doubling begins: of y^k times U, y^m U and U^2, (doublings, 3)
+    """
+
+    k: float
+    exponent: float
+    share: float
+    width: float
+    lowest: float
+    steepest: float
+    cut: float
+    per: int
+    values: Floats
+    sums: Floats
+
+
+@leaf
+def start_of(waves: Waves, number: float) -> float:
+    """Return the y at which a wave begins."""
+    return 2.0 * math.pi * number + waves.cut
+
+
+@leaf
+def wave_of(waves: Waves, y: float) -> float:
+    """Return the number of waves up to y, which is whole where a wave begins."""
+    return (y - waves.cut) / (2.0 * math.pi)
+
+
+@leaf
+def _fill_scales(k: float, m: float, y: float, scales: Floats) -> None:
+    """Put into `scales` (SIZE,) the powers of y, at the start of a wave, that are taken out of what is mixed."""
+    power = y * y if m == 2.0 else y**m
+    stretch = y ** (-0.5 * (1.0 + k))
+    crest = y * stretch
+    to_k = 1.0 / (stretch * stretch * y)
+    scales[0] = scales[1] = crest  # V, U
+    scales[2], scales[3], scales[4], scales[5] = 1.0, power, power / y, stretch  # U1, y^m, its slope / m, E
+    bent = power / (y * y)
+    scales[6], scales[7], scales[8] = to_k, to_k * bent, to_k * bent * power  # K0, K1, K2
+    scales[9], scales[10], scales[11] = to_k * crest, to_k * crest * power / y, to_k * crest * crest  # KU, KUU, KV
+    scales[12], scales[13], scales[14], scales[15] = power, crest, bent / y, stretch / (y * y)  # PC, BV, BP, BE
+    for n in range(N):
+        scales[_LANES_AT + n], scales[_LANES_AT + N + n] = crest, 1.0  # of U and U1
+        scales[_LANES_AT + 2 * N + n], scales[_LANES_AT + 3 * N + n] = power, stretch  # of y^m and E
+
+
+@kernel
+def _fill_doubling(source: Source, index: int, doubling: int, values: Floats, nodes: Floats, polys: Floats) -> None:
+    """Fill one doubling of `values`; `index` is the bin of `source` in which wave 0 would begin, the rest is room."""
+    per, scales = values.shape[1] - 1, np.empty(SIZE)
+    none = per - per  # not a plain 0, for which callees would be compiled once more
+    for place in range(PLACES):
+        number = FIRST_WAVE * 2.0 ** (doubling + _PLACE[place])
+        whole = int(number)
+        moved = Source(
+            source.k,
+            source.exponent,
+            source.start,
+            source.width,
+            source.waves,
+            source.functions,
+            source.far_waves,
+            source.far_mean,
+            source.form,
+            source.shift + per * (number - whole),
+        )
+        fill_bins(moved, per * whole + index, none, per, nodes, polys)
+        _fill_scales(source.k, source.exponent, nodes[Y, 0], scales)
+        for i in range(per + 1):
+            out = values[doubling, i, place]
+            for row in range(len(_EDGE)):
+                out[row] = nodes[_EDGE[row], i] / scales[row]
+            if i == per:
+                continue
+            for row in range(len(_BIN)):
+                out[len(_EDGE) + row] = nodes[_BIN[row], i] / scales[len(_EDGE) + row]
+            for n in range(N):
+                c = _LANES_AT + n
+                out[c], out[c + N] = polys[i, PU, n] / scales[c], polys[i, PU1, n] / scales[c + N]
+                out[c + 2 * N], out[c + 3 * N] = (
+                    polys[i, PP, n] / scales[c + 2 * N],
+                    polys[i, PE, n] / scales[c + 3 * N],
+                )
+
+
+@quadrature
+def mix_wave(waves: Waves, number: float, column: int, nodes: Floats, polys: Floats, room: Floats) -> None:
+    """Put the bins of a wave into the columns from `column` on, and the edge after them; `room` is (3, SIZE)."""
+    k, bins, width, y = waves.k, waves.per, waves.width, start_of(waves, number)
+    place = max(math.log2(number / FIRST_WAVE), 0.0)
+    doubling = min(int(place), waves.values.shape[0] - 1)
+    scales, weights, mixed = room[0], room[1], room[2]
+    _fill_scales(k, waves.exponent, y, scales)
+    total, exact = 0.0, -1
+    for n in range(PLACES):
+        distance = place - doubling - _PLACE[n]
+        if distance == 0.0:
+            exact = n
+        weights[n] = _BARYCENTRIC[n] / distance
+        total += weights[n]
+    for n in range(PLACES):
+        weights[n] = weights[n] / total if exact < 0 else 1.0 if n == exact else 0.0
+    for i in range(bins + 1):
+        size = SIZE if i < bins else len(_EDGE)
+        mixed[:] = 0.0
+        for n in range(PLACES):
+            weight = weights[n]
+            for c in range(size):
+                mixed[c] += weight * waves.values[doubling, i, n, c]
+        j = column + i
+        low = y + i * width
+        nodes[Y, j], nodes[V, j], nodes[U, j] = low, mixed[0] * scales[0], mixed[1] * scales[1]
+        nodes[U1, j], nodes[P, j], nodes[SLOPE, j] = mixed[2], mixed[3] * scales[3], mixed[4] * scales[4]
+        stretch = mixed[5] * scales[5]
+        nodes[E, j] = nodes[KE, j] = stretch
+        nodes[T, j] = 1.0 / (stretch * stretch)
+        if i == bins:
+            return
+        for row in range(6):
+            nodes[K0 + row, j] = mixed[6 + row] * scales[6 + row]
+        nodes[PC, j], nodes[BP, j], nodes[BE, j] = (
+            mixed[12] * scales[12],
+            mixed[14] * scales[14],
+            mixed[15] * scales[15],
+        )
+        nodes[BV, j] = 1.01 * mixed[13] * scales[13]  # a largest value, which is not quite smooth
+        nodes[YC, j], nodes[HALF, j] = low + 0.5 * width, 0.5 * width
+        nodes[M0, j] = width * (low + 0.5 * width)
+        for n in range(N):
+            c = _LANES_AT + n
+            polys[j, PU, n], polys[j, PU1, n] = mixed[c] * scales[c], mixed[c + N]
+            polys[j, PP, n], polys[j, PE, n] = (
+                mixed[c + 2 * N] * scales[c + 2 * N],
+                mixed[c + 3 * N] * scales[c + 3 * N],
+            )
+
+
+@kernel
+def waves_from(waves: Waves, number: float, nodes: Floats, polys: Floats) -> Table:
+    """Return a table of as many waves, from one on, as the given room holds."""
+    bins, room = len(polys), np.empty((3, SIZE))
+    for j in range(bins // waves.per):
+        mix_wave(waves, number + j, j * waves.per, nodes, polys, room)
+    start = start_of(waves, number)
+    return Table(waves.k, waves.exponent, waves.share, start, waves.width, waves.lowest, 0.0, 0, bins, nodes, polys)
+
+
+@kernel
+def fill_rule(count: float, places: Floats, weights: Floats, last: Floats) -> None:
+    """Fill Gauss's rule for sums over 0, 1, ..., count - 1 (count > GAUSS), exact up to degree 2 GAUSS - 1.
+
+    `last` (2, GAUSS) are the two orthonormal polynomials of the highest degrees below GAUSS, times the weights: what
+    they find in the values is what the rule would begin to miss.
+    """
+    p = np.empty(GAUSS + 1)
+    for i in range(GAUSS):
+        x = _LEGENDRE[i]  # in (-1, 1); the polynomials are those of Gram
+        for _ in range(20):
+            p[0], p[1] = 1.0, x
+            before, slope = 0.0, 1.0
+            for j in range(1, GAUSS):
+                share = j * j * (1.0 - (j / count) ** 2) / (4.0 * j * j - 1.0)
+                p[j + 1] = x * p[j] - share * p[j - 1]
+                before, slope = slope, p[j] + x * slope - share * before
+            step = p[GAUSS] / slope
+            if abs(step) < 1e-15:
+                break
+            x -= step
+        norm, total = 1.0, 1.0
+        for j in range(1, GAUSS):
+            norm *= j * j * (1.0 - (j / count) ** 2) / (4.0 * j * j - 1.0)
+            total += p[j] * p[j] / norm
+            if j >= GAUSS - 2:
+                last[j - GAUSS + 2, i] = p[j] / math.sqrt(norm)
+        places[i], weights[i] = 0.5 * (count - 1.0) + 0.5 * count * x, count / total
+        last[0, i] *= weights[i]
+        last[1, i] *= weights[i]
+
+
+@kernel
+def _add_integrals(waves: Waves, number: float, weight: float, nodes: Floats, polys: Floats, sums: Floats) -> None:
+    """Add the integrals of y^k times U, y^m U and U^2 over a wave, with a weight, to `sums` (3,); the rest is room."""
+    waves_from(waves, number, nodes, polys)
+    for i in range(waves.per):
+        sums[0] += weight * nodes[KU, i]
+        sums[1] += weight * (nodes[KUU, i] + nodes[PC, i] * nodes[KU, i])
+        sums[2] += weight * nodes[KV, i]
+
+
+@kernel
+def _integrate(waves: Waves, first: int, last: int, nodes: Floats, polys: Floats, sums: Floats) -> None:
+    """Add the same over the waves `first` to `last` - 1, within one doubling."""
+    count = last - first
+    if count <= 2 * GAUSS:
+        for number in range(first, last):
+            _add_integrals(waves, float(number), 1.0, nodes, polys, sums)
+        return
+    places, weights, rest = np.empty(GAUSS), np.empty(GAUSS), np.empty((2, GAUSS))
+    fill_rule(float(count), places, weights, rest)
+    for i in range(GAUSS):
+        _add_integrals(waves, first + places[i], weights[i], nodes, polys, sums)
+
+
+@kernel
+def fill_from_zero(waves: Waves, number: int, room: Floats, polys: Floats, nodes: Floats) -> None:
+    """Fill the integrals from 0 to the start of a wave, rows HM to HUU, in the first column of `nodes`."""
+    doubling = min(int(math.log2(number / FIRST_WAVE)), waves.values.shape[0] - 1)
+    sums = waves.sums[doubling].copy()
+    _integrate(waves, FIRST_WAVE * 2**doubling, number, room, polys, sums)
+    y, k, m = start_of(waves, float(number)), waves.k, waves.exponent
+    nodes[HM, 0] = 0.5 * y * y
+    nodes[HP, 0] = y ** (1.0 + k + m) / (1.0 + k + m)
+    nodes[HPP, 0] = y ** (1.0 + k + 2.0 * m) / (1.0 + k + 2.0 * m)
+    nodes[HU, 0], nodes[HPU, 0], nodes[HUU, 0] = sums[0], sums[1], sums[2]
+
+
+@kernel
+def fill_waves(waves: Waves, table: Table, source: Source) -> None:
+    """Fill the values and sums of waves; `table` reaches beyond FIRST_WAVE and begins at 0."""
+    per = waves.per
+    nodes, polys = np.zeros((ROWS, per + 1)), np.zeros((per, LANES, N))
+    index = round(waves.cut / waves.width - source.shift)
+    for doubling in range(waves.values.shape[0]):
+        _fill_doubling(source, index, doubling, waves.values, nodes, polys)
+    sums = np.zeros(3)
+    sums[0], sums[1], sums[2] = table.nodes[HU, 0], table.nodes[HPU, 0], table.nodes[HUU, 0]
+    end = table.geometric + round((start_of(waves, float(FIRST_WAVE)) - table.start) / table.width)
+    for i in range(end):
+        sums[0] += table.nodes[KU, i]
+        sums[1] += table.nodes[KUU, i] + table.nodes[PC, i] * table.nodes[KU, i]
+        sums[2] += table.nodes[KV, i]
+    for doubling in range(waves.values.shape[0]):
+        waves.sums[doubling] = sums
+        first = FIRST_WAVE * 2**doubling
+        _integrate(waves, first, 2 * first, nodes, polys, sums)
+
+
+def reach_of(waves: Waves) -> int:
+    """Return the number up to which waves are known."""
+    return FIRST_WAVE << len(waves.values)
+
+
+def waves_of(table: Table, source: Source, steepest: float, cut: float, most: float) -> Waves:
+    """Return the waves of a table up to number `most`, given the y at which wave 0 begins."""
+    per = round(2.0 * math.pi / table.width)
+    doublings = max(1, math.ceil(math.log2(max(most, 1.0) / FIRST_WAVE)))
+    values, sums = np.zeros((doublings, per + 1, PLACES, SIZE)), np.zeros((doublings, 3))
+    waves = Waves(table.k, table.exponent, table.share, table.width, table.lowest, steepest, cut, per, values, sums)
+    fill_waves(waves, table, source)
+    return waves
