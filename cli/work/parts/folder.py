@@ -187,8 +187,14 @@ def claimed(output: Path, shard: str | None = None) -> Iterator[Folder]:
         The folder cannot be made.
     """
     folder = folder_of(output)
-    lock = _lock(folder, output, shard)
+    interrupts.hold()
     try:
+        lock = _lock(folder, output, shard)
+    except BaseException:
+        interrupts.release()
+        raise
+    try:
+        interrupts.release()
         if shard is None:
             folder.clear_unfinished()
             folder.clear_locks()
