@@ -19,11 +19,11 @@ from numpy.typing import NDArray
 
 from benchmarks.clock import table
 from gradhesion.core import Harmonic, Loading, Profile, solve
+from gradhesion.core.closed.similarity import amplitude_of_ratio
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import PARAMETERS
 from gradhesion.core.problem.shape import depth_factor_of
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, FAILED
-from gradhesion.core.closed.similarity import amplitude_of_ratio
 from gradhesion.twin.general import Shape
 from tests.twin.far import pull_off_force
 

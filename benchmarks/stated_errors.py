@@ -11,12 +11,12 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+from tests.core.walked import walked_cosine, walked_general
 
 from gradhesion.core import Harmonic, Loading, Profile, solve
 from gradhesion.core.arrays.tables import table_of
 from gradhesion.twin import stated
 from gradhesion.twin.general import Shape
-from tests.core.walked import walked_cosine, walked_general
 from tests.twin.draw_general import general_scene, known_to_the_core
 
 NAMES = ("pull_off_force", "dissipated_energy")

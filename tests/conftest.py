@@ -18,35 +18,12 @@ settings.load_profile("no clock")
 
 ROOT = Path(__file__).parents[1]
 
-OF_KERNELS = tuple(
-    f"tests/core/{room}/"
-    for room in ("arrays", "contact", "curve", "path", "pull_off", "scene", "sensitivities", "turning", "waves")
-)
-"""What calls kernels by themselves: each is compiled with all that it calls, which they share."""
-OF_THE_FACE = ("tests/core/faces/", "tests/core/rate/", "tests/core/test_face.py", "tests/core/test_stated_errors.py")
-"""The same, in a process of their own: one for all would be the last to end by minutes."""
-
 
 def pytest_configure() -> None:
     """Have temporary folders in memory, where there is room, and old objects looked through for cycles seldom."""
     gc.set_threshold(2_000, 10, 30)
     if place := in_memory(2**32):
         os.environ.setdefault("PYTEST_DEBUG_TEMPROOT", place)
-
-
-def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
-    """Give files to processes one by one, but those of kernels to one process, which compiles what they share once."""
-    from xdist.scheduler import LoadFileScheduling
-
-    class ByKernels(LoadFileScheduling):  # type: ignore[misc] # xdist has no types
-        """As `--dist loadfile`, with two units of work for all files of kernels."""
-
-        def _split_scope(self, nodeid: str) -> str:
-            if nodeid.startswith(OF_THE_FACE):
-                return "face"
-            return "kernels" if nodeid.startswith(OF_KERNELS) else str(super()._split_scope(nodeid))
-
-    return ByKernels(config, log) if config.getvalue("dist") == "loadfile" else None
 
 
 @pytest.fixture

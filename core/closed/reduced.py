@@ -31,13 +31,19 @@ def _of_length(ratio: _Array, *material: _Array) -> _Array:
     return ratio * similarity_length(*material)
 
 
+def _of_chi(chi: float, *scene: float) -> Any:
+    """Return the amplitude at which the waviness is chi times as strong as adhesion."""
+    k, nu, modulus, c0_over_R, lambda_over_R = scene
+    return amplitude_of_ratio(k, nu, modulus, c0_over_R, lambda_over_R, chi)
+
+
 _RULES: Final[dict[str, dict[str, tuple[tuple[str, ...], Callable[..., Any]]]]] = {
     "E_star": {"E": (("nu",), lambda E, nu: E / ((1.0 - nu) * (1.0 + nu)))},
     "modulus": {"E_star": (("R", "work_of_adhesion"), lambda E_star, R, work: E_star * R / work)},
     "c0_over_R": {"c0": (("R",), _over)},
     "lambda_over_R": {"lambda_over_L": (_MATERIAL, _of_length), "wavelength": (("R",), _over)},
     "A": {
-        "chi": (PARAMETERS[:5], lambda chi, *scene: amplitude_of_ratio(*scene, chi=chi)),
+        "chi": (PARAMETERS[:5], _of_chi),
         "amplitude": (("R", "lambda_over_R"), lambda amplitude, R, ratio: amplitude / R / ratio),
     },
     "a_max_over_R": {

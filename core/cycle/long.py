@@ -697,7 +697,7 @@ def finish_unloading(
     """
     space = long.ends
     trace, within = space.trace, started_within(space.trace, count, rim)
-    tied = after.tied or unloading_is_tied(piece, rim, rim >= edge, trace, count)
+    tied = after.tied or unloading_is_tied(piece, rim, trace, count)
     left = Unloaded(after.lost, after.jumps, after.depth)
     if after.wave <= last:
         low = _lowest(trace, 0, started_within(trace, count, start_of(long.waves, last + 1.0)))

@@ -100,7 +100,7 @@ def walk_on(curve: Curve, trace: Floats, first: int, count: int, visited: Intege
 @kernel
 def walk_loading(curve: Curve, trace: Floats, count: int, visited: Integers) -> int:
     """Let loading go from no contact over all branches; return how many it visits, whose columns are `visited`."""
-    none = np.int64(0)  # a plain 0 would be a type of its own, for which callees are compiled once more
+    none = int(np.int64(0))  # a plain 0 would be a type of its own, for which callees are compiled once more
     return walk_on(curve, trace, none, count, visited, none, State(0.0, 0.0, 0.0))
 
 

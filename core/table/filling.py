@@ -114,7 +114,7 @@ def fill_far(
 def source_of(k: float, exponent: float, waves: Floats, width: float, shift: float, form: int) -> Source:
     """Return what bins of an exponent are filled from; `waves` are rows (n, cos, sin)."""
     functions = functions_of(k)
-    per = int(round(2.0 * math.pi / width))
+    per = round(2.0 * math.pi / width)
     far_waves, far_mean = np.zeros((2, TAIL, per, N)), np.zeros((2, TAIL))
     if form == EXACT:
         fill_far(functions, waves, width, shift, far_waves, far_mean)
