@@ -20,17 +20,18 @@ OUTPUT = {
             'PULL_OFF: Final = ("pull_off_force", "pull_off_radius", "pull_off_area")',
         ),
     ],
-    "core/problem/results.py": [
-        ("LOADED, UNLOADED = map(", "LOADED, UNLOADED, AREA = map("),
-        ("or slots[RADIUS] >= 0", "or slots[RADIUS] >= 0 or slots[AREA] >= 0"),
+    "core/scenes/results.py": [
+        ("SATURATION, STATUS = range(7, 17)", "SATURATION, AREA, STATUS = range(7, 18)"),
+        ("RESULT_ROWS: Final = 17", "RESULT_ROWS: Final = 18"),
+        ('    "saturation_radius",\n)', '    "saturation_radius",\n    "pull_off_area",\n)'),
     ],
-    "core/scene/scene.py": [
-        ("import (\n    CONTACT,", "import (\n    AREA,\n    CONTACT,"),
+    "core/scenes/cycles.py": [
+        ("results import (\n    DEEPEST,", "results import (\n    AREA,\n    DEEPEST,"),
         (
-            "    put(results, RADIUS, i, rim if at_rim else place * wavelength)\n",
+            "    out[PULL_OFF_RADIUS, i] = lowest.y * reduced[LENGTH, i]\n",
             (
-                "    put(results, RADIUS, i, rim if at_rim else place * wavelength)\n"
-                "    put(results, AREA, i, math.pi * (place * wavelength) ** 2)\n"
+                "    out[PULL_OFF_RADIUS, i] = lowest.y * reduced[LENGTH, i]\n"
+                "    out[AREA, i] = math.pi * out[PULL_OFF_RADIUS, i] ** 2\n"
             ),
         ),
     ],
@@ -51,10 +52,15 @@ CONTROL = {
     "core/problem/control.py": [
         ('("displacement", "load", "machine")', '("displacement", "load", "machine", "own spring")')
     ],
-    "core/arrays/prepared.py": [
+    "core/scenes/reduced.py": [
+        ("DISPLACEMENT, AT_LOAD, MACHINE = range(3)", "DISPLACEMENT, AT_LOAD, MACHINE, OWN_SPRING = range(4)"),
         (
-            "    if machine is None:",
-            '    if loading.control == "own spring":\n        machine = np.ones(k.shape)\n    if machine is None:',
+            "    elif punch.control == MACHINE:\n",
+            (
+                "    elif punch.control == OWN_SPRING:\n"
+                "        reduced[BY_LOAD, i] = load / depth / scenes[MODULUS, i]\n"
+                "    elif punch.control == MACHINE:\n"
+            ),
         ),
     ],
     "cli/study/shape_words.py": [
