@@ -2,21 +2,7 @@
 
 A name is imported when it is first used: neither a name of a parameter nor a profile needs the compiler.
 
-Arrays of the kernels, by the names that they have throughout:
-
-    table       the functions of one gradient exponent, a record (struve/layout.py); with others a `basis`
-    series      (harmonics, 3)         n, cos and sin of each harmonic, in units of A (curve/general.py)
-    curve       a NamedTuple           of one cosine, of any profile and control, or of a short wave (face.py)
-    trace       (ROWS, branches)       the branches of a curve and the cycle on them, one row per quantity (branches.py)
-    long        a tuple of two arrays  what all rims of a long curve share: numbers, and `sums` (path/cosine_long.py)
-    sums        (2, panels, columns)   sums over waves up to any of them, outwards and inwards (waves/cosine_running.py)
-    rims        (1 or curves, rims)    radii a_max/R up to which a curve is solved; x is the same over the wavelength
-    targets     as `rims`              depths in R or loads in 1.5 pi R dgamma at which cycles turn (turning/cosine.py)
-    index       (scenes of a task,)    numbers of the curves of one exponent, out of all
-    stiffness, stretch, wavelength, amplitude, compliance    (curves,)    M, s, lambda/R, A, and K/S of each curve
-    slots       (RESULTS + 3,)         the row of `out` for each result, -1 for those not requested (results.py)
-    out         (results, curves, rims), status of the same curves and rims: what is returned
-    work, values, scratch              room, so that kernels allocate nothing in their loops
+The arrays of the kernels are listed in docs/architecture.md; where they are made, each row is named.
 """
 
 from importlib import import_module

@@ -213,14 +213,13 @@ def solve(
         displacement-controlled loading to full contact and unloading in R^2 dgamma, loading_jumps and unloading_jumps
         (including jump-in and jump-out), delta_max and delta_jump_out in R: the depths at which full contact is reached
         and from which contact ends, under any control; loading_energy and unloading_energy in R^2 dgamma, the two parts
-        of dissipated_energy. With the exact solver also those of `REPORTS`: pull_off_force_error and
-        dissipated_energy_error, estimates in the unit of the value (of rounding, and of the sum over waves);
-        energy_residual, the energy less the loop integral of the load, whose own rounding is that of the load (NaN
-        beyond 2,000 waves); roughness_parameter chi = r/s; saturation_radius in R, beyond which there is no fold;
-        adhesion_gain and energy_gain over the smooth punch of the same material and rim; and pull_off_force_sensitivity
-        and dissipated_energy_sensitivity, d ln(value)/d ln p of every parameter, for k and nu d ln(value)/dp. And
-        contact_slope, (a/R)^(m-1) at the largest radius on which the other outputs depend (arrays/reach.py); of an
-        unbounded punch to about 1e-12, by the asymptotic solver 1e-6.
+        of dissipated_energy. With the exact solver also those of `REPORTS`: energy_residual, the energy less the loop
+        integral of the load, whose own rounding is that of the load (NaN beyond 2,000 waves); roughness_parameter
+        chi = r/s; saturation_radius in R, beyond which there is no fold; adhesion_gain and energy_gain over the smooth
+        punch of the same material and rim; and pull_off_force_sensitivity and dissipated_energy_sensitivity,
+        d ln(value)/d ln p of every parameter, for k and nu d ln(value)/dp. And contact_slope, (a/R)^(m-1) at the
+        largest radius on which the other outputs depend (problem/reach.py); of an unbounded punch to about 1e-12, by
+        the asymptotic solver 1e-6.
     solver
         One of `SOLVERS`.
     check_contact
@@ -238,9 +237,10 @@ def solve(
     Returns
     -------
     An array of the broadcast shape for each output (float64; int32 for jumps, 2^31 - 1 for more) and `status` (int8,
-    int16 where cycles turn at a depth; bits of status.FLAGS). Sensitivities have an additional last axis: the
-    parameters in the order of `PARAMETERS`, machine_stiffness and the one of `TURNS` if they are given. A scene outside
-    the ranges has NaN (-1 jumps) and the bit no_value; delta_max of an unbounded punch is inf.
+    int16 where cycles turn at a depth and where there is a pattern or a scene with too many waves; bits of
+    status.FLAGS). Sensitivities have an additional last axis: the parameters in the order of `PARAMETERS`,
+    machine_stiffness and the one of `TURNS` if they are given. A scene outside the ranges has NaN (-1 jumps) and the
+    bit no_value; delta_max of an unbounded punch is inf.
 
     Raises
     ------
@@ -250,9 +250,9 @@ def solve(
 
     Notes
     -----
-    Sections 2-5 of Jin, Guo & Wan (2013) as corrected in docs/theory.md. On 2,184 scenes solved to 30 digits by another
-    method (tests/twin) the force is accurate to 2e-15, the energy to 4e-15 where every wave is traced and to 2e-13
-    where waves are summed (on longer curves 1e-12, up to 4 10^15 waves), and all counts of jumps are correct.
+    Sections 2-5 of Jin, Guo & Wan (2013) as corrected in docs/theory.md. Values are exact to 1e-12 of the sizes of
+    their terms up to 1,000 waves within the contact, a digit less for each decade more, up to a million
+    (docs/accuracy.md).
 
     Examples
     --------

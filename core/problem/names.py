@@ -19,7 +19,7 @@ RESULTS: Final = (
 INTEGERS: Final = ("loading_jumps", "unloading_jumps")
 """Those of them that are counts."""
 EDGE: Final = ("front_energy", "snap_in_force", "pinned_depth")
-"""Further results of a cycle whose edge opens at a larger work of adhesion than it closes at (works/cycle.py)."""
+"""Further results of a cycle whose edge opens at a larger work of adhesion than it closes at (scenes/cycles.py)."""
 RATE: Final = ("edge_speed_at_pull_off", "rate_coefficient")
 """Further results of a cycle whose edge opens at a work that grows with its speed (rate/cycle.py)."""
 OUTPUTS: Final = (*RESULTS, "turning_radius")

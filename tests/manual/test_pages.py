@@ -40,7 +40,7 @@ def test_every_command_and_option_stands_in_the_manual() -> None:
     page = (FOLDER / "reference" / "commands.md").read_text(encoding="utf-8")
     for name, command in main.cli.commands.items():
         section = page.partition(f"\n## gradhesion {name}\n")[2].partition("\n## ")[0]
-        options = [option for option in command.params if isinstance(option, click.Option)]
+        options = [option for option in command.params if isinstance(option, click.Option) and not option.hidden]
         assert section
         assert all(re.search(rf"`[^`]*{option.opts[-1]}\b[^`]*` \| \w", section) for option in options), name
 
