@@ -28,7 +28,7 @@ FLAG_WORDS: Final = {
     "unloading_contact_not_one_disc": "contact on unloading is not one disc",
     "pull_off_at_rim": "the pull-off is at the rim",
     "jump_in_to_rim": "the jump-in reaches the rim",
-    "close_to_a_jump": "an input error of 1e-12 could change a number of jumps or the place of the pull-off",
+    "close_to_a_jump": "an input error of 1e-10 could change a number of jumps or the place of the pull-off",
     "tolerance_not_met": "the requested accuracy is not reached",
     "no_value": "a parameter is outside its range, or the scene cannot be resolved",
     "linear_deviation_off": "a linear standard deviation is off: a kink is near",
