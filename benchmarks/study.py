@@ -7,7 +7,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from gradhesion.core.processors import processors
+from benchmarks.clock import processors
 
 STUDY = """title = "Ten million scenes"
 outputs = ["pull_off_force", "dissipated_energy"]
