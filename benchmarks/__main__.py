@@ -11,6 +11,7 @@ from benchmarks import (
     error,
     expert,
     loop_fits,
+    measured_loops,
     one_scene,
     plan,
     scale,
@@ -102,7 +103,7 @@ Force and energy of one scene, processor time: plain arrays, and a dataset with 
 {one_scene.calls_table()}"""
     yield f"""### Fits of measured loops
 
-Six unknowns, {loop_fits.POINTS:,} points, one thread. Aim: 2 s.
+Six unknowns, {measured_loops.POINTS:,} points, one thread. Aim: 2 s.
 
 {loop_fits.times_table(2 if quick else 12)}"""
     if not quick:

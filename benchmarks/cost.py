@@ -71,6 +71,7 @@ def cases(number: int) -> Iterator[Case]:
     period = {"toughness_wavelength_over_R": few["lambda_over_R"] / 1.37}
     yield Case("one cosine", plain, {}, TASKS)
     yield Case("uniform lambda/L", mixture(number, "linear"), {})
+    yield Case("smooth", plain | {"A": 0.0}, {})
     yield Case("exponent 1.5", plain, {"profile": Profile(exponent=1.5)}, TASKS)
     yield Case("two harmonics", plain, {"profile": pair}, TASKS)
     yield Case("eight harmonics", few, {"profile": eight}, TASKS)
