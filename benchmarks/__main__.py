@@ -5,19 +5,17 @@ from collections.abc import Iterator
 from datetime import UTC, datetime
 
 from benchmarks import (
-    classes,
-    contact,
+    cost,
     draw,
     engines,
     error,
     expert,
-    functions,
     loop_fits,
+    measured_loops,
     one_scene,
     plan,
     scale,
     scenes,
-    sensitivities,
     start_up,
     study,
     threads,
@@ -62,17 +60,6 @@ timed whole, with the test of whether contact is one disc. Processor time on one
 calls of 200 scenes for the force and for the energy at 1e-6; 3 and 7.5 times in calls of 20,000.
 
 {expert.expert_table(repeat=3 if quick else 9)}"""
-    yield f"""## The universal pair
-
-The four functions S0, S1, S0', S1' in a loop over an array, against S0 and S1 alone elsewhere. Aims: 10 ns below
-z = 40, 18 ns above, 0.3 ms for a table.
-
-{functions.time_table()}
-Largest (mean) error of the points of `tests/reference/struve.npz`, in units of eps = 2^-52: of the function below
-z = 1.5, beyond that of the larger of it and its local amplitude. The points include zeros of the functions. SciPy is
-given z = 2 pi x rounded, which causes most of its error beyond z = 1000; its NaNs are counted separately.
-
-{functions.error_table()}"""
     yield f"""## Scenes
 
 Random scenes, each on a curve of its own, in one call of `gradhesion.core.solve`: lambda/L from 0.06 to 2, r/s from 0
@@ -101,31 +88,14 @@ shared; its end at the rim and the last jump are computed for each rim.
 {by_rims}"""
     scenes.picture(waves, rims, scenes.numbers())
     yield "![Cost against the number of waves, of scenes and of rims](figures/cost.png)\n"
-    yield f"""### Other controls
+    yield f"""### Classes of scenes
 
-One cosine, the same mixtures. Aim: 3 times at most.
+Processor time of a scene in calls of 20,000 random scenes (`benchmarks/cost.py`; fewer of dear ones), the first row the
+first mixture above: force, force and energy, and either with its sensitivities to all parameters, including k. Aims:
+other controls 3 times one cosine, exponent 1.5 five times, two harmonics ten and eight 25 times; a k of its own in
+every scene 3 times for the force and twice for both; sensitivities at most twice what the values cost.
 
-{classes.controls_table()}"""
-    yield f"""### Other punches
-
-k = 0.3, 3 to 10 waves within the punch. Aims: 5, 6, 10 and 25 times.
-
-{classes.punches_table(100 if quick else 1000)}"""
-    yield f"""### An exponent for every scene
-
-Tables of many exponents are interpolated in k. Aims: 3 times for the force, twice for both.
-
-{classes.exponents_table(2000 if quick else 20_000)}"""
-    yield f"""### Many radii or depths on one curve
-
-Turning points are `indentation_max_over_R`. Aim: 1.5 times.
-
-{classes.shared_table()}"""
-    yield f"""### Sensitivities
-
-Those to all parameters, including k, together with the values; processor time. Aim: at most twice that of the values.
-
-{sensitivities.costs_table(100 if quick else 1000)}"""
+{cost.cost_table(cost.measured(2000 if quick else 20_000))}"""
     yield f"""### One scene in Python
 
 Force and energy of one scene, processor time: plain arrays, and a dataset with its study. Aim: 3 times at most.
@@ -133,15 +103,9 @@ Force and energy of one scene, processor time: plain arrays, and a dataset with 
 {one_scene.calls_table()}"""
     yield f"""### Fits of measured loops
 
-Six unknowns, {loop_fits.POINTS:,} points, one thread. Aim: 2 s.
+Six unknowns, {measured_loops.POINTS:,} points, one thread. Aim: 2 s.
 
 {loop_fits.times_table(2 if quick else 12)}"""
-    yield f"""### Is the contact one disc?
-
-The rigorous test of [the theory](theory.md), section 12, on the same mixtures. Tests without cost (mainly r/s up to
-1/2) and the depths of the path settle some of the scenes, the integral of the gap the others. Aim: 30 % at most.
-
-{contact.contact_table(20_000 if quick else 200_000, 200 if quick else 2000)}"""
     if not quick:
         yield f"### A large study\n\nAims: 20 s, 1 GiB.\n\n{study.study_sentence()}"
         yield f"""### Threads and workers

@@ -2,13 +2,12 @@
 
 import importlib.metadata
 import math
+import os
 import platform
 import time
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
-
-from gradhesion.core.processors import processors
 
 ROOT = Path(__file__).parents[1]
 FIGURES = ROOT / "docs" / "figures"
@@ -42,6 +41,11 @@ def cell(value: Any) -> str:
             return "-"
         return f"{float(f'{value:.2g}'):,.0f}" if 100 <= value < 1e6 else f"{value:.2g}"
     return f"{value:,}" if isinstance(value, int) else str(value)
+
+
+def processors() -> int:
+    """Return the number of processors that this process is bound to."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def machine() -> str:

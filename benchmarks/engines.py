@@ -34,7 +34,17 @@ CASES: Final = ((0.1, 0.11, 40), (0.02, 0.021, 12))
 def seconds_of(study: Path, folder: str, engine: str) -> NDArray[np.float64]:
     """Return the wall time of a run, without that of the interpreter, and the processor time of all its processes."""
     output, log = Path(folder) / "out.nc", Path(folder) / "log"
-    command = [sys.executable, "-m", "gradhesion.cli", "run", study, "-o", output, "--overwrite", "--log-json"]
+    command = [
+        sys.executable,
+        "-m",
+        "gradhesion.cli",
+        "run",
+        str(study),
+        "-o",
+        str(output),
+        "--overwrite",
+        "--log-json",
+    ]
     with log.open("w") as file:
         process = subprocess.Popen([*command, "--engine", engine], stderr=file)
         _, code, usage = os.wait4(process.pid, 0)

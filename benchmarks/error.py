@@ -85,10 +85,8 @@ def picture(forces: list[Point], both: list[Point], grids: list[Point]) -> None:
                 half, seconds, xerr=[[0], [max(0.0, most - half)]], fmt=marks[solver], capsize=3, label=solver
             )
         half, most = np.array([kept[name] for _, _, kept in grids]).T
-        seconds = np.array([seconds for _, seconds, _ in grids])
-        axis.errorbar(
-            half, seconds, xerr=[0 * half, np.maximum(0, most - half)], fmt=".-", capsize=2, label="dense grid"
-        )
+        times = np.array([seconds for _, seconds, _ in grids])
+        axis.errorbar(half, times, xerr=[0 * half, np.maximum(0, most - half)], fmt=".-", capsize=2, label="dense grid")
         words = name.replace("pull_off", "pull-off").replace("_", " ")
         axis.set(xscale="log", yscale="log", xlabel=f"relative error, {words}", ylim=(1e-7, 10))
         axis.grid(alpha=0.3)

@@ -98,7 +98,8 @@ def _seconds(call: Callable[[], Any], repeat: int, at_least: float = 0.01) -> fl
 
     Calls of the first fifth of a second are not counted: the first ones of a process take half as long again.
     """
-    samples, calls = [], 1
+    samples: list[float] = []
+    calls = 1
     call()  # what is compiled or made once
     begin = time.process_time()
     while time.process_time() - begin < _WARM:

@@ -9,8 +9,10 @@ on a quiet machine. It ends with 1 where a value differs.
 """
 
 import argparse
+import math
 import time
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -35,7 +37,7 @@ def scenes(seed: int, number: int, waves: tuple[float, float] = (1.0, 60.0)) -> 
         "nu": rng.uniform(-0.3, 0.5, number),
         "modulus": 10.0 ** rng.uniform(1.5, 4.0, number),
         "c0_over_R": 10.0 ** rng.uniform(-3.0, 0.0, number),
-        "lambda_over_R": rim / np.exp(rng.uniform(*np.log(waves), number)),
+        "lambda_over_R": rim / np.exp(rng.uniform(math.log(waves[0]), math.log(waves[1]), number)),
         "A": 10.0 ** rng.uniform(-4.0, -1.0, number),
     }
     return drawn | {"a_max_over_R": np.where(rng.random(number) < 0.1, np.inf, rim)}
@@ -52,14 +54,14 @@ def classes() -> Iterator[tuple[str, Arrays, tuple[str, ...], dict[str, Any]]]:
     yield "force", scenes(1, 12_000), FORCE, {}
     yield "cycle", scenes(2, 6_000), OUTPUTS, {}
     yield "short waves", scenes(3, 2_000, (60.0, 3_000.0)), OUTPUTS, {}
-    yield "long curves", scenes(4, 400, (3e3, 1e9)), OUTPUTS, {}
+    yield "long curves", scenes(4, 400, (3e3, 1e6)), OUTPUTS, {}
     yield "many rims", many_rims(5, 40, 150, (1.0, 1e3)), OUTPUTS, {}
     yield "smooth", scenes(6, 8_000) | {"A": np.zeros(8_000)}, OUTPUTS, {}
     yield "load", scenes(7, 800), OUTPUTS, {"loading": LOAD}
     springs = {"machine_stiffness": 10.0 ** np.random.default_rng(8).uniform(-3.0, 1.0, 800)}
     yield "machine", scenes(8, 800) | springs, OUTPUTS, {"loading": MACHINE}
     yield "series", scenes(9, 400), OUTPUTS, {"profile": PAIR}
-    yield "series, long", scenes(10, 60, (1e3, 1e7)), OUTPUTS, {"profile": PAIR}
+    yield "series, long", scenes(10, 60, (1e3, 1e5)), OUTPUTS, {"profile": PAIR}
     yield "series, force", scenes(11, 2_000), FORCE, {"profile": PAIR}
     turns = {"indentation_max_over_R": np.random.default_rng(12).uniform(0.01, 0.3, 2_000)}
     yield "turned", scenes(12, 2_000) | turns, OUTPUTS, {}
@@ -86,7 +88,7 @@ def measured(repeat: int, only: str | None = None) -> Arrays:
     values: Arrays = {}
     for name, drawn, outputs, how in classes():
         if only in (None, name):
-            found, seconds = timed(lambda d=drawn, o=outputs, h=how: solve(d, o, threads=1, **h), repeat)
+            found, seconds = timed(partial(solve, drawn, outputs, threads=1, **how), repeat)
             values |= {f"{name}/{output}": array for output, array in found.items()}
             values[f"time/{name}"] = np.array(1e6 * seconds / found["status"].size)
     return values
@@ -102,14 +104,14 @@ def compared(before: Arrays, after: Arrays) -> tuple[str, int]:
         for output in outputs:
             old, new = before[output].astype(float), after[output].astype(float)
             other = ~((old == new) | (np.isnan(old) & np.isnan(new)))
-            count += np.count_nonzero(other)
+            count += int(np.count_nonzero(other))
             if other.any():
                 with np.errstate(all="ignore"):
                     apart = np.abs(new - old)[other] / np.abs(old)[other]
                 largest = max(largest, float(np.max(np.where(np.isnan(apart), np.inf, apart))))
         old_time, new_time = float(before[key]), float(after[key])
-        rows.append([name, sum(after[output].size for output in outputs), int(count), largest, old_time, new_time])
-        differing += int(count)
+        rows.append([name, sum(after[output].size for output in outputs), count, largest, old_time, new_time])
+        differing += count
     header = ["class", "values", "other bits", "largest, relative", "us before", "us after"]
     return table(header, rows), differing
 

@@ -140,7 +140,8 @@ class Misfit:
                 y = np.where(where == 1, load_at(at, E_star, work, self.own.R), 0.0)
                 ends.append(np.column_stack([x, y]) / self.noise)
             moved[:, :, i] = (ends[0] - ends[1]) / 2e-5
-        return -np.einsum("ij,ijk->ik", normal, moved)
+        slopes: Array = -np.einsum("ij,ijk->ik", normal, moved)
+        return slopes
 
     def _feet(self, vector: Array) -> tuple[Array, Array, Array, Array]:
         """Return distances, normals, the radius of each foot, and what it lies on.
@@ -191,7 +192,7 @@ class Misfit:
         share = np.clip((dx * run[:, 0] + dy * run[:, 1]) / np.maximum(np.sum(run**2, axis=1), 1e-300), 0.0, 1.0)
         piece = np.argmin((dx - share * run[:, 0]) ** 2 + (dy - share * run[:, 1]) ** 2, axis=1)
         rows = np.arange(len(points))
-        found = a[piece] + share[rows, piece] * (a[piece + 1] - a[piece])
+        found: Array = a[piece] + share[rows, piece] * (a[piece + 1] - a[piece])
         low, high = a[np.maximum(piece - 1, 0)], a[np.minimum(piece + 2, _VERTICES - 1)]
         R, (s, t) = self.own.R, self.noise
         c, d = math.sqrt(2.0 * math.pi * work / E_star), math.sqrt(8.0 * math.pi * work * E_star)

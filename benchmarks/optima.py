@@ -13,9 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import differential_evolution
 
-from gradhesion.cli.study.reading import study_from
-from gradhesion.cli.study.study import Study
-from gradhesion.cli.work.solve.blocks import solve_block
+import gradhesion as gr
 from gradhesion.core import solve
 
 WAVES = (0.05, 1.0)
@@ -35,22 +33,13 @@ def problem(rng: np.random.Generator) -> dict[str, float]:
     }
 
 
-def study_of(scene: dict[str, float], goal: str, inputs: int) -> Study:
-    """Ask for the optimum of a scene."""
+def study_of(scenes: Sequence[dict[str, float]], goal: str, inputs: int) -> Any:
+    """Ask for the optima of scenes, as points."""
     searched: dict[str, Any] = {"lambda_over_R": {"start": WAVES[0], "stop": WAVES[1], "spacing": "log"}}
     searched |= {"A": {"start": HEIGHTS[0], "stop": HEIGHTS[1]}} if inputs == 2 else {}
+    lists = {name: [scene[name] for scene in scenes] for name in scenes[0] if name not in searched}
     sought = {"maximise": goal, "over": [*searched], "resolution": searched_resolution(inputs)}
-    return study_from({"kind": "optimum", "optimum": sought, "parameters": scene | searched})
-
-
-def study_of_all(scenes: Sequence[dict[str, float]], goal: str, inputs: int) -> Study:
-    """Ask for the optima of all scenes at once, as points."""
-    searched = study_of(scenes[0], goal, inputs).search.inputs
-    names: dict[str, dict[str, Any]] = {one.name: {"start": one.low, "stop": one.high} for one in searched}
-    names["lambda_over_R"]["spacing"] = "log"
-    lists = {name: [scene[name] for scene in scenes] for name in scenes[0] if name not in names}
-    sought = {"maximise": goal, "over": [*names], "resolution": searched_resolution(inputs)}
-    return study_from({"kind": "optimum", "layout": "points", "optimum": sought, "parameters": lists | names})
+    return gr.load({"kind": "optimum", "layout": "points", "optimum": sought, "parameters": lists | searched})
 
 
 def searched_resolution(inputs: int) -> int:
@@ -78,19 +67,19 @@ def compared(goal: str, inputs: int, problems: int, seed: int) -> str:
     """Write a row: the least times of several rounds, in turn, and who has found the better optimum."""
     rng = np.random.default_rng(seed)
     drawn = [problem(rng) for _ in range(problems)]
-    requested = [study_of(scene, goal, inputs) for scene in drawn]
+    requested = [study_of([scene], goal, inputs) for scene in drawn]
     times, ours, theirs = np.full((2, problems), np.inf), np.empty(problems), np.empty(problems)
-    whole, mapped = study_of_all(drawn, goal, inputs), np.inf
-    solve_block(requested[0], (), 1)
+    whole, mapped = study_of(drawn, goal, inputs), np.inf
+    gr.run(requested[0], threads=1)
     for _ in range(REPEATS):
         for i, (scene, study) in enumerate(zip(drawn, requested, strict=True)):
             start = time.perf_counter()
-            ours[i] = solve_block(study, (), 1)[f"best_{goal}"].item()
+            ours[i] = gr.run(study, threads=1)[f"best_{goal}"].item()
             middle = time.perf_counter()
             theirs[i], _ = evolved(scene, goal, inputs)
             times[:, i] = np.minimum(times[:, i], (middle - start, time.perf_counter() - middle))
         start = time.perf_counter()
-        solve_block(whole, (slice(0, problems),), 1)
+        gr.run(whole, threads=1)
         mapped = min(mapped, (time.perf_counter() - start) / problems)
     size = np.abs(ours)
     lost, won = (theirs - ours > 1e-9 * size).sum(), (ours - theirs > 1e-9 * size).sum()

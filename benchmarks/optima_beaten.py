@@ -13,10 +13,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.study.reading import study_from
-from gradhesion.cli.work.solve.blocks import solve_block
+import gradhesion as gr
 from gradhesion.core import solve
-from gradhesion.core.answers.flags import RESOLUTION_TOO_COARSE
 
 Array = NDArray[np.float64]
 POINTS: Final = 40_001
@@ -47,11 +45,10 @@ def found(scenes: dict[str, Array], name: str, sense: str, goal: str) -> tuple[A
     """Return the optima of scenes, and whether they have the flag."""
     fixed = {key: values.tolist() for key, values in scenes.items() if key != name}
     sought = {sense: goal, "over": [name]}
-    study = study_from(
-        {"kind": "optimum", "layout": "points", "optimum": sought, "parameters": fixed | {name: RANGES[name]}}
-    )
-    values = solve_block(study, (slice(0, scenes["k"].size),), 1)
-    return values[f"best_{goal}"], (values["status"] & RESOLUTION_TOO_COARSE) != 0
+    study = {"kind": "optimum", "layout": "points", "optimum": sought, "parameters": fixed | {name: RANGES[name]}}
+    values = gr.run(study, threads=1)
+    flags = values["status"].to_numpy()
+    return values[f"best_{goal}"].to_numpy(), (flags & gr.FLAGS["resolution_too_coarse"]) != 0
 
 
 def dense(scenes: dict[str, Array], name: str, sense: str, goal: str) -> Array:

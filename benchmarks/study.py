@@ -7,7 +7,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from gradhesion.core.processors import processors
+from benchmarks.clock import processors
 
 STUDY = """title = "Ten million scenes"
 outputs = ["pull_off_force", "dissipated_energy"]
@@ -34,7 +34,7 @@ def study_sentence() -> str:
     with tempfile.TemporaryDirectory() as folder:
         study, output = Path(folder) / "study.toml", Path(folder) / "study.nc"
         study.write_text(STUDY)
-        command = ["-m", "gradhesion.cli", "run", study, "-o", output, "--quiet"]
+        command = ["-m", "gradhesion.cli", "run", str(study), "-o", str(output), "--quiet"]
         done = subprocess.run([sys.executable, "-c", _LAUNCH, *command], capture_output=True, text=True, check=True)
         seconds, code, memory = map(float, done.stdout.split())
         size = output.stat().st_size / 1e6 if output.exists() else math.nan

@@ -3,9 +3,8 @@
 import argparse
 from typing import Final
 
-from benchmarks.clock import table
+from benchmarks.clock import processors, table
 from benchmarks.scale import in_its_own_process, solving
-from gradhesion.core.processors import processors
 
 SIZES: Final = (10**5, 10**6, 10**7)
 MOST: Final = 16

@@ -41,6 +41,8 @@ AT_RIM, AT_DEPTH, AT_A_LOAD = range(3)
 LEAST_RATIO: Final = 2.0**-120
 """Closing ratios below are 0: sqrt of it is below rounding."""
 UNIT_OF_FORCE: Final = 1.0 / (1.5 * math.pi)
+_LEAST: Final = 1e-8
+"""Least radius, in 1/(2 pi) of the shortest wave: tables begin at 6e-9 (table/layout.py)."""
 _BEYOND: Final = 25.0
 """Radii, in 1/(2 pi) of a wavelength, that are added to what an envelope says."""
 
@@ -175,13 +177,23 @@ def reduce_scenes(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats) -
 
 @kernel
 def is_valid(punch: Punch, scenes: Floats, reduced: Floats, i: int) -> bool:
-    """Return whether all parameters of scene i are in their ranges."""
+    """Return whether all parameters of scene i are in their ranges, and its contact is not too small for tables."""
     sizes = 0.0 < scenes[MODULUS, i] < math.inf and 0.0 < scenes[C0, i] < math.inf
     sizes = sizes and 0.0 < scenes[WAVELENGTH, i] < math.inf and 0.0 <= scenes[AMPLITUDE, i] < math.inf
     edge = 0.0 <= scenes[RATIO, i] <= 1.0 and scenes[RIM, i] > 0.0
     target = math.isfinite(scenes[TARGET, i]) and (punch.turn != AT_A_LOAD or scenes[TARGET, i] > 0.0)
     machine = punch.control != MACHINE or 0.0 < scenes[STIFFNESS, i] < math.inf
-    return sizes and edge and target and machine and 0.0 < reduced[BY_POWER, i] < math.inf and reduced[MOST, i] > 0.0
+    known = 0.0 < reduced[BY_POWER, i] < math.inf and reduced[MOST, i] > 0.0
+    return sizes and edge and target and machine and known and not _is_below_tables(punch, reduced, i)
+
+
+@kernel
+def _is_below_tables(punch: Punch, reduced: Floats, i: int) -> bool:
+    """Return whether the rim of scene i, or the contact that jumps out of a smooth punch, is too small for tables."""
+    least, eta = _LEAST / punch.waves[:, 0].max(), 0.5 * (1.0 - reduced[EXPONENT, i])
+    # d depth/dy = 0 is B m y^(m - eta) = eta; at k = 1 the contact shrinks to a point, and B y^m is compared with 1
+    jump_out = eta / punch.exponent if eta > 0.0 else 1.0
+    return reduced[RIM_Y, i] < least or reduced[BY_POWER, i] * least ** (punch.exponent - eta) > jump_out
 
 
 def reduced_of(punch: Punch, basis: Basis, scenes: Floats, most: Floats, steep: Floats) -> Floats:

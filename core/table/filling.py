@@ -300,11 +300,13 @@ def fill_bounds(k: float, zero: float, crest: float, geometric: int, bins: int, 
         swing = nodes[BV, i] if i < bins else 0.0
         lowest = min(lowest, (nodes[V, i] - swing) / (nodes[E, i] * nodes[Y, i]))
         nodes[RLOW, i] = lowest
-    below = nodes[T, 0] / (1.0 + k)  # the integral of y^k up to the first bin, where y^m is nothing
-    kappa = nodes[KE, 0] / nodes[E, 0]
+    kappa, power = nodes[KE, 0] / nodes[E, 0], nodes[P, 0]
+    m = nodes[SLOPE, 0] * nodes[Y, 0] / power if power > 0.0 else 1.0
+    # up to the first bin U is what it is at 0
+    below, by_power = nodes[T, 0] / (1.0 + k), nodes[T, 0] * power / (1.0 + k + m)
     nodes[HM, 0] = 0.5 * (kappa * nodes[Y, 0]) ** 2
-    nodes[HP, 0] = nodes[HPP, 0] = nodes[HPU, 0] = 0.0
-    nodes[HU, 0], nodes[HUU, 0] = zero * below, zero * zero * below
+    nodes[HP, 0], nodes[HPP, 0] = by_power, nodes[T, 0] * power * power / (1.0 + k + 2.0 * m)
+    nodes[HU, 0], nodes[HPU, 0], nodes[HUU, 0] = zero * below, zero * by_power, zero * zero * below
     for i in range(min(geometric, bins)):
         c = nodes[PC, i]
         nodes[HM, i + 1] = nodes[HM, i] + nodes[M0, i]
