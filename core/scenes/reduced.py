@@ -166,8 +166,8 @@ def reduce_scenes(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats) -
                 theta = math.nan
             else:
                 depth_factor, crest = depth_factor_of(k, punch.exponent), crest_of(k, punch.waves)
-                node = between(basis, k)
-                steepest = 1.05 * max(basis.crest[node], basis.crest[node + 1])
+                low, high = between(basis, k)
+                steepest = 1.05 * max(basis.crest[low], basis.crest[high])
         if scenes[NU, i] != nu:
             nu = scenes[NU, i]
             theta = theta_of(k, nu)

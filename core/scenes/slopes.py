@@ -504,7 +504,8 @@ def sensitivities(
         scenes = scenes_of(columns, first, last)
         order = np.argsort(scenes[K], kind="stable")
         scenes = scenes[:, order]
-        out = in_groups(punch, EXACT, scenes, _ALL_ROWS, partial(_near, punch, profile), partial(_far, punch, profile))
+        near, far = partial(_near, punch, profile), partial(_far, punch, profile)
+        out, _ = in_groups(punch, EXACT, scenes, _ALL_ROWS, near, far)
         with np.errstate(all="ignore"):  # what has no value has no sensitivity
             material = _by_exponent(scenes[K], scenes[NU], punch.exponent)
             for output in outputs:

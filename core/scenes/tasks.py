@@ -52,6 +52,7 @@ from gradhesion.core.table.basis import (
     empty_table,
     fill_table,
     fill_weights,
+    is_interpolated,
     mix_bins,
     room_of,
 )
@@ -199,8 +200,8 @@ def near_task(
     pull = table
     if by_load.form != basis.form:
         pull = fill_table(by_load, k, near.weights, bins, near.nodes[1], near.polys[1])
-    node = between(basis, k)
-    crest = 1.01 * max(basis.crest[node], basis.crest[node + 1])
+    low, high = between(basis, k)
+    crest = 1.01 * max(basis.crest[low], basis.crest[high])
     disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
     return Task(punch, wanted, table, pull, crest, disc, near.rooms, reach)
 
@@ -241,12 +242,20 @@ def far_rims(punch: Punch, width: float, form: int, scenes: Floats, reduced: Flo
             out[DEEPEST, i] = (flat - stretch) * reduced[DEPTH, i]
 
 
+def near_basis(punch: Punch, form: int, scenes: Floats, finer: int = 1) -> Basis:
+    """Return what near bins of scenes are filled from: those of a long series must share their exponent."""
+    k = math.nan
+    if not is_interpolated(punch.waves):
+        k = float(scenes[K, 0]) if 0.0 <= scenes[K, 0] <= 1.0 else 0.5  # no value: any will do
+    return basis_of(punch.exponent, punch.waves, form, finer, k)
+
+
 def _solve_near(
     punch: Punch, wanted: Wanted, form: int, finer: int, profile: Floats, scenes: Floats, reduced: Floats, out: Floats
 ) -> None:
     """Solve near scenes of one fineness of bins."""
-    basis = basis_of(punch.exponent, punch.waves, form, finer)
-    by_load = basis if form == EXACT else basis_of(punch.exponent, punch.waves, BY_LOAD, finer)
+    basis = near_basis(punch, form, scenes, finer)
+    by_load = basis if form == EXACT else near_basis(punch, BY_LOAD, scenes, finer)
     patterned = punch.rows.shape[1] > 0
     if not wanted.cycle and punch.turn == AT_RIM and not patterned:
         near_forces(punch, by_load, scenes, reduced, out)
@@ -426,18 +435,25 @@ def prepared(punch: Punch, form: int, scenes: Floats) -> tuple[Floats, Integers]
         allowed = (least > 0.0) if punch.of_work else (least >= -1e-14)
         most = np.where(allowed, most, np.nan)
         finer = _finer_bins(punch, scenes, least)
-    basis = basis_of(punch.exponent, punch.waves, form)
-    return reduced_of(punch, basis, scenes, most, steep), finer
+    return reduced_of(punch, near_basis(punch, form, scenes), scenes, most, steep), finer
 
 
 def in_groups(
     punch: Punch, form: int, scenes: Floats, rows: int, near: Group, far: Group, *, whole: bool = False
-) -> Floats:
-    """Return the results of scenes in the order of their exponents, (rows, scenes), those of STATUS among them.
+) -> tuple[Floats, Floats]:
+    """Return the results of scenes in the order of their exponents, (rows, scenes), and their reduced numbers.
 
-    `near` solves scenes of one fineness of bins, `far` those of one exponent that it leaves as SHORT; each takes the
-    fineness, scenes, their reduced numbers, and room for results. `whole`: all folds are needed, wherever the rim is.
+    STATUS is among the results. `near` solves scenes of one fineness of bins, `far` those of one exponent that it leaves
+    as SHORT; each takes the fineness, scenes, their reduced numbers, and room for results. `whole`: all folds are
+    needed, wherever the rim is.
     """
+    if not is_interpolated(punch.waves) and (scenes[K] != scenes[K, 0]).any():
+        begins = np.flatnonzero(np.diff(scenes[K]) != 0.0) + 1
+        parts = [
+            in_groups(punch, form, np.ascontiguousarray(own), rows, near, far, whole=whole)
+            for own in np.split(scenes, begins, axis=1)
+        ]
+        return np.hstack([out for out, _ in parts]), np.hstack([reduced for _, reduced in parts])
     out = np.full((rows, scenes.shape[1]), np.nan)
     reduced, finer = prepared(punch, form, scenes)
     if whole:
@@ -462,7 +478,7 @@ def in_groups(
             index = short[(scenes[K, short] == k) & (finer[short] == value)]
             if index.size:
                 put(far, int(value), index)
-    return out
+    return out, reduced
 
 
 def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes: Floats) -> Floats:
@@ -484,9 +500,8 @@ def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes
             solve_far(punch, wanted, form, finer, profile, own[:, left], numbers, rest, _MOST_BINS, solve)
             out[:, left] = rest
 
-    out = in_groups(punch, form, scenes, RESULT_ROWS, near, far, whole=wanted.saturation)
+    out, reduced = in_groups(punch, form, scenes, RESULT_ROWS, near, far, whole=wanted.saturation)
     if wanted.depth:
-        reduced, _ = prepared(punch, form, scenes)
         far_rims(punch, width_of(punch.waves), form, scenes, reduced, out)
     return out
 

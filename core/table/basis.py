@@ -2,10 +2,12 @@
 
 All that a bin holds is a smooth function of k, once the powers of the radius are taken out. A basis holds the bins of
 one power, series and form at 21 exponents, the Chebyshev points of [0, 1]; the bins of any k are sums over these, at a
-tenth of the price of new ones. All scenes within its reach are solved on such tables, whatever else is in their call,
-so that a value does not depend on its neighbours.
+tenth of the price of new ones. (Those of a long series are not: a basis costs as much as 21 exponents, of which a study
+of rough profiles has one or two.) All scenes within its reach are solved on such tables, whatever else is in their
+call, so that a value does not depend on its neighbours.
 """
 
+import math
 import threading
 from collections import OrderedDict
 from typing import Final, NamedTuple
@@ -48,6 +50,8 @@ from gradhesion.core.table.leading import crests_of
 from gradhesion.core.types import Floats
 
 NODES: Final = 21
+_MOST_HARMONICS: Final = 8
+"""Harmonics of a series whose bins are interpolated: those of a longer one are filled for each exponent by itself."""
 UNIFORM: Final = 512
 """Uniform bins of a basis: 64 of the shortest waves."""
 SIZE: Final = 3 * N + 10
@@ -64,11 +68,11 @@ class Basis(NamedTuple):
     exponent    m, the power of the punch
     form        exact, or leading terms (layout.py)
     start, width  of the uniform bins, as of a table
-    k           the exponents, (NODES,)
-    values      what depends on k, powers of the radius taken out, (bins, NODES, SIZE)
+    k           the exponents, (NODES,), or one alone
+    values      what depends on k, powers of the radius taken out, (bins, exponents, SIZE)
     fixed       the rows FIXED, (8, bins + 1)
     powers      the lane of y^m, (bins, N)
-    crest, lowest  bounds at the exponents, (NODES,): those of `fill_bounds` and of a table
+    crest, lowest  bounds at the exponents: those of `fill_bounds` and of a table
     """
 
     exponent: float
@@ -98,19 +102,27 @@ def _pack(k: float, node: int, nodes: Floats, polys: Floats, values: Floats) -> 
         out[SIZE - 1] = nodes[BV, i]
 
 
-def make_basis(exponent: float, waves: Floats, form: int = EXACT, finer: int = 1) -> Basis:
-    """Return the basis of a punch of a power with harmonics (n, cos, sin); its bins are `finer` times narrower."""
+def is_interpolated(waves: Floats) -> bool:
+    """Return whether bins of a series are interpolated in k."""
+    return len(waves) <= _MOST_HARMONICS
+
+
+def make_basis(exponent: float, waves: Floats, form: int = EXACT, finer: int = 1, k: float = math.nan) -> Basis:
+    """Return the basis of a punch of a power with harmonics (n, cos, sin); its bins are `finer` times narrower.
+
+    It is that of the exponent `k` alone, if one is given.
+    """
     width = width_of(waves, finer)
     bins = GEOMETRIC + UNIFORM + 1  # one more than tables have, for the last edge
-    ends = 0.5 - 0.5 * np.cos(np.pi * np.arange(NODES) / (NODES - 1))
-    values = np.empty((bins, NODES, SIZE))
+    ends = np.array([k]) if k >= 0.0 else 0.5 - 0.5 * np.cos(np.pi * np.arange(NODES) / (NODES - 1))
+    values = np.empty((bins, ends.size, SIZE))
     nodes, polys = np.zeros((ROWS, bins + 1)), np.empty((bins, LANES, N))
-    crest, lowest = np.empty(NODES), np.empty(NODES)
-    for node, k in enumerate(ends):
-        source = source_of(k, exponent, waves, width, 0.0, form)
+    crest, lowest = np.empty(ends.size), np.empty(ends.size)
+    for node, own in enumerate(ends):
+        source = source_of(own, exponent, waves, width, 0.0, form)
         fill_bins(source, FIRST, GEOMETRIC, bins, nodes, polys)
-        _pack(k, node, nodes, polys, values)
-        crest[node], wave, _ = crests_of(k, waves)
+        _pack(own, node, nodes, polys, values)
+        crest[node], wave, _ = crests_of(own, waves)
         near = ((nodes[U] - nodes[U1]) / (nodes[E] * nodes[Y]))[GEOMETRIC - 20 :].min()
         lowest[node] = min(-wave, 1.02 * near)
     return Basis(
@@ -122,12 +134,12 @@ _bases: OrderedDict[tuple[object, ...], Basis] = OrderedDict()
 _lock = threading.Lock()
 
 
-def basis_of(exponent: float, waves: Floats, form: int = EXACT, finer: int = 1) -> Basis:
+def basis_of(exponent: float, waves: Floats, form: int = EXACT, finer: int = 1, k: float = math.nan) -> Basis:
     """Return the basis of `make_basis`, one of the last few if it is among them."""
-    key = (exponent, waves.tobytes(), form, finer)
+    key = (exponent, waves.tobytes(), form, finer, k if k >= 0.0 else None)
     with _lock:
         if key not in _bases:
-            _bases[key] = make_basis(exponent, waves, form, finer)
+            _bases[key] = make_basis(exponent, waves, form, finer, k)
             if len(_bases) > _KEPT:
                 _bases.popitem(last=False)
         _bases.move_to_end(key)
@@ -158,7 +170,7 @@ def mix_bins(basis: Basis, k: float, weights: Floats, first: int, last: int, nod
     for i in range(first, last + 1):
         for c in range(SIZE):
             mixed[c] = 0.0
-        for n in range(NODES):
+        for n in range(basis.k.size):
             weight = weights[n]
             for c in range(SIZE):
                 mixed[c] += weight * basis.values[i, n, c]
@@ -189,19 +201,19 @@ def mix_bins(basis: Basis, k: float, weights: Floats, first: int, last: int, nod
 
 
 @leaf
-def between(basis: Basis, k: float) -> int:
-    """Return the last node, but one, that is not above k."""
-    node = 0
-    while node < NODES - 2 and basis.k[node + 1] <= k:
+def between(basis: Basis, k: float) -> tuple[int, int]:
+    """Return the two nodes next to k, of which the first is not above it; twice 0 if there is one alone."""
+    last, node = basis.k.size - 1, 0
+    while node < last - 1 and basis.k[node + 1] <= k:
         node += 1
-    return node
+    return node, min(node + 1, last)
 
 
 @kernel
 def empty_table(basis: Basis, k: float, nodes: Floats, polys: Floats) -> Table:
     """Return the table of an exponent of which no bin is filled yet; its room is as large as that of `room_of`."""
-    node = between(basis, k)
-    lowest = 1.01 * min(basis.lowest[node], basis.lowest[node + 1])
+    low, high = between(basis, k)
+    lowest = 1.01 * min(basis.lowest[low], basis.lowest[high])
     share = (1.0 + k) / (1.0 + k + basis.exponent)
     bins = basis.values.shape[0] - 1
     return Table(k, basis.exponent, share, basis.start, basis.width, lowest, 0.0, GEOMETRIC, bins, nodes, polys)
@@ -212,8 +224,8 @@ def fill_table(basis: Basis, k: float, weights: Floats, bins: int, nodes: Floats
     """Return the table of an exponent with its first `bins` bins filled, bounds and integrals included."""
     fill_weights(basis.k, k, weights)
     mix_bins(basis, k, weights, 0, bins, nodes, polys)
-    node = between(basis, k)
-    crest = 1.01 * max(basis.crest[node], basis.crest[node + 1])
+    low, high = between(basis, k)
+    crest = 1.01 * max(basis.crest[low], basis.crest[high])
     return with_bounds(empty_table(basis, k, nodes, polys), crest, bins)
 
 

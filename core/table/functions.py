@@ -24,6 +24,8 @@ TERMS: Final = 13
 """Coefficients of a bin: (1/4)^13/13! is below 1e-17."""
 TAIL: Final = 16
 """Terms of each expansion: the smallest ones at z = 40."""
+_NOTHING: Final = 1e-18
+"""Terms below are no part of a series that begins with 1."""
 _MORE: Final = 8
 """Further coefficients by which a bin is continued to the next."""
 
@@ -61,6 +63,8 @@ def _by_series(K: float, z: float) -> tuple[float, float, float, float]:
         cosine_term *= square / (2 * n * (2 * n + K))
         cosine += cosine_term
         cosine_slope += 2 * n * cosine_term
+        if abs(cosine_term) < _NOTHING:  # the other terms are smaller
+            break
     return sine * z, sine_slope, cosine, cosine_slope / z
 
 
