@@ -443,9 +443,9 @@ def in_groups(
 ) -> tuple[Floats, Floats]:
     """Return the results of scenes in the order of their exponents, (rows, scenes), and their reduced numbers.
 
-    STATUS is among the results. `near` solves scenes of one fineness of bins, `far` those of one exponent that it leaves
-    as SHORT; each takes the fineness, scenes, their reduced numbers, and room for results. `whole`: all folds are
-    needed, wherever the rim is.
+    STATUS is among the results. `near` solves scenes of one fineness of bins, `far` those of one exponent that it
+    leaves as SHORT; each takes the fineness, scenes, their reduced numbers, and room for results. `whole`: all folds
+    are needed, wherever the rim is.
     """
     if not is_interpolated(punch.waves) and (scenes[K] != scenes[K, 0]).any():
         begins = np.flatnonzero(np.diff(scenes[K]) != 0.0) + 1
