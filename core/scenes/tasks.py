@@ -268,13 +268,16 @@ _tables: OrderedDict[tuple[object, ...], tuple[Table, Source, float]] = OrderedD
 _lock = threading.Lock()
 
 
-def long_table(punch: Punch, k: float, form: int, finer: int, y_end: float) -> tuple[Table, Source, float]:
+def long_table(
+    punch: Punch, k: float, form: int, finer: int, y_end: float, *, exactly: bool = False
+) -> tuple[Table, Source, float]:
     """Return a table of one exponent to y_end or beyond, what its bins are filled from, and the crest of -U'.
 
-    One of the last few, if it is long enough.
+    One of the last few, if it is long enough. With `exactly` its length is that of y_end, whatever was asked before:
+    what is beyond it is found in another way, with other rounding.
     """
     width = width_of(punch.waves, finer)
-    key = (punch.exponent, punch.waves.tobytes(), k, form, finer)
+    key = (punch.exponent, punch.waves.tobytes(), k, form, finer, y_end if exactly else math.inf)
     with _lock:
         if key in _tables and span_of(_tables[key][0]) >= y_end:
             _tables.move_to_end(key)
@@ -355,7 +358,7 @@ def _long_of(punch: Punch, wanted: Wanted, k: float, form: int, profile: Floats,
     near = NEAR + 3.0
     if punch.exponent - 1.0 < 0.5 * (1.0 - k):  # folds may begin far out
         near = _WALKED_BINS / (PER_WAVE * float(punch.waves[:, 0].max()))
-    table, source, crest = long_table(punch, k, form, 1, 2.0 * math.pi * near)
+    table, source, crest = long_table(punch, k, form, 1, 2.0 * math.pi * near, exactly=True)
     key = (punch.exponent, punch.waves.tobytes(), k, form)
     with _lock:
         waves = _waves.pop(key, None)
