@@ -30,8 +30,6 @@ OUTPUTS: Final = {
     "pinned_depth": "depth delta/R by which the punch moves back before the edge opens",
     "edge_speed_at_pull_off": "speed of the edge over its reference speed at the pull-off, v/v*",
     "rate_coefficient": "gain of the pull-off force over (V/v*)^n as the speed tends to 0",
-    "pull_off_force_error": "estimate of the error of the pull-off force F/(1.5 pi R dgamma)",
-    "dissipated_energy_error": "estimate of the error of the dissipated energy H/(R^2 dgamma)",
     "energy_residual": "dissipated energy less the loop integral of the load over the depth, in R^2 dgamma",
     "roughness_parameter": "roughness parameter chi = r/s of the waviness",
     "saturation_radius": "contact radius a/R beyond which the curve has no fold",
@@ -87,7 +85,7 @@ SPREAD: Final = {
 SPREADABLE: Final = tuple(
     name
     for name in OUTPUTS
-    if name not in (*SENSITIVITIES, "energy_residual", "contact_slope") and not name.endswith(("_jumps", "_error"))
+    if name not in (*SENSITIVITIES, "energy_residual", "contact_slope") and not name.endswith("_jumps")
 )
 """The outputs that have a spread: values of a scene, which no count is, nor what is known of an error or of others."""
 

@@ -23,8 +23,6 @@ SYMBOLS: Final[dict[str, str]] = {
     "pinned_depth": r"pinned depth $\delta/R$",
     "edge_speed_at_pull_off": "speed of the edge at pull-off $v/v^*$",
     "rate_coefficient": "rate coefficient",
-    "pull_off_force_error": r"error of the force $/\,(\frac{3}{2}\pi R\Delta\gamma)$",
-    "dissipated_energy_error": r"error of the energy $/\,(R^2\Delta\gamma)$",
     "energy_residual": r"residual of the energy $/\,(R^2\Delta\gamma)$",
     "roughness_parameter": r"roughness parameter $\chi$",
     "saturation_radius": "saturation radius $a/R$",

@@ -128,7 +128,6 @@ def test_reports_of_any_shape_and_control(shaped: dict[str, Any], control: str) 
     for name in reports:
         assert np.isfinite(dataset[name]).all(), name
     assert (dataset["adhesion_gain"].sel(A=0.0) == 1.0).all()
-    assert (dataset["dissipated_energy_error"] < 1e-12 * dataset["dissipated_energy"]).all()
 
 
 def test_the_defaults_written_out_are_the_defaults(data: dict[str, Any]) -> None:

@@ -23,6 +23,7 @@ from gradhesion.cli.study.rules.validity import mistakes_of_range
 from gradhesion.cli.study.rules.works import mistakes_of_works
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
 from gradhesion.core import REPORTS, SENSITIVITIES, SOLVERS
+from gradhesion.core.problem.names import GIVEN_UP
 
 LAYOUTS: Final = ("grid", "points")
 
@@ -112,6 +113,8 @@ def _mistakes_of_outputs(checked: Checked) -> Iterator[Mistake]:
             sentence = f'an output of studies of kind "{others[name]}", and this one is of kind "{kind.name}"; '
             sentence += f'{did_you_mean(name, kind.outputs)}, or write kind = "{others[name]}"'
             yield Mistake(path, name, sentence)
+        elif name in GIVEN_UP:
+            yield Mistake(path, name, f"this output is given up, remove it: {GIVEN_UP[name]}")
         else:
             yield Mistake(path, name, f"not an output; {did_you_mean(name, kind.outputs)}")
 

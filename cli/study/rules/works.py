@@ -18,7 +18,6 @@ _WORK: Final[Path] = ("physical", CLOSING_WORK)
 _OPENING: Final[Path] = ("physical", "work_of_adhesion")
 _UNBOUNDED: Final = (
     "dissipated_energy",
-    "dissipated_energy_error",
     "dissipated_energy_sensitivity",
     "energy_gain",
     "energy_residual",
