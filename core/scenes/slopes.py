@@ -503,7 +503,7 @@ def sensitivities(
         """Fill a part of the scenes, which are solved in the order of their exponents."""
         scenes = scenes_of(columns, first, last)
         order = np.argsort(scenes[K], kind="stable")
-        scenes = scenes[:, order]
+        scenes = np.ascontiguousarray(scenes[:, order])
         near, far = partial(_near, punch, profile), partial(_far, punch, profile)
         out, _ = in_groups(punch, EXACT, scenes, _ALL_ROWS, near, far)
         with np.errstate(all="ignore"):  # what has no value has no sensitivity

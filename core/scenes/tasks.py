@@ -98,8 +98,8 @@ _LONGEST: Final = 30.0
 """By which a table may be longer than what was asked for at first."""
 _SCENES: Final = 1024
 """Scenes of a part, at least: a millisecond or more."""
-_MOST_SCENES: Final = 32768
-"""And at most: some megabytes."""
+_MOST_SCENES: Final = 4096
+"""And at most: a megabyte of results."""
 Group: TypeAlias = Callable[[int, Floats, Floats, Floats], None]
 """What solves scenes of one fineness of bins: takes that, scenes, their reduced numbers, and room for results."""
 
@@ -572,7 +572,7 @@ def solve_all(
         scenes = scenes_of(columns, first, last)
         order = np.argsort(scenes[K], kind="stable")
         found = np.empty((RESULT_ROWS, last - first))
-        found[:, order] = _solve_task(punch, wanted, form, profile, scenes[:, order])
+        found[:, order] = _solve_task(punch, wanted, form, profile, np.ascontiguousarray(scenes[:, order]))
         out[:, first:last], status[first:last] = found[rows], found[STATUS]
 
     run_parts(count, work, threads)

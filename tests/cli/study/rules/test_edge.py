@@ -202,7 +202,7 @@ TOUGH = "[toughness]\nharmonics = [{ n = 1, cos = 0.3 }]\n"
         (LENGTH + TOUGH + '[method]\nsolver = "asymptotic"\n', 'the solver "asymptotic" does not support [toughness]'),
         (
             SPEED.replace("lambda_over_R = 0.2", "lambda_over_R = 1e-6") + RATE,
-            "500,000 waves within the punch are more than the 100,000 that can be followed at a speed",
+            "500,000 waves within the punch are more than the 16,000 that can be followed at a speed",
         ),
         (LENGTH + "speed_over_reference = 0.1\n" + TOUGH + RATE, "remove [toughness] or [rate]"),
     ],
