@@ -344,7 +344,10 @@ def _put_cycle(task: Task, walked: Walked, opened: int, y: float, reduced: Float
     cycle = Cycle(loaded, unloaded, y, reach, snap_in(closing, landing))
     bits = put_losses(cycle, opening, walked.pattern, walked.ratio, reduced, i, out)
     if task.wanted.residual:
-        work = work_of_cycle(closing, opening, y, loading, walked.visits, visited, unloading, opened)
+        end = y
+        if y > end_of(closing.table):  # the cycle that turns beyond all folds loses as much
+            end = max(reach if n > 0 else 0.0, loading[START, max(walked.branches - 1, 0)])
+        work = work_of_cycle(closing, opening, end, loading, walked.visits, visited, unloading, opened)
         out[RESIDUAL, i] = out[ENERGY, i] - work * 2.0 * math.pi * reduced[LENGTH, i] ** 2
     if task.wanted.contact and not _loading_keeps_one_disc(task, walked, y, reduced, i):
         bits |= LOADING_NOT_ONE_DISC
