@@ -107,7 +107,6 @@ def fill_saturation(task: Task, long: Long, reduced: Floats, out: Floats) -> Non
     for i in range(reduced.shape[1]):
         if out[STATUS, i] < NO_VALUE or not int(out[STATUS, i]) & NO_VALUE:
             y = last_fold(long, _curve(task, reduced, i, 1.0)) if reduced[WINDOW, i] < math.inf else math.inf
+            out[SATURATION, i] = y * reduced[LENGTH, i]  # NaN, and flagged, if there are too many waves up to it
             if math.isnan(y):
-                no_value(out, i, NO_VALUE | TOO_MANY_WAVES)
-            else:
-                out[SATURATION, i] = y * reduced[LENGTH, i]
+                out[STATUS, i] = int(out[STATUS, i]) | TOO_MANY_WAVES

@@ -184,6 +184,8 @@ def is_valid(punch: Punch, scenes: Floats, reduced: Floats, i: int) -> bool:
     target = math.isfinite(scenes[TARGET, i]) and (punch.turn != AT_A_LOAD or scenes[TARGET, i] > 0.0)
     machine = punch.control != MACHINE or 0.0 < scenes[STIFFNESS, i] < math.inf
     known = 0.0 < reduced[BY_POWER, i] < math.inf and reduced[MOST, i] > 0.0
+    if punch.rows.shape[1] > 0:
+        known = known and 0.0 < reduced[PATTERN_WAVES, i] < math.inf
     return sizes and edge and target and machine and known and not _is_below_tables(punch, reduced, i)
 
 

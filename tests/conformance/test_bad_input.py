@@ -9,7 +9,6 @@ import pytest
 from gradhesion.core import OUTPUTS, draw_curves, solve
 from gradhesion.core.problem.names import EDGE
 
-from .faults import fault
 from .kinds import COUNTS, DEPTH, KINDS, LOAD, Kind, drawn, for_kinds, some
 from .promises import NO_CONTACT, NO_VALUE, agree, has
 
@@ -48,7 +47,6 @@ def test_out_of_range_has_no_value_and_does_not_reach_its_neighbours(kind: Kind)
         agree(kind, scenes, {n: np.delete(v, 1) for n, v in found.items()}, expected)
 
 
-@fault("some results out of range are 0 or the rim, and a wavelength of 0 beside a ratio warns of a division by zero")
 @pytest.mark.parametrize(
     ("change", "output", "solver"),
     [
@@ -75,7 +73,6 @@ def test_empty_and_single_arrays_keep_their_shape(kind: Kind) -> None:
         agree(kind, some(scenes, [0]), {name: values.reshape(1) for name, values in one.items()}, some(found, [0]))
 
 
-@fault("empty arrays of all parameters, and of cycles that turn at a depth or a load, are an error")
 @for_kinds(["cosine", "sines, machine", "cosine, two works", *(kind for kind in KINDS if kind.turn)])
 def test_no_scenes_have_no_values(kind: Kind) -> None:
     empty = kind.solve(some(drawn(kind)[0], slice(0)))

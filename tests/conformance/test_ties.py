@@ -8,7 +8,7 @@ from scipy.interpolate import CubicSpline
 
 from gradhesion.core import FLAGS, draw_curves
 
-from .faults import OF_TIES, TIES_AT_1, fault
+from .faults import OF_TIES
 from .kinds import COUNTS, EXACT, Kind, Scenes, drawn, for_kinds, one_of, rng_of, some
 from .promises import CLOSE, has
 from .theory import Curve
@@ -42,7 +42,7 @@ def bisected(kind: Kind, scenes: Scenes, name: str, output: str) -> list[Scenes]
     return [some(scenes | {name: end}, use) for end in (low, high)]
 
 
-@pytest.mark.parametrize("at_1", [False, pytest.param(True, marks=fault(TIES_AT_1, strict=False))])
+@pytest.mark.parametrize("at_1", [False, True])
 @for_kinds([kind for kind in EXACT if not kind.unbounded], OF_TIES)
 def test_scenes_on_a_tie_are_close_to_a_jump(kind: Kind, at_1: bool) -> None:
     """A count is promised where the bit is not set: at two neighbouring doubles it may be either; k = 1 or not."""
