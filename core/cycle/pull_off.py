@@ -9,7 +9,7 @@ from typing import Final, NamedTuple
 from gradhesion.core.curve.folds import pair_in, swing_in, zero_in
 from gradhesion.core.curve.values import Curve, bin_of, depth_and_load, load_curve, place_of, radius_of, slope_at
 from gradhesion.core.jit import kernel, leaf
-from gradhesion.core.table.layout import U1, E, P, T, U, Y
+from gradhesion.core.table.layout import U1, E, P, T, U, Y, end_of
 
 _MARGIN: Final = 0.002
 """Of the crest: how far the estimate of a trough may be off (measured: 0.0007)."""
@@ -99,7 +99,7 @@ def lowest_load(curve: Curve, rim: float, first: int, last: int) -> Lowest:
     curve = load_curve(curve)
     table = curve.table
     crest = 1.0 - curve.g * table.lowest
-    end = table.start + (table.bins - table.geometric) * table.width
+    end = end_of(table)
     middle, limit = envelope_place(curve), table.bins
     best = Lowest(0.0, 0.0, 0.0, 0.0, True)
     if rim <= end:

@@ -109,6 +109,7 @@ def near_forces(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats, out
     """Solve the pull-off alone of scenes in the order of their exponents; bins are filled where the search arrives."""
     most = basis.values.shape[0] - 1
     nodes, polys = np.zeros((ROWS, most + 1)), np.zeros((most, LANES, N))
+    nodes[Y] = basis.fixed[0, : most + 1]  # a table ends where its last bin does, filled or not
     weights, k, first, last = np.zeros(NODES), math.nan, 0, 0
     for i in range(scenes.shape[1]):
         if not is_valid(punch, scenes, reduced, i):
