@@ -3,7 +3,7 @@
 import numpy as np
 
 from gradhesion.core import OUTPUTS, solve
-from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LEFT
+from gradhesion.core.problem.status import CLOSE_TO_A_JUMP
 
 MANY_WAVES = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.0005}
 """Loading jumps from its beginning to the 389th wave or so, and then from wave to wave."""
@@ -31,8 +31,8 @@ def test_a_jump_that_hardly_misses_a_wave_is_close_for_each_rim_from_there_on() 
         assert not among[0]
 
 
-def test_rims_solved_by_two_loops_are_those_solved_alone() -> None:
-    """Rims near and far on one curve: the same bits as each by itself, and no mark of the first loop is left."""
+def test_rims_near_and_far_are_those_solved_alone() -> None:
+    """Rims near and far on one curve: the same bits as each by itself."""
     rng = np.random.default_rng(20261124)
     scenes = {
         "k": rng.choice([0.0, 0.2, 0.7], (12, 1)),
@@ -44,7 +44,6 @@ def test_rims_solved_by_two_loops_are_those_solved_alone() -> None:
         "a_max_over_R": 10.0 ** np.linspace(-4.0, 1.0, 6)[None, :],
     }
     found = solve(scenes, OUTPUTS)
-    assert not np.any(found["status"].astype(int) & LEFT)
     assert np.any(found["loading_jumps"] > 200)
     for i, j in np.ndindex(12, 6):
         alone = {name: np.broadcast_to(values, (12, 6))[i, j] for name, values in scenes.items()}
