@@ -153,10 +153,11 @@ def _solved(
     rows, status = solve_all(request, wanted, form, [NAMES.index(name) for name in names], threads)
     found: Results = {name: row.reshape(shape) for name, row in zip(names, rows, strict=True)}
     status = status.reshape(shape)
-    if form != EXACT and "dissipated_energy" in found:  # no cycle gains energy: the contact is no larger than a wave
-        gains = found["dissipated_energy"] < 0.0
-        status = np.where(gains, NO_VALUE, status)
-        found = {name: np.where(gains, np.nan, values) for name, values in found.items()}
+    if "dissipated_energy" in found:  # NaN is beyond all numbers, and a gain a contact that is no larger than a wave
+        lost = found["dissipated_energy"]
+        none = (np.isnan(lost) | ((form != EXACT) & (lost < 0.0))) & ((status & NO_VALUE) == 0)
+        status = np.where(none, NO_VALUE, status)
+        found = {name: np.where(none, np.nan, values) for name, values in found.items()}
     ratio = np.broadcast_to(np.asarray(parameters.get(CLOSING, 1.0), dtype=float), shape)
     if cycle and CLOSING in parameters and (ratio == 0.0).any():
         _without_adhesion(found, ratio, starts_downwards(parameters, profile))

@@ -132,7 +132,9 @@ def fill_reach(punch: Punch, i: int, crest: float, steepest: float, mean: float,
     eta = 0.5 * (1.0 - k)
     of_load = 0.5 * (3.0 + k) / m  # the lowest load of the envelope is where B y^(m - eta) = crest (3+k)/(2 m)
     front = (most + g * crest) / B
-    smooth = (front * max(1.0, of_load)) ** (1.0 / (m - eta)) * 1.2 + _BEYOND
+    # a smooth punch lands where B y^(m - eta) is 1 at the depth 0, and (1+k+m)/m at the load 0
+    landing = 1.0 if punch.control == DISPLACEMENT else (1.0 + k + m) / m
+    smooth = (front * max(landing, of_load)) ** (1.0 / (m - eta)) * 1.2 + _BEYOND
     reduced[PULL, i] = (front * of_load) ** (1.0 / (m - eta)) * 1.2 + 20.0
     steep, power = g * steepest + reduced[STEEP, i], m - 1.0 - eta
     window = math.inf

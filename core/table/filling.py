@@ -282,6 +282,30 @@ def fill_bins(source: Source, first: int, geometric: int, count: int, nodes: Flo
         fill_edge(m, polys[count - 1], nodes[YC, count - 1], nodes[HALF, count - 1], 1.0, count, nodes)
 
 
+@leaf
+def _bend_at_zero(nodes: Floats) -> float:
+    """Return U'' below the first bin, where U is of degree 2 to rounding."""
+    return (nodes[V, 1] - nodes[V, 0]) / (nodes[Y, 1] - nodes[Y, 0])
+
+
+@kernel
+def _fill_below(k: float, zero: float, nodes: Floats) -> None:
+    """Fill the integrals from 0 to the first bin, where U is zero + slope y + bend y^2/2."""
+    y, unit, power = nodes[Y, 0], nodes[T, 0], nodes[P, 0]
+    m = nodes[SLOPE, 0] * y / power if power > 0.0 else 1.0
+    bent = 0.5 * _bend_at_zero(nodes) * y * y
+    rise = nodes[V, 0] * y - 2.0 * bent
+    kappa = nodes[KE, 0] / nodes[E, 0]
+    nodes[HM, 0] = 0.5 * (kappa * y) ** 2
+    q = 1.0 + k
+    nodes[HU, 0] = unit * (zero / q + rise / (q + 1.0) + bent / (q + 2.0))
+    squares = zero * zero / q + 2.0 * zero * rise / (q + 1.0) + (rise * rise + 2.0 * zero * bent) / (q + 2.0)
+    nodes[HUU, 0] = unit * (squares + 2.0 * rise * bent / (q + 3.0) + bent * bent / (q + 4.0))
+    q += m
+    nodes[HP, 0], nodes[HPP, 0] = unit * power / q, unit * power * power / (q + m)
+    nodes[HPU, 0] = unit * power * (zero / q + rise / (q + 1.0) + bent / (q + 2.0))
+
+
 @kernel
 def fill_bounds(k: float, zero: float, crest: float, geometric: int, bins: int, nodes: Floats) -> None:
     """Fill the running bounds over the first `bins` bins, and the integrals from 0 to the edges of the geometric ones.
@@ -300,13 +324,7 @@ def fill_bounds(k: float, zero: float, crest: float, geometric: int, bins: int, 
         swing = nodes[BV, i] if i < bins else 0.0
         lowest = min(lowest, (nodes[V, i] - swing) / (nodes[E, i] * nodes[Y, i]))
         nodes[RLOW, i] = lowest
-    kappa, power = nodes[KE, 0] / nodes[E, 0], nodes[P, 0]
-    m = nodes[SLOPE, 0] * nodes[Y, 0] / power if power > 0.0 else 1.0
-    # up to the first bin U is what it is at 0
-    below, by_power = nodes[T, 0] / (1.0 + k), nodes[T, 0] * power / (1.0 + k + m)
-    nodes[HM, 0] = 0.5 * (kappa * nodes[Y, 0]) ** 2
-    nodes[HP, 0], nodes[HPP, 0] = by_power, nodes[T, 0] * power * power / (1.0 + k + 2.0 * m)
-    nodes[HU, 0], nodes[HPU, 0], nodes[HUU, 0] = zero * below, zero * by_power, zero * zero * below
+    _fill_below(k, zero, nodes)
     for i in range(min(geometric, bins)):
         c = nodes[PC, i]
         nodes[HM, i + 1] = nodes[HM, i] + nodes[M0, i]
@@ -321,7 +339,7 @@ def fill_bounds(k: float, zero: float, crest: float, geometric: int, bins: int, 
 def with_bounds(table: Table, crest: float, bins: int) -> Table:
     """Return a table whose first `bins` bins are filled, with its bounds (those of `fill_bounds`) and U at 0."""
     nodes = table.nodes
-    zero = nodes[U, 0] - nodes[V, 0] * nodes[Y, 0]
+    zero = nodes[U, 0] - (nodes[V, 0] - 0.5 * _bend_at_zero(nodes) * nodes[Y, 0]) * nodes[Y, 0]
     fill_bounds(table.k, zero, crest, table.geometric, bins, nodes)
     return Table(
         table.k,

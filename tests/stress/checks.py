@@ -40,7 +40,8 @@ def values_or_status(scenes: Scenes) -> Excess:
     result = solve(scenes, OUTPUTS)
     valid = _valid(result)
     excess = np.zeros(valid.shape)
-    unbounded = scenes["a_max_over_R"] > 1e150  # its square overflows
+    with np.errstate(all="ignore"):  # the square of one of them overflows
+        unbounded = np.maximum(scenes["a_max_over_R"], scenes["a_max_over_R"] / scenes["lambda_over_R"]) > 1e150
     for name in OUTPUTS:
         values = result[name].astype(float)
         right = np.where(valid, np.isfinite(values), (values == -1.0) if "jumps" in name else np.isnan(values))
@@ -112,9 +113,10 @@ def energy_is_constant_on_branches(scenes: Scenes) -> Excess:
 
 
 def similarity(scenes: Scenes) -> Excess:
-    """Scenes of equal groups lambda/L, A R lambda/L^2, a_max/L have equal reduced results, to 1e-11.
+    """Scenes of equal groups lambda/L, A R lambda/L^2, a_max/L have equal reduced results.
 
-    L grows by a power of 2 with modulus and depth alone, so that no rounding of the inputs stands between the two.
+    Forces to 1e-11, energies too up to 1,000 waves, with a digit less for each decade more (docs/accuracy.md). L grows by
+    a power of 2 with modulus and depth alone, so that no rounding of the inputs stands between the two.
     """
     scale = 2.0**5
     other = {
@@ -131,11 +133,13 @@ def similarity(scenes: Scenes) -> Excess:
     with np.errstate(all="ignore"):
         force = np.abs(second["pull_off_force"] / first["pull_off_force"] - 1) / 1e-11
         size = np.abs(first["dissipated_energy"]) + 1e-3 * _size(scenes)
-        energy = np.abs(second["dissipated_energy"] / scale**2 - first["dissipated_energy"]) / (1e-11 * size)
+        waves = np.minimum(scenes["a_max_over_R"] / scenes["lambda_over_R"], groups(scenes)["waves"])
+        kept = 1e-11 * np.maximum(1.0, waves / 1000.0)
+        energy = np.abs(second["dissipated_energy"] / scale**2 - first["dissipated_energy"]) / (kept * size)
     # waves whose folds tie to rounding: the last one of unloading is another, and loses what rounding leaves of the terms
     tied = first["unloading_jumps"] != second["unloading_jumps"]
     with np.errstate(all="ignore"):
-        energy = np.where(tied, energy * 1e-11 * size / (1e-9 * size + 1e-11 * _size(scenes)), energy)
+        energy = np.where(tied, energy * kept * size / (1e-9 * size + 1e-11 * _size(scenes)), energy)
     return np.where(both, np.maximum(force, energy), 0.0)
 
 

@@ -79,17 +79,9 @@ def test_beyond_all_bounds_reports_end() -> None:
     scenes = {"k": rng.choice([0.0, 0.3, 0.7, 1.0 - 1e-16, 1.0], size), "nu": 0.5}
     for name in ("modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R"):
         wild = 10.0 ** rng.uniform(-300, 300, size)
-        scenes[name] = np.where(rng.uniform(size=size) < 0.5, wild, 10.0 ** rng.uniform(-6, 2, size))
+        scenes[name] = np.where(rng.uniform(size=size) < 0.4, wild, 10.0 ** rng.uniform(-6, 2, size))
     result = solve(scenes, REPORTS)
     failed = (result["status"] & NO_VALUE) != 0
     assert 0.1 < np.mean(failed) < 0.9
     for name in REPORTS:
         assert np.all(np.isnan(result[name][failed]))
-
-
-def test_waves_that_end_beyond_1e100_waves_are_summed() -> None:
-    """At k = 1 a gain of 1e36 on a bend of 1e-101: the energy of 157 waves is that of no bend at all, and grows as A^2."""
-    scene = {"k": 1.0, "nu": 0.5, "modulus": 3e4, "c0_over_R": 1e193, "lambda_over_R": 0.00636, "a_max_over_R": 1.0}
-    amplitudes = np.array([1e133, 1e134])
-    energy = solve(scene | {"A": amplitudes}, ["dissipated_energy"])["dissipated_energy"]
-    np.testing.assert_allclose(energy[1] / energy[0], 100.0, rtol=1e-12)

@@ -88,7 +88,10 @@ def test_without_waviness_it_is_the_smooth_punch(k: float, reach: float) -> None
     exact = solve(scene, OUTPUTS)
     exact["status"] &= FAILED  # what the rim decides the exact solver alone tells
     for name, value in envelope(scene).items():
-        assert value == pytest.approx(exact[name], rel=50 * EPS, abs=1e-17), name
+        # an energy of the size of all losses; a radius where a function is stationary
+        size = float(exact["dissipated_energy"]) if name.endswith("_energy") else 0.0
+        rel = 2e-13 if name == "pull_off_radius" else 50 * EPS
+        assert value == pytest.approx(exact[name], rel=rel, abs=1e-17 + 4e-14 * size), name
 
 
 @pytest.mark.parametrize("k", [*EXPONENTS, 1.0])
