@@ -514,7 +514,7 @@ def sensitivities(
                 slopes = _by_parameter(punch, scenes, out[UNIT], by, material, of_force=of_force)
                 rows = np.array([slopes[name] for name in names])
                 has_value = np.isfinite(by[OF_POWER])
-                found[output][first + order] = np.where(has_value & np.isfinite(rows), rows, np.nan).T
+                found[output][first + order] = np.where(has_value & np.isfinite(rows), rows + 0.0, np.nan).T  # no -0
 
     run_parts(count, work, threads)
     return {name: values.reshape(*shape, len(names)) for name, values in found.items()}

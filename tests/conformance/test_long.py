@@ -66,7 +66,7 @@ def test_what_is_lost_is_the_sum_over_the_drawn_jumps(kind: Kind) -> None:
 @for_kinds(PLAIN)
 def test_beyond_saturation_nothing_is_lost(kind: Kind) -> None:
     """Where the last fold lies within the rim, a wider rim or none changes no value but the depth that is reached."""
-    scenes = long(kind, "saturated", WAVES[[0, 0, 1, 1, 2]], 0.004)
+    scenes = long(kind, "saturated", WAVES[[0, 0, 0, 0, 1]], 0.004)
     radius = kind.solve(scenes, ["saturation_radius"])["saturation_radius"]
     scenes, radius = some(scenes, radius > 0), radius[radius > 0]  # NaN where nothing folds
     assert radius.size > 2
