@@ -674,7 +674,8 @@ def finish_loading(
         snap = snap if before.jumps > 0.0 else snap_in(piece, trace[LANDING, visited[0]])
     loaded = load_to(piece, rim, trace, visited, visits)
     if loaded.known and n > 0:
-        if loaded.deepest == math.inf and wave_of(long.waves, rim) < long.most:  # on the endless branch
+        # on the endless branch; the depth at a rim there is left to who knows it beside any other scenes
+        if loaded.deepest == math.inf and rim < edge and wave_of(long.waves, rim) < long.most:
             table = waves_from(long.waves, float(int(wave_of(long.waves, rim))), long.window.nodes, long.window.polys)
             depth, _ = state_in(on(piece, table), rim)
             loaded = Loaded(loaded.lost, loaded.jumps, depth, loaded.in_to_rim, True)

@@ -42,7 +42,16 @@ from gradhesion.core.scenes.reduced import (
     crest_of,
     is_valid,
 )
-from gradhesion.core.scenes.tasks import Request, columns_of, long_table, prepared, punch_of, scenes_of
+from gradhesion.core.scenes.tasks import (
+    FINEST,
+    Request,
+    columns_of,
+    long_table,
+    prepared,
+    punch_of,
+    scenes_of,
+    set_lengths,
+)
 from gradhesion.core.table.basis import room_of
 from gradhesion.core.table.filling import width_of
 from gradhesion.core.table.layout import EXACT, LANES, Source, Table, span_of
@@ -154,8 +163,10 @@ class Drawn(NamedTuple):
 def frame_of(request: Request) -> Frame | None:
     """Return one scene that turns at its rim in its reduced form, None where a parameter is outside its range."""
     punch, scenes = punch_of(request), scenes_of(columns_of(request)[0], 0, 1)
+    set_lengths(punch, scenes)
     reduced, finer = prepared(punch, EXACT, scenes)
-    return Frame(punch, scenes, reduced, int(finer[0])) if is_valid(punch, scenes, reduced, 0) else None
+    known = finer[0] <= FINEST and is_valid(punch, scenes, reduced, 0)
+    return Frame(punch, scenes, reduced, int(finer[0])) if known else None
 
 
 @kernel

@@ -177,16 +177,20 @@ def edge_area(table: Table, pattern: Pattern, y: float) -> float:
     return total
 
 
-def bounds_of(rows: Floats, amplitude: Floats, of_work: bool) -> tuple[Floats, Floats, Floats]:
+def bounds_of(rows: Floats, amplitude: Floats, of_work: bool, reach: Floats) -> tuple[Floats, Floats, Floats]:
     """Return, for amplitudes, the least value of a pattern, a bound of kappa, and of its slope by the phase.
 
-    `rows` are those of `rows_by_number`; the least value is looked for at 64 phases of the shortest wave.
+    `rows` are those of `rows_by_number`, `reach` is the rim over the wavelength; the least value is looked for at 64
+    phases of the shortest wave.
     """
     n = np.arange(1, rows.shape[1] + 1)
     phases = np.linspace(0.0, 2.0 * np.pi, 64 * rows.shape[1] + 1)
     angle = np.outer(phases, n)
     series = np.cos(angle) @ rows[0] + np.sin(angle) @ rows[1]
     least = 1.0 + np.minimum(amplitude * series.min(), amplitude * series.max())
+    for i in np.flatnonzero((least <= 0.0) & (reach < 1.0)):  # a punch may end before
+        inside = int(np.searchsorted(phases, 2.0 * np.pi * reach[i])) + 1
+        least[i] = 1.0 + (amplitude[i] * series[:inside]).min()
     size = np.hypot(*rows)
     most, steep = 1.0 + np.abs(amplitude) * size.sum(), np.abs(amplitude) * (n * size).sum()
     if of_work:

@@ -51,6 +51,7 @@ from gradhesion.core.scenes.reduced import (
     TARGET,
     TARGET_VALUE,
     UNIT_OF_FORCE,
+    WINDOW,
     Punch,
     is_valid,
 )
@@ -274,6 +275,9 @@ def put_no_contact(scenes: Floats, i: int, out: Floats) -> int:
 @kernel
 def put_pull_off(lowest: Lowest, y: float, reduced: Floats, i: int, out: Floats) -> int:
     """Store the pull-off of a cycle that turns at y; return its bits of status."""
+    if not lowest.load < 0.0:  # a centre without toughness: the contact shrinks to a point, and never pulls
+        out[FORCE, i], out[PULL_OFF_RADIUS, i] = 0.0, math.nan
+        return 0
     out[FORCE, i] = -lowest.load * reduced[LOAD, i] * UNIT_OF_FORCE
     out[PULL_OFF_RADIUS, i] = lowest.y * reduced[LENGTH, i]
     tied = lowest.second < lowest.load * (1.0 - CLOSE) and lowest.second_y != lowest.y
@@ -339,6 +343,10 @@ def _put_cycle(task: Task, walked: Walked, opened: int, y: float, reduced: Float
         return -1
     unloaded = unload_from(opening, y, unloading, opened, rooms.columns[1])
     n = visited_within(loading, visited, walked.visits, y)
+    beyond = n > 0 and y == reduced[RIM_Y, i] and reduced[WINDOW, i] < y <= loading[END, visited[n - 1]]
+    if beyond and walked.pattern.rows.shape[1] == 0:
+        # on the endless branch: whether the table reaches to this rim depends on the scenes beside (far_rims)
+        loaded = Loaded(loaded.lost, loaded.jumps, math.inf, loaded.in_to_rim, True)
     reach = loading[LANDING, visited[n - 1]] if n > 0 else y
     landing = min(loading[LANDING, visited[0]] if walked.visits > 0 else math.inf, reduced[RIM_Y, i])
     cycle = Cycle(loaded, unloaded, y, reach, snap_in(closing, landing))
@@ -433,7 +441,7 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
         if y < farthest and max(lowest.y, lowest.second_y) > y:
             own = lowest_load(pull, y, 0, table.bins)
         bits = -1
-        if walked.branches >= 0 and opened >= 0 and own.known and own.load < 0.0:
+        if walked.branches >= 0 and opened >= 0 and own.known and (own.load < 0.0 or task.punch.rows.shape[1] > 0):
             bits = _put_cycle(task, walked, opened, y, reduced, i, out)
         if bits < 0:
             no_value(out, i, SHORT)
@@ -466,19 +474,39 @@ def curve_end(task: Task, scenes: Floats, reduced: Floats, start: int, last: int
 
 
 @kernel
+def put_force(lowest: Lowest, reduced: Floats, i: int, out: Floats) -> None:
+    """Store the pull-off of scene i, whose cycle ends at its rim, and nothing else."""
+    out[:, i] = math.nan
+    out[TURN, i] = reduced[RIM_Y, i] * reduced[LENGTH, i]
+    out[STATUS, i] = put_pull_off(lowest, reduced[RIM_Y, i], reduced, i, out) if lowest.known else SHORT
+
+
+@kernel
+def solve_patterned_forces(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
+    """Solve the pull-off alone of the scenes `first` to `last` - 1 with a pattern: no farther than it can be."""
+    rooms = task.rooms
+    for i in range(first, last):
+        if not _may_be_solved(task, scenes, reduced, i, out):
+            continue
+        pattern = pattern_of(task.punch, scenes, reduced, i)
+        lowest = Lowest(0.0, 0.0, 0.0, 0.0, False)
+        for y_end in (reduced[NEED, i], end_of(task.table)):
+            if not lowest.known:
+                own = curve_of(task.table, task.crest, pattern, reduced, i, 1.0, y_end, rooms.nodes[0], rooms.polys[0])
+                pull = Curve(own.table, own.B, own.g, 0.0, 1.0)
+                lowest = lowest_load(pull, reduced[RIM_Y, i], 0, own.table.bins)
+        put_force(lowest, reduced, i, out)
+
+
+@kernel
 def solve_cycles(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Solve the scenes `first` to `last` - 1 of one exponent."""
+    if not task.wanted.cycle and task.punch.turn == AT_RIM and task.punch.rows.shape[1] > 0:
+        solve_patterned_forces(task, scenes, reduced, first, last, out)
+        return
     start = first
     while start < last:
         end = curve_end(task, scenes, reduced, start, last, out)
         if end > start:
             solve_curve(task, scenes, reduced, start, end, out)
         start = max(end, start + 1)
-
-
-@kernel
-def put_force(lowest: Lowest, reduced: Floats, i: int, out: Floats) -> None:
-    """Store the pull-off of scene i, whose cycle ends at its rim, and nothing else."""
-    out[:, i] = math.nan
-    out[TURN, i] = reduced[RIM_Y, i] * reduced[LENGTH, i]
-    out[STATUS, i] = put_pull_off(lowest, reduced[RIM_Y, i], reduced, i, out) if lowest.known else SHORT

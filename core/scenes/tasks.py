@@ -26,6 +26,7 @@ from gradhesion.core.processors import processors
 from gradhesion.core.scenes.cycles import Task, no_value, put_force, solve_cycles
 from gradhesion.core.scenes.long import fill_saturation, solve_long
 from gradhesion.core.scenes.reduced import (
+    AMPLITUDE,
     AT_RIM,
     BY_POWER,
     BY_WAVES,
@@ -34,6 +35,8 @@ from gradhesion.core.scenes.reduced import (
     NEED,
     PATTERN_AMPLITUDE,
     PATTERN_WAVELENGTH,
+    PULL,
+    RIM,
     RIM_Y,
     WAVELENGTH,
     WINDOW,
@@ -88,6 +91,8 @@ _WALKED_WITH_WORK: Final = 2000
 """The same where the loop integral is wanted, which is not summed."""
 _WALKED_BINS: Final = 40_000
 """Bins that are walked at most, where waves have many: 23 MB."""
+FINEST: Final = 2**12
+"""By which bins may be narrower than those of a profile, so that they resolve a pattern."""
 _BINS_OF_A_WAVE: Final = 1024
 """Bins of a wave at most, where waves are summed: 5 MB for each doubling of their number."""
 _KEPT_WAVES: Final = 64e6
@@ -339,7 +344,9 @@ def solve_far(
         pull = table if form == EXACT else long_table(punch, k, BY_LOAD, finer, y_end)[0]
         disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
         rooms = rooms_for(table.bins, punch.rows.shape[1] > 0)
-        task = Task(punch, wanted, table, pull, crest, disc, rooms, math.inf)
+        # those that reach beyond all tables are left for the last, lest they take others of their curve along
+        reach = most if possible.size else math.inf
+        task = Task(punch, wanted, table, pull, crest, disc, rooms, reach)
         chosen, own = np.ascontiguousarray(scenes[:, left]), np.ascontiguousarray(reduced[:, left])
         found = np.full((len(out), left.size), np.nan)
         solve(task, chosen, own, 0, left.size, found)
@@ -421,9 +428,10 @@ def _finer_bins(punch: Punch, scenes: Floats, least: Floats) -> Integers:
     if punch.rows.shape[1] == 0:
         return np.ones(scenes.shape[1], dtype=np.int64)
     per = bins_of_wave(punch.rows, scenes[PATTERN_AMPLITUDE], punch.of_work, least)
-    ratio = per * scenes[WAVELENGTH] / scenes[PATTERN_WAVELENGTH] / (PER_WAVE * punch.waves[:, 0].max())
     with np.errstate(all="ignore"):
-        return 2 ** np.clip(np.nan_to_num(np.ceil(np.log2(ratio))), 0, 12).astype(np.int64)
+        ratio = per * scenes[WAVELENGTH] / scenes[PATTERN_WAVELENGTH] / (PER_WAVE * punch.waves[:, 0].max())
+        ratio[~(scenes[PATTERN_WAVELENGTH] > 0.0)] = 1.0
+        return 2 ** np.clip(np.nan_to_num(np.ceil(np.log2(ratio))), 0, 30).astype(np.int64)
 
 
 def prepared(punch: Punch, form: int, scenes: Floats) -> tuple[Floats, Integers]:
@@ -434,8 +442,10 @@ def prepared(punch: Punch, form: int, scenes: Floats) -> tuple[Floats, Integers]
     most, steep = np.ones(scenes.shape[1]), np.zeros(scenes.shape[1])
     finer = np.ones(1, dtype=np.int64)
     if punch.rows.shape[1] > 0:
-        least, most, steep = bounds_of(punch.rows, scenes[PATTERN_AMPLITUDE], punch.of_work)
-        steep = steep * scenes[WAVELENGTH] / scenes[PATTERN_WAVELENGTH]
+        with np.errstate(all="ignore"):
+            reach = scenes[RIM] / scenes[PATTERN_WAVELENGTH]
+            least, most, steep = bounds_of(punch.rows, scenes[PATTERN_AMPLITUDE], punch.of_work, reach)
+            steep = steep * scenes[WAVELENGTH] / scenes[PATTERN_WAVELENGTH]
         allowed = (least > 0.0) if punch.of_work else (least >= -1e-14)
         most = np.where(allowed, most, np.nan)
         finer = _finer_bins(punch, scenes, least)
@@ -443,6 +453,7 @@ def prepared(punch: Punch, form: int, scenes: Floats) -> tuple[Floats, Integers]
 
 
 def in_groups(
+<<<<<<< HEAD
     punch: Punch, form: int, scenes: Floats, rows: int, near: Group, far: Group, *, whole: bool = False
 ) -> tuple[Floats, Floats]:
     """Return the results of scenes in the order of their exponents, (rows, scenes), and their reduced numbers.
@@ -450,6 +461,23 @@ def in_groups(
     STATUS is among the results. `near` solves scenes of one fineness of bins, `far` those of one exponent that it
     leaves as SHORT; each takes the fineness, scenes, their reduced numbers, and room for results. `whole`: all folds
     are needed, wherever the rim is.
+=======
+    punch: Punch,
+    form: int,
+    scenes: Floats,
+    rows: int,
+    near: Group,
+    far: Group,
+    *,
+    whole: bool = False,
+    pull_off: bool = False,
+) -> Floats:
+    """Return the results of scenes in the order of their exponents, (rows, scenes), those of STATUS among them.
+
+    `near` solves scenes of one fineness of bins, `far` those of one exponent that it leaves as SHORT; each takes the
+    fineness, scenes, their reduced numbers, and room for results. `whole`: all folds are needed, wherever the rim is;
+    `pull_off`: nothing but the pull-off.
+>>>>>>> marks
     """
     if not is_interpolated(punch.waves) and (scenes[K] != scenes[K, 0]).any():
         begins = np.flatnonzero(np.diff(scenes[K]) != 0.0) + 1
@@ -462,6 +490,8 @@ def in_groups(
     reduced, finer = prepared(punch, form, scenes)
     if whole:
         reduced[NEED] = np.fmax(reduced[NEED], reduced[WINDOW])
+    if pull_off:
+        reduced[NEED] = np.fmin(reduced[PULL], reduced[RIM_Y])
 
     def put(solve: Group, value: int, chosen: slice | Integers) -> None:
         """Solve chosen scenes."""
@@ -470,10 +500,11 @@ def in_groups(
         solve(value, own, numbers, found)
         out[:, chosen] = found
 
-    if (finer == finer[0]).all():
+    if (finer == finer[0]).all() and finer[0] <= FINEST:
         put(near, int(finer[0]), slice(None))
     else:
-        for value in np.unique(finer):
+        out[STATUS, finer > FINEST] = NO_VALUE | TOO_MANY_WAVES
+        for value in np.unique(finer[finer <= FINEST]):
             put(near, int(value), np.flatnonzero(finer == value))
     short = np.flatnonzero(out[STATUS] == SHORT)
     finer = np.broadcast_to(finer, scenes.shape[1])
@@ -504,7 +535,12 @@ def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes
             solve_far(punch, wanted, form, finer, profile, own[:, left], numbers, rest, _MOST_BINS, solve)
             out[:, left] = rest
 
+<<<<<<< HEAD
     out, reduced = in_groups(punch, form, scenes, RESULT_ROWS, near, far, whole=wanted.saturation)
+=======
+    pull_off = punch.rows.shape[1] > 0 and punch.turn == AT_RIM and not wanted.cycle
+    out = in_groups(punch, form, scenes, RESULT_ROWS, near, far, whole=wanted.saturation, pull_off=pull_off)
+>>>>>>> marks
     if wanted.depth:
         far_rims(punch, width_of(punch.waves), form, scenes, reduced, out)
     return out
@@ -547,6 +583,13 @@ def scenes_of(columns: list[Floats], first: int, last: int) -> Floats:
     return scenes
 
 
+def set_lengths(punch: Punch, scenes: Floats) -> None:
+    """Give smooth punches on a pattern its wavelength, where that is shorter: another has no meaning for them."""
+    if punch.rows.shape[1] > 0:
+        smooth = (scenes[AMPLITUDE] == 0.0) & (scenes[PATTERN_WAVELENGTH] < scenes[WAVELENGTH])
+        scenes[WAVELENGTH, smooth] = scenes[PATTERN_WAVELENGTH, smooth]
+
+
 def run_parts(count: int, work: Callable[[int, int], None], threads: int | None) -> None:
     """Do the work on parts of `count` scenes, first to last, on threads that each take the next part."""
     workers = 1 if count < 2 * _SCENES else min(threads or processors(), -(-count // _SCENES))
@@ -571,6 +614,7 @@ def solve_all(
     def work(first: int, last: int) -> None:
         """Solve a part of the scenes, in the order of their exponents."""
         scenes = scenes_of(columns, first, last)
+        set_lengths(punch, scenes)
         order = np.argsort(scenes[K], kind="stable")
         found = np.empty((RESULT_ROWS, last - first))
         found[:, order] = _solve_task(punch, wanted, form, profile, np.ascontiguousarray(scenes[:, order]))

@@ -16,6 +16,10 @@ OF_TIES: Final = (
         "sines, machine, two works, turned",
     ),
 )
+OF_PATTERNS: Final = (
+    "close_to_a_jump is set on scenes of patterns at k = 1 whose curve starts without a fold",
+    ("pattern of toughness", "pattern of work, machine, two works, turned"),
+)
 """Laws whose scenes may meet a fault: its reason and the kinds that have it."""
 
 

@@ -8,7 +8,7 @@ from scipy.interpolate import CubicSpline
 
 from gradhesion.core import FLAGS, draw_curves
 
-from .faults import OF_TIES
+from .faults import OF_PATTERNS, OF_TIES
 from .kinds import COUNTS, EXACT, Kind, Scenes, drawn, for_kinds, one_of, rng_of, some
 from .promises import CLOSE, has
 from .theory import Curve
@@ -16,7 +16,7 @@ from .theory import Curve
 NOT_ONE = FLAGS["loading_contact_not_one_disc"]
 
 
-@for_kinds(EXACT)
+@for_kinds(EXACT, OF_PATTERNS)
 def test_random_scenes_are_close_to_no_jump(kind: Kind) -> None:
     """Ties within 1e-10 among some hundred decisions of 160 scenes: once in 10,000 seeds."""
     assert not has(drawn(kind)[1], CLOSE).any()

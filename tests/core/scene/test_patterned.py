@@ -11,7 +11,13 @@ import pytest
 from gradhesion.core import OUTPUTS, Harmonic, Loading, Profile, solve
 from gradhesion.core.closed.pattern import pattern_area
 from gradhesion.core.problem.material import stiffness
-from gradhesion.core.problem.status import JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, NO_VALUE, TOO_MANY_WAVES
+from gradhesion.core.problem.status import (
+    CLOSE_TO_A_JUMP,
+    JUMP_IN_TO_RIM,
+    LOADING_NOT_ONE_DISC,
+    NO_VALUE,
+    TOO_MANY_WAVES,
+)
 from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic, lowest, rows_of_pattern
 from tests.core.slow_pattern import SlowScene
 
@@ -214,28 +220,29 @@ def test_rims_that_share_a_curve_have_the_results_of_each_alone(pattern: Toughne
 
 
 def test_a_centre_without_adhesion() -> None:
-    """Contact grows from a point and shrinks to one: neither is a jump; what is left of them is a slow solver's."""
+    """Contact grows from a point and shrinks to one: nothing pulls, nothing is lost; whether it jumps there is rounding."""
     pattern = Toughness((ToughnessHarmonic(n=1, cos=-1.0),))
     scene = SCENE | {"A": 0.0, "toughness_amplitude": 1.0, "toughness_wavelength_over_R": 3.0, "a_max_over_R": 0.2}
     found = solve(scene, OUTPUTS, toughness=pattern)
     assert float(found["pull_off_force"]) == 0.0
     assert np.isnan(found["pull_off_radius"])
-    assert [int(found[name]) for name in ("loading_jumps", "unloading_jumps")] == [0, 0]
-    assert [float(found[name]) for name in ("dissipated_energy", "delta_jump_out")] == [0.0, 0.0]
+    assert found["status"] & CLOSE_TO_A_JUMP
+    for name in ("dissipated_energy", "loading_energy", "unloading_energy", "delta_jump_out"):
+        assert abs(float(found[name])) < 1e-18, name
 
 
-def test_waves_are_followed_to_a_hundred_thousand() -> None:
+def test_waves_are_followed_to_ten_thousand() -> None:
     """Fine waves of chi on a smooth punch lose 4 pi chi a^2 beyond it, less by the order of their length (section 10)."""
-    scene = SCENE | {"A": 0.0, "k": 0.0, "toughness_amplitude": 0.3, "toughness_wavelength_over_R": 5e-6}
+    scene = SCENE | {"A": 0.0, "k": 0.0, "toughness_amplitude": 0.3, "toughness_wavelength_over_R": 5e-5}
     found = solve(scene | {"a_max_over_R": 0.5}, OUTPUTS, toughness=ONE)
     assert found["status"] == 0
-    assert min(int(found[name]) for name in ("loading_jumps", "unloading_jumps")) > 60_000
+    assert min(int(found[name]) for name in ("loading_jumps", "unloading_jumps")) > 6_000
     plain = {name: value for name, value in scene.items() if not name.startswith("toughness")} | {"a_max_over_R": 0.5}
     up, down = (solve(plain | {"modulus": scene["modulus"] / w}, OUTPUTS) for w in (0.7**2, 1.3**2))
     limit = 0.7**2 * up["loading_energy"] + 1.3**2 * down["unloading_energy"] + math.pi * 0.25 * (1.3**2 - 0.7**2)
-    assert float(found["dissipated_energy"]) == pytest.approx(float(limit), rel=2e-3)
-    assert float(found["pull_off_force"]) == pytest.approx(1.3**2, rel=1e-8)
-    scene |= {"toughness_wavelength_over_R": 5e-7, "a_max_over_R": np.array([0.01, 0.5])}
+    assert float(found["dissipated_energy"]) == pytest.approx(float(limit), rel=2e-2)
+    assert float(found["pull_off_force"]) == pytest.approx(1.3**2, rel=1e-7)
+    scene |= {"toughness_wavelength_over_R": 5e-6, "a_max_over_R": np.array([0.01, 0.5])}
     found = solve(scene, OUTPUTS, toughness=ONE)
     assert found["status"].tolist()[1] == NO_VALUE | TOO_MANY_WAVES
     assert not found["status"][0] & NO_VALUE, "a rim that is near enough has its values"

@@ -44,7 +44,7 @@ def test_a_cycle_that_turns_is_that_of_a_rim_there(of: str, control: str, turn: 
         told = ~(JUMP_IN_TO_RIM | CLOSE_TO_A_JUMP)  # a rim may stand where a jump lands: that is close
         assert found["status"][i] & told == rim["status"] & told
     if turn == "indentation_max_over_R" and control == "displacement":
-        assert found["delta_max"].tolist() == targets
+        assert found["delta_max"] == pytest.approx(np.array(targets), rel=1e-13)
     assert found["status"].dtype == np.int16
 
 
@@ -61,7 +61,7 @@ def test_turns_without_contact_or_beyond_the_rim() -> None:
 
 
 def test_a_turn_that_is_too_far_leaves_the_others() -> None:
-    fine = SCENE | {"A": 0.0, "toughness_wavelength_over_R": 5e-6, "indentation_max_over_R": np.array([0.003, 1.5])}
+    fine = SCENE | {"A": 0.0, "toughness_wavelength_over_R": 5e-5, "indentation_max_over_R": np.array([0.003, 1.5])}
     found = solve(fine, ["dissipated_energy", "turning_radius"], toughness=Toughness(HARMONICS))
     assert found["status"][1] == NO_VALUE | TOO_MANY_WAVES
     alone = solve(fine | {"indentation_max_over_R": 0.003}, ["dissipated_energy"], toughness=Toughness(HARMONICS))
