@@ -453,15 +453,6 @@ def prepared(punch: Punch, form: int, scenes: Floats) -> tuple[Floats, Integers]
 
 
 def in_groups(
-<<<<<<< HEAD
-    punch: Punch, form: int, scenes: Floats, rows: int, near: Group, far: Group, *, whole: bool = False
-) -> tuple[Floats, Floats]:
-    """Return the results of scenes in the order of their exponents, (rows, scenes), and their reduced numbers.
-
-    STATUS is among the results. `near` solves scenes of one fineness of bins, `far` those of one exponent that it
-    leaves as SHORT; each takes the fineness, scenes, their reduced numbers, and room for results. `whole`: all folds
-    are needed, wherever the rim is.
-=======
     punch: Punch,
     form: int,
     scenes: Floats,
@@ -471,18 +462,17 @@ def in_groups(
     *,
     whole: bool = False,
     pull_off: bool = False,
-) -> Floats:
-    """Return the results of scenes in the order of their exponents, (rows, scenes), those of STATUS among them.
+) -> tuple[Floats, Floats]:
+    """Return the results of scenes in the order of their exponents, (rows, scenes), and their reduced numbers.
 
-    `near` solves scenes of one fineness of bins, `far` those of one exponent that it leaves as SHORT; each takes the
-    fineness, scenes, their reduced numbers, and room for results. `whole`: all folds are needed, wherever the rim is;
-    `pull_off`: nothing but the pull-off.
->>>>>>> marks
+    STATUS is among the results. `near` solves scenes of one fineness of bins, `far` those of one exponent that it
+    leaves as SHORT; each takes the fineness, scenes, their reduced numbers, and room for results. `whole`: all folds
+    are needed, wherever the rim is; `pull_off`: nothing but the pull-off.
     """
     if not is_interpolated(punch.waves) and (scenes[K] != scenes[K, 0]).any():
         begins = np.flatnonzero(np.diff(scenes[K]) != 0.0) + 1
         parts = [
-            in_groups(punch, form, np.ascontiguousarray(own), rows, near, far, whole=whole)
+            in_groups(punch, form, np.ascontiguousarray(own), rows, near, far, whole=whole, pull_off=pull_off)
             for own in np.split(scenes, begins, axis=1)
         ]
         return np.hstack([out for out, _ in parts]), np.hstack([reduced for _, reduced in parts])
@@ -535,12 +525,8 @@ def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes
             solve_far(punch, wanted, form, finer, profile, own[:, left], numbers, rest, _MOST_BINS, solve)
             out[:, left] = rest
 
-<<<<<<< HEAD
-    out, reduced = in_groups(punch, form, scenes, RESULT_ROWS, near, far, whole=wanted.saturation)
-=======
     pull_off = punch.rows.shape[1] > 0 and punch.turn == AT_RIM and not wanted.cycle
-    out = in_groups(punch, form, scenes, RESULT_ROWS, near, far, whole=wanted.saturation, pull_off=pull_off)
->>>>>>> marks
+    out, reduced = in_groups(punch, form, scenes, RESULT_ROWS, near, far, whole=wanted.saturation, pull_off=pull_off)
     if wanted.depth:
         far_rims(punch, width_of(punch.waves), form, scenes, reduced, out)
     return out
