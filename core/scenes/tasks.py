@@ -46,7 +46,7 @@ from gradhesion.core.scenes.reduced import (
     is_valid,
     reduced_of,
 )
-from gradhesion.core.scenes.results import DEEPEST, RESULT_ROWS, SHORT, STATUS, Rooms, Wanted, rooms_for
+from gradhesion.core.scenes.results import DEEPEST, RESULT_ROWS, SATURATION, SHORT, STATUS, Rooms, Wanted, rooms_for
 from gradhesion.core.table.basis import (
     NODES,
     Basis,
@@ -492,7 +492,25 @@ def in_groups(
 
 def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes: Floats) -> Floats:
     """Return the results of scenes in the order of their exponents, of one thread."""
-    cycles = wanted.cycle or punch.turn != AT_RIM or punch.rows.shape[1] > 0
+    if wanted.saturation:  # folds beyond the rim are looked for apart, so that asking for them changes no value
+        out = _solve_task(punch, wanted._replace(saturation=False), form, profile, scenes)
+        alone = Wanted(cycle=True, depth=False, contact=False, residual=False, saturation=True)
+        whole = _in_groups(punch, alone, form, profile, scenes)
+        out[SATURATION] = whole[SATURATION]
+        unknown = (whole[STATUS].astype(np.int64) & NO_VALUE) != 0
+        out[:, unknown] = whole[:, unknown]
+        return out
+    out = _in_groups(punch, wanted, form, profile, scenes)
+    if wanted.depth:
+        reduced, _ = prepared(punch, form, scenes)
+        far_rims(punch, width_of(punch.waves), form, scenes, reduced, out)
+    return out
+
+
+def _in_groups(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes: Floats) -> Floats:
+    """Return the results of scenes in the order of their exponents, but for depths at rims beyond their tables."""
+    patterned = punch.rows.shape[1] > 0
+    cycles = wanted.cycle or punch.turn != AT_RIM or patterned
 
     def near(finer: int, own: Floats, reduced: Floats, out: Floats) -> None:
         """Solve near scenes."""
@@ -509,12 +527,8 @@ def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes
             solve_far(punch, wanted, form, finer, profile, own[:, left], numbers, rest, _MOST_BINS, solve)
             out[:, left] = rest
 
-    pull_off = punch.rows.shape[1] > 0 and punch.turn == AT_RIM and not wanted.cycle
-    out = in_groups(punch, form, scenes, RESULT_ROWS, near, far, whole=wanted.saturation, pull_off=pull_off)
-    if wanted.depth:
-        reduced, _ = prepared(punch, form, scenes)
-        far_rims(punch, width_of(punch.waves), form, scenes, reduced, out)
-    return out
+    pull_off = patterned and punch.turn == AT_RIM and not wanted.cycle
+    return in_groups(punch, form, scenes, RESULT_ROWS, near, far, whole=wanted.saturation, pull_off=pull_off)
 
 
 class Request(NamedTuple):
