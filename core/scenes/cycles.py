@@ -352,10 +352,10 @@ def _put_cycle(task: Task, walked: Walked, opened: int, y: float, reduced: Float
     cycle = Cycle(loaded, unloaded, y, reach, snap_in(closing, landing))
     bits = put_losses(cycle, opening, walked.pattern, walked.ratio, reduced, i, out)
     if task.wanted.residual:
-        end = y
-        if y > end_of(closing.table):  # the cycle that turns beyond all folds loses as much
-            end = max(reach if n > 0 else 0.0, loading[START, max(walked.branches - 1, 0)])
-        work = work_of_cycle(closing, opening, end, loading, walked.visits, visited, unloading, opened)
+        top = y  # where one curve leads out beyond the last landing and back, its load does no work
+        if walked.ratio == 1.0 and n > 0 and loading[END, visited[n - 1]] == math.inf:
+            top = min(y, 1.01 * reach, end_of(closing.table))
+        work = work_of_cycle(closing, opening, top, loading, walked.visits, visited, unloading, opened)
         out[RESIDUAL, i] = out[ENERGY, i] - work * 2.0 * math.pi * reduced[LENGTH, i] ** 2
     if task.wanted.contact and not _loading_keeps_one_disc(task, walked, y, reduced, i):
         bits |= LOADING_NOT_ONE_DISC
@@ -390,7 +390,7 @@ def turns_of(task: Task, scenes: Floats, reduced: Floats, first: int, last: int,
 @kernel
 def _last_fold(task: Task, walked: Walked) -> float:
     """Return the radius of the outermost fold of opening, 0 if there is none; the third trace is overwritten."""
-    if walked.branches < 0 or walked.opening.g == 0.0:
+    if walked.branches < 0:
         return 0.0
     trace = task.rooms.traces[MEASURED_TRACE]
     count = find_folds(walked.opening, math.inf, trace)

@@ -183,6 +183,7 @@ def is_valid(punch: Punch, scenes: Floats, reduced: Floats, i: int) -> bool:
     sizes = 0.0 < scenes[MODULUS, i] < math.inf and 0.0 < scenes[C0, i] < math.inf
     sizes = sizes and 0.0 < scenes[WAVELENGTH, i] < math.inf and 0.0 <= scenes[AMPLITUDE, i] < math.inf
     edge = 0.0 <= scenes[RATIO, i] <= 1.0 and scenes[RIM, i] > 0.0
+    edge = edge and 0.0 < scenes[PATTERN_WAVELENGTH, i] < math.inf
     target = math.isfinite(scenes[TARGET, i]) and (punch.turn != AT_A_LOAD or scenes[TARGET, i] > 0.0)
     machine = punch.control != MACHINE or 0.0 < scenes[STIFFNESS, i] < math.inf
     known = 0.0 < reduced[BY_POWER, i] < math.inf and reduced[MOST, i] > 0.0

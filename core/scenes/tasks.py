@@ -46,7 +46,7 @@ from gradhesion.core.scenes.reduced import (
     is_valid,
     reduced_of,
 )
-from gradhesion.core.scenes.results import DEEPEST, RESULT_ROWS, SHORT, STATUS, Rooms, Wanted, rooms_for
+from gradhesion.core.scenes.results import DEEPEST, RESULT_ROWS, SATURATION, SHORT, STATUS, Rooms, Wanted, rooms_for
 from gradhesion.core.table.basis import (
     NODES,
     Basis,
@@ -508,7 +508,24 @@ def in_groups(
 
 def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes: Floats) -> Floats:
     """Return the results of scenes in the order of their exponents, of one thread."""
-    cycles = wanted.cycle or punch.turn != AT_RIM or punch.rows.shape[1] > 0
+    if wanted.saturation:  # folds beyond the rim are looked for apart, so that asking for them changes no value
+        out = _solve_task(punch, wanted._replace(saturation=False), form, profile, scenes)
+        alone = Wanted(cycle=True, depth=False, contact=False, residual=False, saturation=True)
+        whole, _ = _in_groups(punch, alone, form, profile, scenes)
+        too_many = whole[STATUS].astype(np.int64) & TOO_MANY_WAVES
+        out[SATURATION] = np.where(too_many > 0, np.nan, whole[SATURATION])
+        out[STATUS] = out[STATUS].astype(np.int64) | too_many
+        return out
+    out, reduced = _in_groups(punch, wanted, form, profile, scenes)
+    if wanted.depth:
+        far_rims(punch, width_of(punch.waves), form, scenes, reduced, out)
+    return out
+
+
+def _in_groups(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes: Floats) -> tuple[Floats, Floats]:
+    """Return results and reduced numbers of scenes, as `in_groups`, but for depths at rims beyond their tables."""
+    patterned = punch.rows.shape[1] > 0
+    cycles = wanted.cycle or punch.turn != AT_RIM or patterned
 
     def near(finer: int, own: Floats, reduced: Floats, out: Floats) -> None:
         """Solve near scenes."""
@@ -525,11 +542,8 @@ def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes
             solve_far(punch, wanted, form, finer, profile, own[:, left], numbers, rest, _MOST_BINS, solve)
             out[:, left] = rest
 
-    pull_off = punch.rows.shape[1] > 0 and punch.turn == AT_RIM and not wanted.cycle
-    out, reduced = in_groups(punch, form, scenes, RESULT_ROWS, near, far, whole=wanted.saturation, pull_off=pull_off)
-    if wanted.depth:
-        far_rims(punch, width_of(punch.waves), form, scenes, reduced, out)
-    return out
+    pull_off = patterned and punch.turn == AT_RIM and not wanted.cycle
+    return in_groups(punch, form, scenes, RESULT_ROWS, near, far, whole=wanted.saturation, pull_off=pull_off)
 
 
 class Request(NamedTuple):

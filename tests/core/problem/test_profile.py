@@ -8,6 +8,9 @@ import pytest
 
 from gradhesion.core import Harmonic, Loading, Profile, solve
 
+SCENE = {"k": 0.31, "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.013, "lambda_over_R": 0.11, "A": 0.023}
+SCENE["a_max_over_R"] = 0.7
+
 
 @pytest.mark.parametrize(
     ("changes", "word"),
@@ -36,25 +39,25 @@ def test_controls() -> None:
         Loading(control="force")
 
 
-def test_what_another_profile_does_not_have(scene: dict[str, float]) -> None:
+def test_what_another_profile_does_not_have() -> None:
     cone = Profile(exponent=1.0)
     for solver, reason in (("asymptotic", "belong to one energy only up to"), ("envelope", "at a constant depth")):
-        solve(scene, solver=solver, profile=cone)
+        solve(SCENE, solver=solver, profile=cone)
         for loading in (Loading(control="load"), Loading(control="machine")):
             spring = {"machine_stiffness": 1.0} if loading.control == "machine" else {}
             with pytest.raises(ValueError, match=f"{solver}.*displacement control only.*{reason}"):
-                solve(scene | spring, solver=solver, profile=cone, loading=loading)
+                solve(SCENE | spring, solver=solver, profile=cone, loading=loading)
     with pytest.raises(ValueError, match="energy_residual"):
-        solve(scene, ["energy_residual"], loading=Loading(control="load"))
+        solve(SCENE, ["energy_residual"], loading=Loading(control="load"))
     with pytest.raises(ValueError, match="machine_stiffness"):
-        solve(scene, loading=Loading(control="machine"))
+        solve(SCENE, loading=Loading(control="machine"))
     with pytest.raises(ValueError, match="machine_stiffness"):
-        solve(scene | {"machine_stiffness": 1.0})
+        solve(SCENE | {"machine_stiffness": 1.0})
 
 
-def test_the_default_profile_and_control_change_nothing(scene: dict[str, float]) -> None:
-    plain = solve(scene)
-    other = solve(scene, profile=Profile(), loading=Loading())
+def test_the_default_profile_and_control_change_nothing() -> None:
+    plain = solve(SCENE)
+    other = solve(SCENE, profile=Profile(), loading=Loading())
     assert all(plain[name].tobytes() == other[name].tobytes() for name in plain)
 
 

@@ -1,4 +1,4 @@
-"""What a scene tells of itself: its errors cover the true ones, the rest is checked by another route."""
+"""What a scene tells of itself, checked by other routes."""
 
 import json
 import math
@@ -11,7 +11,7 @@ import pytest
 from gradhesion.core import PARAMETERS, REPORTS, solve
 from gradhesion.core.equations.jkr import indentation
 from gradhesion.core.problem.material import stiffness
-from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, NO_VALUE, TOLERANCE_NOT_MET
+from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, NO_VALUE
 
 STORED = Path(__file__).parents[2] / "twin" / "scenes.json"
 SCENE: dict[str, Any] = {
@@ -23,6 +23,7 @@ SCENE: dict[str, Any] = {
     "A": 0.03,
     "a_max_over_R": 0.8,
 }
+WITHOUT_CYCLE = ("roughness_parameter", "adhesion_gain")
 
 
 @pytest.fixture(scope="module")
@@ -33,36 +34,22 @@ def stored() -> tuple[dict[str, Any], dict[str, Any]]:
     return {name: np.array(columns[name], dtype=float) for name in PARAMETERS}, columns
 
 
-@pytest.mark.parametrize("name", ["pull_off_force", "dissipated_energy"])
-def test_errors_are_covered(name: str, stored: tuple[dict[str, Any], dict[str, Any]]) -> None:
-    """In 99.9 % of all scenes, and without crying wolf: in the median the estimate is at most 100 times too large."""
-    parameters, columns = stored
-    result = solve(parameters, (name, f"{name}_error"))
-    true = np.abs(result[name] - np.array(columns[name], dtype=float))
-    estimate = result[f"{name}_error"]
-    assert np.mean(true <= estimate) >= 0.999
-    some = true > 0.0
-    assert np.median(estimate[some] / true[some]) <= 100.0
-    assert np.all(estimate > 0.0)
-
-
 def test_the_residual_is_rounding(stored: tuple[dict[str, Any], dict[str, Any]]) -> None:
     """The loop integral is another way to the energy; its own rounding grows with the load that cancels in it."""
     parameters, columns = stored
     result = solve(parameters, ("dissipated_energy", "energy_residual", "delta_max"))
     share = np.abs(result["energy_residual"] / result["dissipated_energy"])
     few = np.array(columns["loading_jumps"], dtype=float) <= 5
-    assert np.median(share) <= 8e-15
+    assert np.median(share) <= 4e-14
     assert np.quantile(share[few], 0.99) <= 1e-12
     # work of the load, M a^(3+k), over the deeper of the two depths; hundreds of branches are summed
-    rim = parameters["a_max_over_R"]
-    depth = np.maximum(rim**2, np.abs(result["delta_max"]))
+    rim = np.fmin(parameters["a_max_over_R"], solve(parameters, ("saturation_radius",))["saturation_radius"])
+    depth = np.maximum(rim**2, np.where(np.isfinite(result["delta_max"]), np.abs(result["delta_max"]), 0.0))
     work = stiffness(*(parameters[name] for name in PARAMETERS[:4])) * rim ** (3.0 + parameters["k"]) * depth
     plain = (result["status"] & CLOSE_TO_A_JUMP) == 0
     size = work + result["dissipated_energy"]
     assert (np.abs(result["energy_residual"]) <= 512 * 2.0**-52 * size)[plain].all()
-    # where a depth is met or missed by 4e-12 of it, the place is uncertain by the root of that
-    assert share[~plain].max() <= 3e-6
+    assert share[~plain].max() <= 1e-9
 
 
 def test_a_residual_of_too_many_waves_has_no_value() -> None:
@@ -78,7 +65,7 @@ def test_roughness_parameter(k: float) -> None:
     if k == 0.0:
         r = math.pi * SCENE["A"] * math.sqrt(SCENE["lambda_over_R"])
         assert math.isclose(found, r / math.sqrt(2 * math.pi / SCENE["modulus"]), rel_tol=1e-14)
-    chi = solve(SCENE | {"k": k, "lambda_over_R": 1e-5, "A": 3.0, "a_max_over_R": np.inf}, REPORTS)
+    chi = solve(SCENE | {"k": k, "lambda_over_R": 1e-5, "A": 3.0, "a_max_over_R": np.inf}, WITHOUT_CYCLE)
     # short waves: the pull-off force is (1 + chi)^2 of the smooth one
     assert math.isclose(chi["adhesion_gain"], (1 + chi["roughness_parameter"]) ** 2, rel_tol=1e-4)
 
@@ -119,24 +106,6 @@ def test_no_value() -> None:
     result = solve(SCENE | {"A": np.array([0.02, -1.0]), "a_max_over_R": np.array([-0.5, 0.5])}, REPORTS)
     for name in REPORTS:
         assert np.all(np.isnan(result[name]))
-
-
-def test_a_sum_that_is_not_good_enough_is_flagged() -> None:
-    """At a k next to 1 two ways to sum strong waves part at 1e-6 of the energy."""
-    scene = {
-        "k": 0.9999999999999999,
-        "nu": 0.0,
-        "modulus": 1.3318136277689223,
-        "c0_over_R": 1765.5793617322297,
-        "lambda_over_R": 2.369267509365862e-08,
-        "A": 31.40158465846724,
-        "a_max_over_R": 81.72943860302773,
-    }
-    names = ("dissipated_energy", "dissipated_energy_error")
-    result = solve(scene, names)
-    assert result["status"] & TOLERANCE_NOT_MET
-    assert result["dissipated_energy_error"] > 1e-9 * result["dissipated_energy"]
-    assert solve(scene | {"A": 0.1}, names)["status"] & TOLERANCE_NOT_MET == 0
 
 
 def test_only_the_exact_solver_reports() -> None:

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gradhesion.core import OUTPUTS, Harmonic, Profile, solve
+from gradhesion.core import FAILED, OUTPUTS, Harmonic, Profile, solve
 from gradhesion.core.equations import short_waves
 from gradhesion.core.problem.material import stiffness
+from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
 
 NU, C0 = 0.23, 0.17
 Scene = dict[str, float]
@@ -75,7 +76,7 @@ def test_it_solves_its_own_curve(k: float) -> None:
         rim = length * rng.uniform(0.9, 3.7)
         result = asymptotic(scene_of(k, M, wavelength, chi, rim))
         force, energy, deepest, last = on_a_grid(k, M, wavelength, chi, rim)
-        assert result["status"] == 0
+        assert not result["status"] & FAILED
         assert result["pull_off_force"] == pytest.approx(force, rel=1e-5)
         assert result["dissipated_energy"] == pytest.approx(energy, rel=1e-5)
         assert result["delta_max"] == pytest.approx(deepest, abs=3e-5 * length**2)
@@ -140,12 +141,13 @@ def test_a_long_jump_in_is_integrated_in_closed_form() -> None:
     assert result["pull_off_force"] == pytest.approx(smooth["pull_off_force"], rel=1e-8)
 
 
-def test_more_waves_than_are_walked_leave_the_energy_without_a_value() -> None:
-    k, chi = 0.2, 0.4
-    result = asymptotic(scene_of(k, 100.0, 1e-8, chi, 2.0))
-    assert result["status"] == 64
+def test_more_than_a_million_waves_have_no_value() -> None:
+    result = asymptotic(scene_of(0.2, 100.0, 1e-8, 0.4, 2.0))
+    assert result["status"] == NO_VALUE | TOO_MANY_WAVES
     assert np.isnan(result["dissipated_energy"])
     assert result["loading_jumps"] == -1
+    k, chi = 0.2, 0.4
+    result = solve(scene_of(k, 100.0, 2e-6, chi, 2.0), ["pull_off_force"], solver="asymptotic")
     assert result["pull_off_force"] == pytest.approx((3 + k) / 3 * (1 + chi) ** 2, rel=1e-9)
 
 
@@ -170,7 +172,7 @@ def test_hostile_scenes_end_with_a_value_or_a_status() -> None:
             "a_max_over_R": np.where(rng.random(n) < 0.1, math.inf, 10 ** rng.uniform(-12, 9, n)),
         }
     )
-    good = result["status"] == 0
+    good = (result["status"] & FAILED) == 0
     assert np.all(np.isfinite(result["pull_off_force"][good]))
     assert np.all(result["dissipated_energy"][good] >= 0)
     assert np.all(np.isfinite(result["dissipated_energy"][good]))
@@ -222,7 +224,7 @@ def test_any_punch_solves_its_own_curve(k: float, waves: Profile, exponent: floa
     unloading = np.minimum.accumulate(depth[::-1])[::-1]
     lost = 2 * np.pi * a * (((far - unloading) / (s * a**c)) ** 2 - ((far - loading) / (s * a**c)) ** 2)
     result = solve(scene, OUTPUTS, solver="asymptotic", profile=profile)
-    assert result["status"] == 0
+    assert not result["status"] & FAILED
     assert result["pull_off_force"] == pytest.approx(-load.min(), rel=1e-5)
     assert result["pull_off_radius"] == pytest.approx(a[load.argmin()], rel=1e-3)
     assert result["dissipated_energy"] == pytest.approx(np.sum(lost * da), rel=1e-4)
@@ -253,5 +255,5 @@ def test_a_contact_may_begin_in_a_point() -> None:
     profile = Profile(harmonics=(Harmonic(n=1, sin=-1.0),))
     for chi in (0.5, 2.0, 6.0):
         result = solve(scene_of(0.4, 110.0, 0.02, chi, 0.97), OUTPUTS, solver="asymptotic", profile=profile)
-        assert result["status"] == 0
+        assert not result["status"] & FAILED
         assert result["dissipated_energy"] > 0.0
