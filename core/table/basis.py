@@ -58,8 +58,8 @@ SIZE: Final = 3 * N + 10
 """Numbers of a bin that depend on k: three lanes; V, U and U1 at the lower edge; six moments; the bound of U'."""
 FIXED: Final = (Y, P, SLOPE, BP, M0, PC, YC, HALF)
 """Rows that do not depend on k."""
-_KEPT: Final = 8
-"""Bases kept: some megabytes each."""
+_KEPT: Final = 16
+"""Bases kept, of five megabytes each: the bins of patterns have up to 13 widths."""
 
 
 class Basis(NamedTuple):
