@@ -496,8 +496,8 @@ def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes
         out = _solve_task(punch, wanted._replace(saturation=False), form, profile, scenes)
         alone = Wanted(cycle=True, depth=False, contact=False, residual=False, saturation=True)
         whole = _in_groups(punch, alone, form, profile, scenes)
-        out[SATURATION] = whole[SATURATION]
-        unknown = (whole[STATUS].astype(np.int64) & NO_VALUE) != 0
+        failed, unknown = ((found[STATUS].astype(np.int64) & NO_VALUE) != 0 for found in (out, whole))
+        out[SATURATION] = np.where(failed, np.nan, whole[SATURATION])
         out[:, unknown] = whole[:, unknown]
         return out
     out = _in_groups(punch, wanted, form, profile, scenes)
