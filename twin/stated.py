@@ -12,26 +12,20 @@ from gradhesion.twin.general import PLAIN, Shape
 from gradhesion.twin.scene import PullOff, Solution, solve, solve_pull_off, waves_to_follow
 from gradhesion.twin.turning import TURNS
 
-FORCE: Final = 5e-14
-"""Of the force."""
-FORCE_OF_TERMS: Final = 1e-14
-"""Of the sizes of the terms of the force, where that is more: on the rim of a small and very wavy punch."""
+FORCE: Final = 1e-12
+"""Of the force, or of the sizes of its terms where that is more: on the rim of a small and very wavy punch."""
 RADIUS: Final = 1e-9
 """Of the radius, which is where a function is stationary."""
 RADIUS_OF_CONDITION: Final = 1e-13
 """Of the radius for each unit of its condition, where that is more."""
-WALKED: Final = 1e-12
-"""Of the sizes of all jumps, where every wave is walked."""
-SUMMED: Final = 1e-9
-"""Of the sizes of all jumps, where the waves in the middle are summed."""
-MOST_WALKED: Final = 64.0
-"""Waves with folds from which on a solver may sum them; those of gradhesion.core walk some 80."""
-DEPTH: Final = 1e-13
+ENERGY: Final = 1e-12
+"""Of the sizes of all jumps."""
+DEPTH: Final = 1e-12
 """Of the sizes of the terms of a depth."""
-NEAR: Final = 1e-12
+NEAR: Final = 1e-10
 """Least margin of a number of jumps, and of the place of pull-off: nearer, those of a neighbouring double count."""
 MOST_WAVES: Final = 1000.0
-"""Waves, of two folds each, that the twin follows: 15 s, 300 MB."""
+"""Waves, of two folds each, that the twin follows: 15 s, 300 MB. Of more, a digit less is promised for each decade."""
 ROUNDED: Final = 1e-15
 """Of a value in SI units, besides the error of the same without a unit."""
 CYCLE: Final = frozenset(
@@ -114,7 +108,7 @@ def expected(
     >>> scene = dict(k=0.0, nu=0.3, modulus=500.0, c0_over_R=0.01, lambda_over_R=0.1, A=0.0, a_max_over_R=1.0)
     >>> force = expected(scene, ["pull_off_force"], "exact")["pull_off_force"]
     >>> float(force.value), force.error
-    (1.0, 5e-14)
+    (1.0, 3e-12)
     """
     if solver == "envelope":
         found = _of_envelope(parameters, shape)
@@ -221,7 +215,7 @@ def _is_sure(one: Expected) -> bool:
 
 
 def _of_pull_off(solution: PullOff | Solution) -> dict[str, Expected]:
-    force = max(FORCE, FORCE_OF_TERMS * solution.force_condition)
+    force = FORCE * max(1.0, solution.force_condition)
     radius = max(RADIUS, RADIUS_OF_CONDITION * solution.radius_condition)
     return {
         "pull_off_force": Expected(solution.pull_off_force, _share(force, solution.pull_off_force)),
@@ -234,9 +228,8 @@ def _of_pull_off(solution: PullOff | Solution) -> dict[str, Expected]:
 
 
 def _of_cycle(solution: Solution) -> dict[str, Expected]:
-    share = WALKED if solution.folded_waves < MOST_WALKED else SUMMED
     near = "a fold is about to be passed" if solution.margin_jumps < NEAR else ""
-    error = _share(share * solution.energy_condition, solution.dissipated_energy)  # of the sizes of all jumps
+    error = _share(ENERGY * solution.energy_condition, solution.dissipated_energy)  # of the sizes of all jumps
     moved = ROUNDED + DEPTH * solution.turning_condition  # of the radius at which the edge turns
     edge = _share(2 * moved, solution.front_energy)
     snaps = solution.snap_in_force.is_finite()
@@ -284,7 +277,7 @@ def _of_envelope(parameters: Mapping[str, float], shape: Shape) -> dict[str, Exp
 
 
 def _energy(value: arb | None, size: float) -> Expected:
-    return Expected(arb("inf"), 0.0) if value is None else Expected(value, WALKED * size)
+    return Expected(arb("inf"), 0.0) if value is None else Expected(value, ENERGY * size)
 
 
 def _depth(value: arb | None, size: float) -> Expected:

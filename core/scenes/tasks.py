@@ -513,7 +513,8 @@ def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes
         alone = Wanted(cycle=True, depth=False, contact=False, residual=False, saturation=True)
         whole, _ = _in_groups(punch, alone, form, profile, scenes)
         too_many = whole[STATUS].astype(np.int64) & TOO_MANY_WAVES
-        out[SATURATION] = np.where(too_many > 0, np.nan, whole[SATURATION])
+        failed = (out[STATUS].astype(np.int64) & NO_VALUE) > 0
+        out[SATURATION] = np.where(failed | (too_many > 0), np.nan, whole[SATURATION])
         out[STATUS] = out[STATUS].astype(np.int64) | too_many
         return out
     out, reduced = _in_groups(punch, wanted, form, profile, scenes)
