@@ -223,7 +223,11 @@ def test_scenes_of_too_many_waves_are_left_out_and_others_drawn(
     gradhesion: Call, study_file: Path, tmp_path: Path
 ) -> None:
     path = tmp_path / "long.nc"
-    some = ["--set=parameters.lambda_over_R=[1e-5, 0.2]", "--set=parameters.A=[0.0, 0.05]"]
+    some = [
+        "--set=parameters.lambda_over_R=[1e-5, 0.2]",
+        "--set=parameters.A=[0.0, 0.05]",
+        "--set=parameters.a_max_over_R=[0.5, 1.0]",
+    ]
     assert gradhesion("run", study_file, "-o", path, "--quiet", *some).exit_code == 0
     result = gradhesion("verify", path, *ALL)
     assert result.exit_code == 0, result.stdout + result.stderr
