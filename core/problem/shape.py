@@ -1,7 +1,6 @@
-"""A profile in the form that kernels use: its power's factor, its harmonics as rows, and when it is one cosine wave."""
+"""A profile in the form that kernels use: its harmonics as rows, and which punches begin to touch by a jump."""
 
 from collections.abc import Mapping
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,30 +24,6 @@ def in_own_wavelength(profile: Profile) -> tuple[float, NDArray[np.float64]]:
         return 1.0, rows
     n, even, odd = rows[0].tolist()
     return n, np.array([[1.0, even, odd]])
-
-
-def depth_factor_of(k: float, exponent: float) -> float:
-    """Return G(m/2) G((1+k)/2)/(2 G((1+k+m)/2)), the depth of r^m/m over a^m."""
-    if exponent == 2.0:
-        return 1.0 / (1.0 + k)
-    from scipy.special import beta  # noqa: PLC0415 (200 ms that a paraboloid does not need)
-
-    return float(0.5 * beta(0.5 * exponent, 0.5 * (1.0 + k)))
-
-
-@lru_cache(maxsize=128)
-def equivalent_wave(profile: Profile) -> tuple[int, float] | None:
-    """Return n and the factor of A for which a profile is a paraboloid with one cosine wave of length lambda/n.
-
-    None where it is not. A is over the wavelength, so that a wave n times shorter has an A n times as large.
-    """
-    rows = rows_of(profile)
-    if profile.exponent != 2.0 or len(rows) > 1:
-        return None
-    if len(rows) == 0:
-        return 1, 0.0
-    n, even, odd = rows[0].tolist()
-    return (int(n), n * even) if even > 0.0 and odd == 0.0 else None
 
 
 def starts_downwards(parameters: Mapping[str, ArrayLike], profile: Profile) -> NDArray[np.bool_]:

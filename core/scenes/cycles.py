@@ -264,12 +264,11 @@ def no_value(out: Floats, i: int, status: float) -> None:
 
 
 @kernel
-def put_no_contact(scenes: Floats, i: int, out: Floats) -> int:
-    """Store a cycle that turns before contact is made; return its status."""
+def put_no_contact(scenes: Floats, i: int, out: Floats) -> None:
+    """Store a cycle that turns before contact is made."""
     out[:, i] = 0.0
     out[PULL_OFF_RADIUS, i] = out[JUMP_OUT, i] = out[SNAP, i] = math.nan
     out[DEEPEST, i], out[STATUS, i] = scenes[TARGET, i], NO_CONTACT
-    return NO_CONTACT
 
 
 @kernel

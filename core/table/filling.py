@@ -359,13 +359,3 @@ def with_bounds(table: Table, crest: float, bins: int) -> Table:
 def width_of(waves: Floats, finer: int = 1) -> float:
     """Return the width of uniform bins for harmonics (n, cos, sin), `finer` times narrower than usual."""
     return 2.0 * math.pi / (PER_WAVE * float(waves[:, 0].max()) * finer)
-
-
-@kernel
-def piece_of(table: Table, source: Source, first: int, count: int, nodes: Floats, polys: Floats) -> Table:
-    """Fill the given room with `count` uniform bins from y = (first + shift) width on, and return them as a table."""
-    fill_bins(source, first, 0, count, nodes, polys)
-    start = (first + source.shift) * source.width
-    return Table(
-        table.k, table.exponent, table.share, start, table.width, table.lowest, table.zero, 0, count, nodes, polys
-    )
