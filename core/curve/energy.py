@@ -94,17 +94,15 @@ def _from_zero(curve: Curve, depth: float, i: int) -> float:
 def energy_between(curve: Curve, depth: float, low: float, high: float) -> float:
     """Return int y (kappa^2 - rho^2) dy at a depth between two radii, in the order low <= high; low may be 0."""
     j, end = place_of(curve.table, high)
-    if low <= 0.0:
-        first = min(j, curve.table.geometric)
-        return (
-            _from_zero(curve, depth, first) + _whole_bins(curve, depth, first, j) + _within(curve, depth, j, -1.0, end)
-        )
-    i, start = place_of(curve.table, low)
-    if i == j:
-        return _within(curve, depth, i, start, end)
-    return (
-        _within(curve, depth, i, start, 1.0) + _whole_bins(curve, depth, i + 1, j) + _within(curve, depth, j, -1.0, end)
-    )
+    if low > 0.0:
+        i, start = place_of(curve.table, low)
+        first = i + 1
+        inner = _within(curve, depth, i, start, 1.0 if i < j else end)
+    else:
+        i, first = -1, min(j, curve.table.geometric)
+        inner = _from_zero(curve, depth, first)
+    outer = _within(curve, depth, j, -1.0, end) if i < j else 0.0
+    return inner + _whole_bins(curve, depth, first, j) + outer
 
 
 @kernel
@@ -116,13 +114,12 @@ def jump_energy(curve: Curve, y: float, depth: float, load: float, landing: floa
     """
     outwards = landing > y
     lost = energy_between(curve, depth, y, landing) if outwards else -energy_between(curve, depth, landing, y)
-    if curve.by_load == 0.0:
-        return lost
-    k = curve.table.k
-    if landing == 0.0:
-        return lost + curve.by_load / curve.by_depth * load * load / (1.0 + k)
-    i, t = place_of(curve.table, landing)
-    depth_there, load_there = depth_and_load(curve, i, t)
-    stiffness = landing ** (1.0 + k)
-    fall = load - (load_there + stiffness * (depth - depth_there))
-    return lost + curve.by_load / softness(curve, stiffness) * fall * fall / (1.0 + k)
+    if curve.by_load != 0.0:
+        there = stiffness = 0.0  # the load at the place of landing, at the depth of the state
+        if landing > 0.0:
+            i, t = place_of(curve.table, landing)
+            depth_there, load_there = depth_and_load(curve, i, t)
+            stiffness = landing ** (1.0 + curve.table.k)
+            there = load_there + stiffness * (depth - depth_there)
+        lost += curve.by_load / softness(curve, stiffness) * (load - there) ** 2 / (1.0 + curve.table.k)
+    return lost

@@ -3,8 +3,6 @@
 import math
 from typing import Final
 
-import numpy as np
-
 from gradhesion.core.curve.trace import (
     CLOSE_PAIR,
     END,
@@ -22,18 +20,18 @@ from gradhesion.core.curve.values import (
     bin_of,
     coordinate_of,
     depth_and_load,
-    level_at,
     radius_of,
     slope_at,
     slope_in,
     slope_near,
+    slope_terms_at,
 )
 from gradhesion.core.jit import kernel, leaf
-from gradhesion.core.table.layout import BE, BP, BV, HALF, KE, QPOW, QUP, RLOW, RPOW, SLOPE, E, T, V, Y, end_of
+from gradhesion.core.table.layout import BE, BP, BV, HALF, QPOW, QUP, RLOW, RPOW, Y, end_of
 from gradhesion.core.types import Floats
 
 CHUNK: Final = 32
-"""Edges whose slopes are computed at once."""
+"""Bins after which it is asked whether the folds have come to an end."""
 CLOSE: Final = 1e-10
 """Decisions closer than this, relative to the sizes of their terms, are reported as close_to_a_jump."""
 TOO_SHORT: Final = -2
@@ -78,16 +76,12 @@ def pair_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
 
     Return that, the place of the extremum and D there times the half width; (False, 0, inf) if there is none.
     """
-    _, D1, _, _ = slope_near(curve, i, -1.0)
-    left = D1 * sign
-    _, D1, _, _ = slope_near(curve, i, 1.0)
-    right = D1 * sign
-    if left >= 0.0 or right <= 0.0:
-        return False, 0.0, math.inf
-    low, high = -1.0, 1.0
-    t = left / (left - right) * 2.0 - 1.0
-    D = 0.0
-    for _ in range(60):
+    _, left, _, _ = slope_near(curve, i, -1.0)
+    _, right, _, _ = slope_near(curve, i, 1.0)
+    D, t, low, high = sign * math.inf, 0.0, -1.0, 1.0
+    ahead = left / (left - right) * 2.0 - 1.0
+    for _ in range(60 if left * sign < 0.0 < right * sign else 0):
+        t = ahead
         D, D1, D2, _ = slope_near(curve, i, t)
         if D1 * sign > 0.0:
             high = t
@@ -98,7 +92,6 @@ def pair_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
             ahead = 0.5 * (low + high)
         if abs(ahead - t) < 1e-7:
             break
-        t = ahead
     return D * sign <= 0.0, t, D if D != 0.0 else -sign * _TINY
 
 
@@ -126,24 +119,21 @@ def detour_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
     """
     _, left, left2, _ = slope_near(curve, i, -1.0)
     _, right, right2, _ = slope_near(curve, i, 1.0)
-    if left * sign <= 0.0 or right * sign <= 0.0 or left2 * sign >= 0.0 or right2 * sign <= 0.0:
-        return False, 0.0, 0.0
-    low, high, middle = -1.0, 1.0, 0.0
-    for _ in range(40):
-        middle = 0.5 * (low + high)
-        _, D1, D2, _ = slope_near(curve, i, middle)
-        if D1 * sign < 0.0:
-            break
-        if D2 * sign < 0.0:
-            low = middle
-        else:
-            high = middle
-    if D1 * sign >= 0.0:
-        return False, 0.0, 0.0
-    crest = _turn_of_slope(curve, i, -1.0, middle, sign)
-    trough = _turn_of_slope(curve, i, middle, 1.0, sign)
-    top, _, _, _ = slope_near(curve, i, crest)
-    bottom, _, _, _ = slope_near(curve, i, trough)
+    low, high, middle, D1 = -1.0, 1.0, 0.0, sign
+    if left * sign > 0.0 < right * sign and left2 * sign < 0.0 < right2 * sign:
+        while high - low > 1e-12 and D1 * sign >= 0.0:
+            middle = 0.5 * (low + high)
+            _, D1, D2, _ = slope_near(curve, i, middle)
+            if D2 * sign < 0.0:
+                low = middle
+            else:
+                high = middle
+    crest = trough = top = bottom = 0.0
+    if D1 * sign < 0.0:
+        crest = _turn_of_slope(curve, i, -1.0, middle, sign)
+        trough = _turn_of_slope(curve, i, middle, 1.0, sign)
+        top, _, _, _ = slope_near(curve, i, crest)
+        bottom, _, _, _ = slope_near(curve, i, trough)
     return top * sign > 0.0 and bottom * sign < 0.0, crest, trough
 
 
@@ -156,23 +146,6 @@ def swing_in(curve: Curve, i: int) -> float:
 
 
 @leaf
-def _add_fold(curve: Curve, i: int, t: float, depth: float, rising: bool, trace: Floats, count: int) -> int:
-    """Put a fold into the trace, the start of a branch or its end; return the number of branches."""
-    y, load = radius_of(curve.table, i, t), 0.0
-    if curve.by_load != 0.0:
-        depth, load = depth_and_load(curve, i, t)
-    if rising:
-        trace[START, count], trace[START_DEPTH, count], trace[START_LOAD, count] = y, depth, load
-        trace[START_LEVEL, count] = coordinate_of(curve, depth, load)
-        trace[END, count] = trace[END_LEVEL, count] = math.inf
-        trace[UNLOADED, count] = math.nan
-        return count + 1
-    trace[END, count - 1], trace[END_DEPTH, count - 1], trace[END_LOAD, count - 1] = y, depth, load
-    trace[END_LEVEL, count - 1] = coordinate_of(curve, depth, load)
-    return count
-
-
-@leaf
 def _guess_of(older: float, before: float, after: float) -> float:
     """Return where in a bin D is about 0, by the parabola through three edges, the last two around the bin."""
     bend = after - 2.0 * before + older
@@ -182,67 +155,90 @@ def _guess_of(older: float, before: float, after: float) -> float:
 
 
 @kernel
+def _add_fold(
+    curve: Curve, i: int, low: float, high: float, guess: float, rising: bool, trace: Floats, count: int
+) -> int:
+    """Put the fold of bin i between two places into the trace, the start of a branch or its end.
+
+    Return the number of branches, FULL if there is no room.
+    """
+    if count < 0 or count >= trace.shape[1]:
+        return FULL
+    t, depth = zero_in(curve, i, low, high, guess, rising)
+    load = 0.0
+    if curve.by_load != 0.0:
+        depth, load = depth_and_load(curve, i, t)
+    y, level = radius_of(curve.table, i, t), coordinate_of(curve, depth, load)
+    if rising:
+        trace[START, count], trace[START_DEPTH, count], trace[START_LOAD, count] = y, depth, load
+        trace[START_LEVEL, count], trace[UNLOADED, count] = level, math.nan
+        trace[END, count] = trace[END_LEVEL, count] = math.inf
+        return count + 1
+    trace[END, count - 1], trace[END_DEPTH, count - 1], trace[END_LOAD, count - 1] = y, depth, load
+    trace[END_LEVEL, count - 1] = level
+    return count
+
+
+@kernel
+def _add_folds(curve: Curve, i: int, older: float, before: float, after: float, trace: Floats, count: int) -> int:
+    """Put the folds of bin i into the trace, which has one, two that are next to each other, or three; or none.
+
+    D is `before` and `after` at its edges, and `older` an edge below. Return the number of branches, or FULL.
+    """
+    rises, swing, half = after > 0.0, swing_in(curve, i), curve.table.nodes[HALF, i]
+    sign, close = 1.0 if rises else -1.0, CLOSE * slope_terms_at(curve, i)
+    if (before > 0.0) == rises:
+        found, t, extreme = pair_in(curve, i, sign)
+        if found:
+            guess = -1.0 + (t + 1.0) * before * half / (before * half - extreme)
+            count = _add_fold(curve, i, -1.0, t, guess, not rises, trace, count)
+            guess = t + (1.0 - t) * extreme / (extreme - after * half)
+            count = _add_fold(curve, i, t, 1.0, guess, rises, trace, count)
+        if abs(extreme) <= close * half:
+            trace[CLOSE_PAIR, 0] = min(trace[CLOSE_PAIR, 0], curve.table.nodes[Y, i])
+    else:
+        found, crest, trough = False, -1.0, 1.0
+        if abs(after - before) < 4.0 * swing:  # D may turn twice on its way
+            found, crest, trough = detour_in(curve, i, sign)
+        if found:
+            count = _add_fold(curve, i, -1.0, crest, 0.5 * (crest - 1.0), rises, trace, count)
+            count = _add_fold(curve, i, crest, trough, 0.5 * (crest + trough), not rises, trace, count)
+            count = _add_fold(curve, i, trough, 1.0, 0.5 * (trough + 1.0), rises, trace, count)
+        else:
+            count = _add_fold(curve, i, -1.0, 1.0, _guess_of(older, before, after), rises, trace, count)
+    if abs(after) <= close and swing > 0.5 * abs(before):
+        trace[CLOSE_PAIR, 0] = min(trace[CLOSE_PAIR, 0], curve.table.nodes[Y, i])
+    return count
+
+
+@leaf
+def _folds_end(curve: Curve, i: int) -> bool:
+    """Return whether the bounds of the table say that there is no fold from bin i on."""
+    k, nodes = curve.table.k, curve.table.nodes
+    highest = 0.5 * (1.0 - k) + (1.0 + k if curve.by_load != 0.0 else 0.0)
+    return curve.B * nodes[RPOW, i] + curve.g * nodes[RLOW, i] > highest / nodes[Y, i]
+
+
+@kernel
 def scan(curve: Curve, first: int, last: int, count: int, trace: Floats) -> tuple[int, bool]:
     """Add the folds in the bins `first` to `last` - 1 to `count` branches.
 
     Return the number of branches (FULL: no room) and whether the bounds of the table say that no fold follows.
     """
-    table, nodes = curve.table, curve.table.nodes
-    B, g, k = curve.B, curve.g, curve.table.k
-    base = 0.5 * (1.0 - k)
-    highest = base + (1.0 + k if curve.by_load != 0.0 else 0.0)
-    ends = g == 0.0 or table.exponent - 1.0 >= base  # else the power loses against the waves: folds need not end
-    before = slope_at(curve, first)
-    older, start = before, first
-    slopes = np.zeros(CHUNK)
-    places, values = np.zeros(4), np.zeros(4)  # the ends of the pieces of a bin on which D has one fold, and D there
-    while start < last:
-        if ends and B * nodes[RPOW, start] + g * nodes[RLOW, start] > highest / nodes[Y, start]:
-            return count, True
-        size = min(CHUNK, last - start)
-        for j in range(size):
-            e = start + 1 + j
-            slopes[j] = B * nodes[SLOPE, e] + g * nodes[V, e] - base * nodes[E, e]
-        if curve.by_load != 0.0:
-            for j in range(size):
-                e = start + 1 + j
-                x = curve.by_load * nodes[T, e]
-                slopes[j] -= (1.0 + k) * x / (curve.by_depth + x) * nodes[KE, e]
-        for j in range(size):
-            i, after = start + j, slopes[j]
-            half = nodes[HALF, i]
-            terms = B * nodes[SLOPE, i] + abs(g * nodes[V, i]) + base * nodes[E, i]
-            if curve.by_load != 0.0:
-                terms += level_at(curve, i) * nodes[KE, i]
-            places[0], places[1], values[0], values[1], pieces = -1.0, 1.0, before * half, after * half, 1
-            if (before > 0.0) != (after > 0.0):
-                if abs(after - before) < 4.0 * swing_in(curve, i):  # D may turn twice on its way
-                    found, crest, trough = detour_in(curve, i, 1.0 if after > 0.0 else -1.0)
-                    if found:
-                        places[1], places[2], places[3], pieces = crest, trough, 1.0, 3
-                        values[1], values[2], values[3] = -values[0], values[0], after * half
-            elif min(abs(before), abs(after)) < swing_in(curve, i):
-                found, t, extreme = pair_in(curve, i, 1.0 if after > 0.0 else -1.0)
-                pieces = 2 if found else 0
-                places[1], values[1], places[2], values[2] = t, extreme, 1.0, after * half
-                if abs(extreme) <= CLOSE * half * terms:
-                    trace[CLOSE_PAIR, 0] = min(trace[CLOSE_PAIR, 0], nodes[Y, i])
-            else:
-                pieces = 0
-            for piece in range(pieces):
-                if count >= trace.shape[1]:
-                    return FULL, False
-                low, high, rising = places[piece], places[piece + 1], values[piece + 1] > 0.0
-                guess = _guess_of(older, before, after)
-                if pieces > 1:
-                    guess = low + (high - low) * values[piece] / (values[piece] - values[piece + 1])
-                t, depth = zero_in(curve, i, low, high, guess, rising)
-                count = _add_fold(curve, i, t, depth, rising, trace, count)
-            if abs(after) <= CLOSE * terms and swing_in(curve, i) > 0.5 * abs(before):
-                trace[CLOSE_PAIR, 0] = min(trace[CLOSE_PAIR, 0], nodes[Y, i])
+    # else the power loses against the waves: folds need not end
+    may_end = curve.g == 0.0 or curve.table.exponent - 1.0 >= 0.5 * (1.0 - curve.table.k)
+    older = before = slope_at(curve, first)
+    start, ended = first, may_end and _folds_end(curve, first)
+    while start < last and count >= 0 and not ended:
+        end = min(start + CHUNK, last)
+        for i in range(start, end):
+            after = slope_at(curve, i + 1)
+            if (before > 0.0) != (after > 0.0) or min(abs(before), abs(after)) < swing_in(curve, i):
+                count = _add_folds(curve, i, older, before, after, trace, count)
             older, before = before, after
-        start += size
-    return count, ends and B * nodes[RPOW, last] + g * nodes[RLOW, last] > highest / nodes[Y, last]
+        start = end
+        ended = may_end and _folds_end(curve, end)
+    return count, ended
 
 
 @leaf
@@ -276,20 +272,20 @@ def find_folds(curve: Curve, y_end: float, trace: Floats) -> int:
 
     The last branch is endless (END = inf) if no fold follows at all.
     """
-    table = curve.table
-    first = first_bin(curve)
-    last = table.bins if y_end >= end_of(table) else bin_of(table, y_end) + 1
+    first, last = first_bin(curve), curve.table.bins
+    if y_end < end_of(curve.table):
+        last = bin_of(curve.table, y_end) + 1
     count, trace[CLOSE_PAIR, 0] = 0, math.inf
     if slope_at(curve, first) > 0.0:  # k = 1, or a groove at the centre: the first branch begins at 0
-        depth = curve.g * table.zero - (1.0 if table.k == 1.0 else 0.0)
+        depth = curve.g * curve.table.zero - (1.0 if curve.table.k == 1.0 else 0.0)
         trace[START, 0], trace[START_DEPTH, 0], trace[START_LOAD, 0] = 0.0, depth, 0.0
         trace[START_LEVEL, 0] = coordinate_of(curve, depth, 0.0)
         trace[END, 0], trace[END_LEVEL, 0], trace[UNLOADED, 0] = math.inf, math.inf, math.nan
         count = 1
     count, ended = scan(curve, first, last, count, trace)
-    if ended or count < 0:
-        return count
-    if last == table.bins and y_end > end_of(table):
-        return TOO_SHORT
-    close_end(curve, last, count, trace)
+    if count >= 0 and not ended:
+        if last == curve.table.bins and y_end > end_of(curve.table):
+            count = TOO_SHORT
+        else:
+            close_end(curve, last, count, trace)
     return count

@@ -30,8 +30,20 @@ BEYOND: Final = -1.0
 
 
 @leaf
-def _bin_with(curve: Curve, level: float, i: int, j: int) -> int:
-    """Return the first of the bins i to j, on a branch, whose upper edge is not below a level."""
+def _bin_of_level(curve: Curve, level: float, low: float, high: float) -> int:
+    """Return the bin between two radii on a branch that has a level; the number of bins if it is beyond the table."""
+    bins = curve.table.bins
+    i = bin_of(curve.table, low) if low > 0.0 else 0
+    j = bin_of(curve.table, min(high, end_of(curve.table)))
+    if high >= end_of(curve.table):  # how far out is not known: ever longer strides
+        stride, edge = 1, i + 1
+        while edge < bins and coordinate_at(curve, edge) < level:
+            i = edge
+            edge += stride
+            stride *= 2
+        j = min(edge, bins) - 1
+        if edge >= bins and coordinate_at(curve, bins) < level:
+            i = j = bins
     while i < j:
         middle = (i + j) // 2
         if coordinate_at(curve, middle + 1) < level:
@@ -44,15 +56,13 @@ def _bin_with(curve: Curve, level: float, i: int, j: int) -> int:
 @leaf
 def _guess(curve: Curve, i: int, level: float) -> float:
     """Return where in bin i the level is about: a step from the chord, by the cubic through values and slopes."""
-    nodes = curve.table.nodes
     low, high = coordinate_at(curve, i), coordinate_at(curve, i + 1)
-    width = 2.0 * nodes[HALF, i]
-    first, last = slope_at(curve, i) * width, slope_at(curve, i + 1) * width
-    if curve.by_load != 0.0:
-        first, last = first * softness(curve, nodes[T, i]), last * softness(curve, nodes[T, i + 1])
+    first = slope_at(curve, i) * softness(curve, curve.table.nodes[T, i])
+    last = slope_at(curve, i + 1) * softness(curve, curve.table.nodes[T, i + 1])
+    width = 2.0 * curve.table.nodes[HALF, i]
     rise = high - low
     s = (level - low) / rise
-    p, q = first - rise, last - rise
+    p, q = first * width - rise, last * width - rise
     slope = rise + p * (1.0 - s) * (1.0 - 3.0 * s) - q * s * (2.0 - 3.0 * s)
     return 2.0 * (s - s * (1.0 - s) * (p * (1.0 - s) - q * s) / slope) - 1.0
 
@@ -75,30 +85,12 @@ def _value_in(curve: Curve, i: int, t: float) -> tuple[float, float, float]:
     return coordinate_of(curve, depth, load), D * weight, D1 * weight + D * change
 
 
-@kernel
-def at_level(curve: Curve, level: float, low: float, high: float, accuracy: float) -> float:
-    """Return the radius between `low` and `high`, on a branch, at which what is prescribed is `level`.
-
-    `high` may be inf; BEYOND is returned if the level is not reached within the table.
-    """
-    table, nodes = curve.table, curve.table.nodes
-    i = bin_of(table, low) if low > 0.0 else 0
-    if high < end_of(table):
-        j = bin_of(table, high)
-    else:
-        stride, j = 1, i + 1
-        while j < table.bins and coordinate_at(curve, j) < level:
-            i = j
-            j += stride
-            stride *= 2
-        j = min(j, table.bins)
-        if j == table.bins and coordinate_at(curve, j) < level:
-            return BEYOND
-        j -= 1
-    i = _bin_with(curve, level, i, j)
-    centre, half = nodes[YC, i], nodes[HALF, i]
+@leaf
+def _radius_of_level(curve: Curve, level: float, i: int, low: float, high: float, accuracy: float) -> float:
+    """Return the radius in bin i, between two on a branch, at which what is prescribed is `level`."""
+    centre, half = curve.table.nodes[YC, i], curve.table.nodes[HALF, i]
     a = max(-1.0, (low - centre) / half)
-    b = min(1.0, (high - centre) / half) if high < math.inf else 1.0
+    b = min(1.0, (high - centre) / half)
     t = _guess(curve, i, level)
     if not (a < t < b):
         t = 0.5 * (a + b)
@@ -115,10 +107,22 @@ def at_level(curve: Curve, level: float, low: float, high: float, accuracy: floa
         if not (a <= ahead <= b):
             ahead = 0.5 * (a + b)
         step = abs(ahead - t)
-        if (step < accuracy and step * abs(D1) < 4e-2 * abs(D)) or b - a < 1e-12:
-            return centre + half * ahead
         t = ahead
+        if (step < accuracy and step * abs(D1) < 4e-2 * abs(D)) or b - a < 1e-12:
+            break
     return centre + half * t
+
+
+@kernel
+def at_level(curve: Curve, level: float, low: float, high: float, accuracy: float) -> float:
+    """Return the radius between `low` and `high`, on a branch, at which what is prescribed is `level`.
+
+    `high` may be inf; BEYOND is returned if the level is not reached within the table.
+    """
+    i = _bin_of_level(curve, level, low, high)
+    if i >= curve.table.bins:
+        return BEYOND
+    return _radius_of_level(curve, level, i, low, high, accuracy)
 
 
 @kernel
@@ -127,13 +131,14 @@ def polished(curve: Curve, y: float, level: float) -> float:
 
     Values forgive the square of the error of a radius, slopes do not.
     """
-    if not 0.0 < y < end_of(curve.table):
-        return y
-    i, t = place_of(curve.table, y)
-    if math.isnan(level):
-        D, D1, _, _ = slope_near(curve, i, t)
-        step = D / D1
-    else:
-        value, D, _ = _value_in(curve, i, t)
-        step = (value - level) / D
-    return y - step * curve.table.nodes[HALF, i] if abs(step) < 1e-4 else y
+    step = math.inf
+    if 0.0 < y < end_of(curve.table):
+        i, t = place_of(curve.table, y)
+        if math.isnan(level):
+            D, D1, _, _ = slope_near(curve, i, t)
+            step = D / D1
+        else:
+            value, D, _ = _value_in(curve, i, t)
+            step = (value - level) / D
+        y -= step * curve.table.nodes[HALF, i] if abs(step) < 1e-4 else 0.0
+    return y

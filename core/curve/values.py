@@ -145,11 +145,10 @@ def level_at(curve: Curve, i: int) -> float:
 @leaf
 def slope_at(curve: Curve, i: int) -> float:
     """Return D at the lower edge of bin i, whose sign is that of the slope of what is prescribed."""
+    level = level_at(curve, i) if curve.by_load != 0.0 else 0.0
     nodes = curve.table.nodes
     D = curve.B * nodes[SLOPE, i] + curve.g * nodes[V, i] - 0.5 * (1.0 - curve.table.k) * nodes[E, i]
-    if curve.by_load != 0.0:
-        D -= level_at(curve, i) * nodes[KE, i]
-    return D
+    return D - level * nodes[KE, i]
 
 
 @leaf
@@ -217,3 +216,12 @@ def terms_at(curve: Curve, i: int) -> float:
         return terms
     load = nodes[T, i] * (terms + curve.table.share * power + abs(curve.g * nodes[U1, i]))
     return coordinate_of(curve, terms, load)
+
+
+@leaf
+def slope_terms_at(curve: Curve, i: int) -> float:
+    """Return the sum of the sizes of the terms of D at the lower edge of bin i."""
+    level = level_at(curve, i) if curve.by_load != 0.0 else 0.0
+    nodes = curve.table.nodes
+    power = curve.B * nodes[SLOPE, i]
+    return power + abs(curve.g * nodes[V, i]) + 0.5 * (1.0 - curve.table.k) * nodes[E, i] + level * nodes[KE, i]

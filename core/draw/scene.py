@@ -36,11 +36,11 @@ from gradhesion.core.scenes.reduced import (
     RIM_Y,
     STEEP,
     UNIT_OF_FORCE,
+    VALID,
     WINDOW,
     K,
     Punch,
     crest_of,
-    is_valid,
 )
 from gradhesion.core.scenes.tasks import (
     FINEST,
@@ -165,7 +165,7 @@ def frame_of(request: Request) -> Frame | None:
     punch, scenes = punch_of(request), scenes_of(columns_of(request)[0], 0, 1)
     set_lengths(punch, scenes)
     reduced, finer = prepared(punch, EXACT, scenes)
-    known = finer[0] <= FINEST and is_valid(punch, scenes, reduced, 0)
+    known = finer[0] <= FINEST and bool(reduced[VALID, 0])
     return Frame(punch, scenes, reduced, int(finer[0])) if known else None
 
 

@@ -63,7 +63,7 @@ def move_edges(
     shortest = 2.0 * math.pi / np.max(punch.waves[:, 0])
     for i in range(scenes.shape[1]):
         speed, units = scenes[-1, i], reduced[:, i].copy()
-        if not rows.is_valid(punch, scenes, reduced, i) or not 0.0 < speed < math.inf:
+        if not reduced[rows.VALID, i] or not 0.0 < speed < math.inf:
             out[-1, i] = NO_VALUE
             continue
         edge = Edge(

@@ -8,12 +8,10 @@ traces; what each of them gets does not depend on the others.
 import math
 from typing import NamedTuple
 
-import numpy as np
-
 from gradhesion.core.curve.folds import CLOSE, find_folds
 from gradhesion.core.curve.levels import polished
 from gradhesion.core.curve.trace import END, END_LEVEL, LANDING, START
-from gradhesion.core.curve.values import Curve, softness, state_in
+from gradhesion.core.curve.values import Curve, load_curve, softness, state_in
 from gradhesion.core.cycle.disc import Disc, gap_is_open, loading_is_one_disc
 from gradhesion.core.cycle.path import Loaded, Unloaded, load_to, snap_in, unload_from, visited_within, walk_loading
 from gradhesion.core.cycle.pull_off import Lowest, lowest_load
@@ -51,9 +49,9 @@ from gradhesion.core.scenes.reduced import (
     TARGET,
     TARGET_VALUE,
     UNIT_OF_FORCE,
+    VALID,
     WINDOW,
     Punch,
-    is_valid,
 )
 from gradhesion.core.scenes.results import (
     DEEPEST,
@@ -78,7 +76,7 @@ from gradhesion.core.scenes.results import (
     Wanted,
 )
 from gradhesion.core.table.layout import Table, end_of
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Integers
 
 
 class Task(NamedTuple):
@@ -105,16 +103,30 @@ class Task(NamedTuple):
 
 
 class Walked(NamedTuple):
-    """The curves of a scene, that of closing traced and walked."""
+    """The curves of a scene, that of closing traced and walked.
+
+    closing, opening    the curves, which are one at ratio 1
+    pattern             of toughness
+    ratio               of the works of closing and opening
+    loading, unloading  traces of the two, which are one at ratio 1
+    turning             a trace of what is measured where cycles turn: that of closing if that is prescribed
+    columns             those that loading visits, and a stack of unloading, (2, branches)
+    branches            of closing; negative: the table is too short
+    visits              those that loading visits
+    measured            branches of `turning`
+    """
 
     closing: Curve
     opening: Curve
     pattern: Pattern
-    ratio: float  # of the works of closing and opening
-    limits: Floats  # (2,): those of `loading_is_one_disc`
-    branches: int  # of closing; negative: the table is too short
-    visits: int  # those that loading visits
-    measured: int  # branches of the depth or load at which cycles turn, of a trace of its own; -1: those of closing
+    ratio: float
+    loading: Floats
+    unloading: Floats
+    turning: Floats
+    columns: Integers
+    branches: int
+    visits: int
+    measured: int
 
 
 CLOSING_TRACE, OPENING_TRACE, MEASURED_TRACE = range(3)
@@ -168,53 +180,57 @@ def measured_curve(curve: Curve, turn: int) -> Curve:
     return Curve(curve.table, curve.B, curve.g, 1.0, 0.0)
 
 
-@kernel
+@leaf
 def _walk(task: Task, scenes: Floats, reduced: Floats, i: int, y_end: float) -> Walked:
     """Trace the curve of closing of scene i up to y_end, and let loading go along it."""
     rooms, turn = task.rooms, task.punch.turn
-    ratio = reduced[CLOSING, i]
+    table, crest, nodes, polys, ratio = task.table, task.crest, rooms.nodes, rooms.polys, reduced[CLOSING, i]
     pattern = pattern_of(task.punch, scenes, reduced, i)
-    nodes, polys, table, crest = rooms.nodes, rooms.polys, task.table, task.crest
     closing = curve_of(table, crest, pattern, reduced, i, math.sqrt(ratio), y_end, nodes[0], polys[0])
     opening = closing
     if ratio != 1.0:
         opening = curve_of(table, crest, pattern, reduced, i, 1.0, y_end, nodes[1], polys[1])
-    trace = rooms.traces[CLOSING_TRACE]
-    count = find_folds(closing, y_end, trace)
-    visits, measured = 0, -1
-    if count >= 0:
-        visits = walk_loading(closing, trace, count, rooms.columns[0])
+    loading, columns = rooms.traces[CLOSING_TRACE], rooms.columns
+    unloading = rooms.traces[OPENING_TRACE] if ratio != 1.0 else loading
+    turning = loading
+    rooms.limits[0], rooms.limits[1] = 0.0, -1.0
+    branches, visits = find_folds(closing, y_end, loading), 0
+    measured = branches
+    if branches >= 0:
+        visits = walk_loading(closing, loading, branches, columns[0])
         if turn != AT_RIM:  # losses forgive the error of a landing, but not where a cycle turns
-            level = 0.0
-            for v in range(visits):
-                j = rooms.columns[0, v]
-                trace[LANDING, j] = polished(closing, trace[LANDING, j], level)
-                level = trace[END_LEVEL, j]
-        own = measured_curve(closing, turn)
-        if (turn != AT_RIM and own.by_depth != closing.by_depth) or (turn == AT_DEPTH and closing.by_load > 0.0):
-            measured = find_folds(own, y_end, rooms.traces[MEASURED_TRACE])
-    limits = np.array([0.0, -1.0])
-    return Walked(closing, opening, pattern, ratio, limits, count, visits, measured)
+            _polish_landings(closing, loading, columns[0], visits)
+            own = measured_curve(closing, turn)
+            if own.by_depth != closing.by_depth or own.by_load != closing.by_load:
+                turning = rooms.traces[MEASURED_TRACE]
+                measured = find_folds(own, y_end, turning)
+    return Walked(closing, opening, pattern, ratio, loading, unloading, turning, columns, branches, visits, measured)
 
 
 @kernel
-def _turn(task: Task, walked: Walked, reduced: Floats, i: int) -> float:
+def _polish_landings(closing: Curve, loading: Floats, visited: Integers, visits: int) -> None:
+    """Bring the radii at which loading lands to rounding."""
+    level = 0.0
+    for v in range(visits):
+        j = visited[v]
+        loading[LANDING, j] = polished(closing, loading[LANDING, j], level)
+        level = loading[END_LEVEL, j]
+
+
+@kernel
+def _turn(walked: Walked, turn: int, reduced: Floats, i: int) -> float:
     """Return where scene i turns; its rim if nowhere within the table before, 0 if there is no contact."""
-    if task.punch.turn == AT_RIM:
-        return float(reduced[RIM_Y, i])
     target = reduced[TARGET_VALUE, i] / math.sqrt(walked.ratio)
-    if task.punch.turn == AT_DEPTH and target < 0.0:
+    if turn == AT_DEPTH and target < 0.0:
         return 0.0
-    rooms = task.rooms
-    own = walked.measured >= 0
     found = turning_radius(
-        measured_curve(walked.closing, task.punch.turn),
+        measured_curve(walked.closing, turn),
         target,
-        rooms.traces[CLOSING_TRACE],
-        rooms.columns[0],
+        walked.loading,
+        walked.columns[0],
         walked.visits,
-        rooms.traces[MEASURED_TRACE if own else CLOSING_TRACE],
-        walked.measured if own else walked.branches,
+        walked.turning,
+        walked.measured,
     )
     return min(found, float(reduced[RIM_Y, i]))
 
@@ -222,38 +238,32 @@ def _turn(task: Task, walked: Walked, reduced: Floats, i: int) -> float:
 @kernel
 def _loading_keeps_one_disc(task: Task, walked: Walked, y: float, reduced: Floats, i: int) -> bool:
     """Return whether the contact stays one disc on loading up to y, where the cycle turns, and around it there."""
-    rooms, rim, root = task.rooms, reduced[RIM_Y, i], math.sqrt(walked.ratio)
-    weights = walked.closing
-    plain = Curve(
-        task.table, reduced[BY_POWER, i] / root, reduced[BY_WAVES, i] / root, weights.by_depth, weights.by_load
-    )
-    trace, visited = rooms.traces[CLOSING_TRACE], rooms.columns[0]
-    if not loading_is_one_disc(plain, task.disc, trace, visited, walked.visits, y, walked.limits):
-        return False
-    if y >= rim:
-        return True
-    depth, _ = state_in(walked.closing, y)
-    return gap_is_open(plain, task.disc, y, depth, rim)
+    rim, root, plain = reduced[RIM_Y, i], math.sqrt(walked.ratio), walked.closing
+    if walked.pattern.rows.shape[1] > 0:
+        B, g = reduced[BY_POWER, i] / root, reduced[BY_WAVES, i] / root
+        plain = Curve(task.table, B, g, plain.by_depth, plain.by_load)
+    visited, visits = walked.columns[0], walked.visits
+    one = loading_is_one_disc(plain, task.disc, walked.loading, visited, visits, y, task.rooms.limits)
+    if one and y < rim:
+        depth, _ = state_in(walked.closing, y)
+        one = gap_is_open(plain, task.disc, y, depth, rim)
+    return one
 
 
 @kernel
-def _is_tied(task: Task, walked: Walked, opened: int, y: float, reduced: Floats, i: int) -> bool:
-    """Return whether a decision of the cycle of scene i, which turns at y, is close."""
-    traces, closing, opening = task.rooms.traces, walked.closing, walked.opening
-    at_rim = y >= reduced[RIM_Y, i]
-    if rim_is_tied(closing, y) or loading_is_tied(closing, y, at_rim, traces[CLOSING_TRACE], walked.branches):
-        return True
-    if walked.ratio < 1.0 and rim_is_tied(opening, y):
-        return True
-    if unloading_is_tied(opening, y, traces[CLOSING_TRACE if walked.ratio == 1.0 else OPENING_TRACE], opened):
-        return True
-    if task.punch.turn == AT_RIM:
-        return False
+def _target_is_tied(walked: Walked, turn: int, y: float, reduced: Floats, i: int) -> bool:
+    """Return whether the target of scene i, which turns at y, is close to the top of a branch."""
     target = reduced[TARGET_VALUE, i] / math.sqrt(walked.ratio)
-    own = walked.measured >= 0
-    branches = traces[MEASURED_TRACE if own else CLOSING_TRACE]
-    count = walked.measured if own else walked.branches
-    return target_is_tied(measured_curve(closing, task.punch.turn), target, y, branches, count)
+    return target_is_tied(measured_curve(walked.closing, turn), target, y, walked.turning, walked.measured)
+
+
+@leaf
+def _is_tied(walked: Walked, opened: int, y: float, at_rim: bool) -> bool:
+    """Return whether a decision of a cycle that turns at y is close, but for the turn."""
+    closing, opening = walked.closing, walked.opening
+    tied = rim_is_tied(closing, y) or loading_is_tied(closing, y, at_rim, walked.loading, walked.branches)
+    tied = tied or (walked.ratio < 1.0 and rim_is_tied(opening, y))
+    return tied or unloading_is_tied(opening, y, walked.unloading, opened)
 
 
 @leaf
@@ -332,35 +342,29 @@ def put_losses(
 
 
 @kernel
-def _put_cycle(task: Task, walked: Walked, opened: int, y: float, reduced: Floats, i: int, out: Floats) -> int:
+def _put_cycle(walked: Walked, wanted: Wanted, opened: int, y: float, reduced: Floats, i: int, out: Floats) -> int:
     """Store what the cycle of scene i, which turns at y, loses; return its bits of status, -1: too short a table."""
-    rooms, closing, opening = task.rooms, walked.closing, walked.opening
-    loading, visited = rooms.traces[CLOSING_TRACE], rooms.columns[0]
-    unloading = loading if walked.ratio == 1.0 else rooms.traces[OPENING_TRACE]
+    closing, opening, loading, visited = walked.closing, walked.opening, walked.loading, walked.columns[0]
     loaded = load_to(closing, y, loading, visited, walked.visits)
     if not loaded.known:
         return -1
-    unloaded = unload_from(opening, y, unloading, opened, rooms.columns[1])
-    n = visited_within(loading, visited, walked.visits, y)
-    beyond = n > 0 and y == reduced[RIM_Y, i] and reduced[WINDOW, i] < y <= loading[END, visited[n - 1]]
+    unloaded = unload_from(opening, y, walked.unloading, opened, walked.columns[1])
+    n, rim = visited_within(loading, visited, walked.visits, y), reduced[RIM_Y, i]
+    beyond = n > 0 and y == rim and reduced[WINDOW, i] < y <= loading[END, visited[n - 1]]
     if beyond and walked.pattern.rows.shape[1] == 0:
         # on the endless branch: whether the table reaches to this rim depends on the scenes beside (far_rims)
         loaded = Loaded(loaded.lost, loaded.jumps, math.inf, loaded.in_to_rim, True)
     reach = loading[LANDING, visited[n - 1]] if n > 0 else y
-    landing = min(loading[LANDING, visited[0]] if walked.visits > 0 else math.inf, reduced[RIM_Y, i])
+    landing = min(loading[LANDING, visited[0]] if walked.visits > 0 else math.inf, rim)
     cycle = Cycle(loaded, unloaded, y, reach, snap_in(closing, landing))
     bits = put_losses(cycle, opening, walked.pattern, walked.ratio, reduced, i, out)
-    if task.wanted.residual:
+    if wanted.residual:
         top = y  # where one curve leads out beyond the last landing and back, its load does no work
         if walked.ratio == 1.0 and n > 0 and loading[END, visited[n - 1]] == math.inf:
             top = min(y, 1.01 * reach, end_of(closing.table))
-        work = work_of_cycle(closing, opening, top, loading, walked.visits, visited, unloading, opened)
+        work = work_of_cycle(closing, opening, top, loading, walked.visits, visited, walked.unloading, opened)
         out[RESIDUAL, i] = out[ENERGY, i] - work * 2.0 * math.pi * reduced[LENGTH, i] ** 2
-    if task.wanted.contact and not _loading_keeps_one_disc(task, walked, y, reduced, i):
-        bits |= LOADING_NOT_ONE_DISC
-    if _is_tied(task, walked, opened, y, reduced, i):
-        bits |= CLOSE_TO_A_JUMP
-    return bits
+    return bits | (CLOSE_TO_A_JUMP if _is_tied(walked, opened, y, y >= rim) else 0)
 
 
 @kernel
@@ -369,66 +373,65 @@ def turns_of(task: Task, scenes: Floats, reduced: Floats, first: int, last: int,
 
     The curve is traced as far as some scene is sure to turn, and farther where a jump has passed its target.
     """
-    far = 0.0
+    turn, end, far = task.punch.turn, end_of(task.table), 0.0
     for i in range(first, last):
-        far = max(far, reduced[NEED, i] if task.punch.turn != AT_RIM else reduced[RIM_Y, i])
-    end = end_of(task.table)
+        far = max(far, reduced[NEED, i] if turn != AT_RIM else reduced[RIM_Y, i])
     while True:
         walked = _walk(task, scenes, reduced, first, far)
         farther = False
         for i in range(first, last):
-            y = _turn(task, walked, reduced, i) if walked.branches >= 0 else math.nan
-            if task.punch.turn != AT_RIM and y == reduced[RIM_Y, i] and far < min(y, end):
+            out[TURN, i] = math.nan
+            if walked.branches >= 0:
+                out[TURN, i] = reduced[RIM_Y, i] if turn == AT_RIM else _turn(walked, turn, reduced, i)
+            if turn != AT_RIM and out[TURN, i] == reduced[RIM_Y, i] and far < min(reduced[RIM_Y, i], end):
                 farther = True  # not reached as far as the curve is traced
-            out[TURN, i] = y
         if not farther:
             return walked
         far = min(2.0 * far, end)
 
 
 @kernel
-def _last_fold(task: Task, walked: Walked) -> float:
-    """Return the radius of the outermost fold of opening, 0 if there is none; the third trace is overwritten."""
-    if walked.branches < 0:
-        return 0.0
-    trace = task.rooms.traces[MEASURED_TRACE]
-    count = find_folds(walked.opening, math.inf, trace)
+def _last_fold(opening: Curve, trace: Floats) -> float:
+    """Return the radius of the outermost fold of opening, 0 if there is none; the trace is overwritten."""
+    count = find_folds(opening, math.inf, trace)
     if count <= 0:
         return 0.0 if count == 0 else math.inf
     return float(trace[START, count - 1] if trace[END, count - 1] == math.inf else trace[END, count - 1])
 
 
-@kernel
-def open_curve(task: Task, walked: Walked, first: int, last: int, out: Floats) -> tuple[int, float]:
+@leaf
+def open_curve(walked: Walked, turn: int, first: int, last: int, out: Floats) -> tuple[int, float]:
     """Trace the curve of opening of scenes whose TURN is stored; return its branches and the farthest turn.
 
     Those that turn beyond the table get SHORT as status and no TURN.
     """
-    end, farthest = end_of(walked.opening.table), 0.0
+    end, farthest, opened = end_of(walked.opening.table), 0.0, walked.branches
     for i in range(first, last):
-        beyond = task.punch.turn != AT_RIM and out[TURN, i] >= end and walked.branches >= 0
+        beyond = turn != AT_RIM and out[TURN, i] >= end and opened >= 0
         if math.isnan(out[TURN, i]) or beyond:
             no_value(out, i, SHORT)
         else:
             farthest = max(farthest, out[TURN, i])
-    opened = walked.branches
-    if walked.ratio < 1.0 and walked.branches >= 0 and farthest > 0.0:
-        opened = find_folds(walked.opening, farthest, task.rooms.traces[OPENING_TRACE])
+    if walked.ratio < 1.0 and opened >= 0 and farthest > 0.0:
+        opened = find_folds(walked.opening, farthest, walked.unloading)
     return opened, farthest
 
 
 @kernel
 def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Solve the scenes `first` to `last` - 1, all of one curve and valid; store their results, or SHORT as status."""
+    wanted, turn = task.wanted, task.punch.turn
     walked = turns_of(task, scenes, reduced, first, last, out)
-    opening = walked.opening
-    opened, farthest = open_curve(task, walked, first, last, out)
-    table = task.by_load if walked.pattern.rows.shape[1] == 0 else opening.table
-    pull = Curve(table, opening.B, opening.g, 0.0, 1.0)
-    lowest = Lowest(0.0, 0.0, 0.0, 0.0, True)
+    opened, farthest = open_curve(walked, turn, first, last, out)
+    patterned = walked.pattern.rows.shape[1] > 0
+    pull = load_curve(walked.opening)
+    if not patterned:
+        pull = Curve(task.by_load, pull.B, pull.g, 0.0, 1.0)
+    lowest, last_fold, bins = Lowest(0.0, 0.0, 0.0, 0.0, True), 0.0, pull.table.bins
     if farthest > 0.0:
-        lowest = lowest_load(pull, farthest, 0, table.bins)
-    last_fold = _last_fold(task, walked) if task.wanted.saturation else 0.0
+        lowest = lowest_load(pull, farthest, 0, bins)
+    if wanted.saturation and walked.branches >= 0:
+        last_fold = _last_fold(walked.opening, task.rooms.traces[MEASURED_TRACE])
     for i in range(first, last):
         y = out[TURN, i]
         if math.isnan(y):
@@ -436,39 +439,35 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
         if y == 0.0:
             put_no_contact(scenes, i, out)
             continue
-        own = lowest
+        own, bits = lowest, -1
         if y < farthest and max(lowest.y, lowest.second_y) > y:
-            own = lowest_load(pull, y, 0, table.bins)
-        bits = -1
-        if walked.branches >= 0 and opened >= 0 and own.known and (own.load < 0.0 or task.punch.rows.shape[1] > 0):
-            bits = _put_cycle(task, walked, opened, y, reduced, i, out)
+            own = lowest_load(pull, y, 0, bins)
+        if walked.branches >= 0 and opened >= 0 and own.known and (own.load < 0.0 or patterned):
+            bits = _put_cycle(walked, wanted, opened, y, reduced, i, out)
         if bits < 0:
             no_value(out, i, SHORT)
             continue
+        if turn != AT_RIM and _target_is_tied(walked, turn, y, reduced, i):
+            bits |= CLOSE_TO_A_JUMP
+        if wanted.contact and not _loading_keeps_one_disc(task, walked, y, reduced, i):
+            bits |= LOADING_NOT_ONE_DISC
         out[STATUS, i] = bits | put_pull_off(own, y, reduced, i, out)
         out[SATURATION, i] = last_fold * reduced[LENGTH, i]
 
 
 @kernel
-def _may_be_solved(task: Task, scenes: Floats, reduced: Floats, i: int, out: Floats) -> bool:
-    """Return whether scene i is valid and within reach; store what it is if not."""
-    if not is_valid(task.punch, scenes, reduced, i):
-        no_value(out, i, NO_VALUE)
-        return False
-    if reduced[NEED, i] > task.reach:
-        no_value(out, i, SHORT)
-        return False
-    return True
+def curve_end(reach: float, scenes: Floats, reduced: Floats, start: int, last: int, out: Floats) -> int:
+    """Return the end of the scenes from `start` on that share its curve; `start` if it cannot be solved (stored).
 
-
-@kernel
-def curve_end(task: Task, scenes: Floats, reduced: Floats, start: int, last: int, out: Floats) -> int:
-    """Return the end of the scenes from `start` on that share its curve; `start` if it cannot be solved (stored)."""
-    end = start
-    while end < last and (end == start or same_curve(scenes, reduced, start, end)):  # NaN is no curve, not even its own
-        if not _may_be_solved(task, scenes, reduced, end, out):
-            return end
-        end += 1
+    Scenes that must be known beyond `reach` are left as SHORT.
+    """
+    end, solvable = start, True
+    while end < last and solvable and (end == start or same_curve(scenes, reduced, start, end)):  # NaN is no curve
+        solvable = reduced[VALID, end] > 0.0 and reduced[NEED, end] <= reach
+        if solvable:
+            end += 1
+        else:
+            no_value(out, end, SHORT if reduced[VALID, end] > 0.0 else NO_VALUE)
     return end
 
 
@@ -485,7 +484,7 @@ def solve_patterned_forces(task: Task, scenes: Floats, reduced: Floats, first: i
     """Solve the pull-off alone of the scenes `first` to `last` - 1 with a pattern: no farther than it can be."""
     rooms = task.rooms
     for i in range(first, last):
-        if not _may_be_solved(task, scenes, reduced, i, out):
+        if curve_end(task.reach, scenes, reduced, i, i + 1, out) == i:
             continue
         pattern = pattern_of(task.punch, scenes, reduced, i)
         lowest = Lowest(0.0, 0.0, 0.0, 0.0, False)
@@ -505,7 +504,7 @@ def solve_cycles(task: Task, scenes: Floats, reduced: Floats, first: int, last: 
         return
     start = first
     while start < last:
-        end = curve_end(task, scenes, reduced, start, last, out)
+        end = curve_end(task.reach, scenes, reduced, start, last, out)
         if end > start:
             solve_curve(task, scenes, reduced, start, end, out)
         start = max(end, start + 1)

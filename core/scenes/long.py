@@ -31,8 +31,8 @@ from gradhesion.core.scenes.reduced import (
     NEED,
     RIM_Y,
     TARGET_VALUE,
+    VALID,
     WINDOW,
-    is_valid,
 )
 from gradhesion.core.scenes.results import SATURATION, SHORT, STATUS
 from gradhesion.core.table.layout import end_of
@@ -58,7 +58,7 @@ def solve_long(
     turn, bins = task.punch.turn, task.by_load.bins
     for i in range(scenes.shape[1]):
         no_value(out, i, NO_VALUE)
-        if not is_valid(task.punch, scenes, reduced, i):
+        if not reduced[VALID, i]:
             continue
         if turn == AT_DEPTH and reduced[TARGET_VALUE, i] < 0.0:
             put_no_contact(scenes, i, out)

@@ -30,9 +30,9 @@ RIM_Y, TARGET_VALUE, CLOSING = 7, 8, 9
 # the rim; the target in its unit; w_c/w_o
 WINDOW, PULL, NEED = 10, 11, 12
 # radii: beyond the first no fold; the pull-off within the second; the table must reach to the third
-PATTERN_WAVES, MOST, STEEP, EXPONENT = 13, 14, 15, 16
-# waves of the pattern in one of the profile; bounds of kappa and its slope; k
-REDUCED_ROWS: Final = 17
+PATTERN_WAVES, MOST, STEEP, EXPONENT, VALID = 13, 14, 15, 16, 17
+# waves of the pattern in one of the profile; bounds of kappa and its slope; k; 1 if the scene can have a value, else 0
+REDUCED_ROWS: Final = 18
 
 DISPLACEMENT, AT_LOAD, MACHINE = range(3)
 """What is prescribed."""
@@ -157,28 +157,7 @@ def fill_reach(punch: Punch, i: int, crest: float, steepest: float, mean: float,
 
 
 @kernel
-def reduce_scenes(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats) -> None:
-    """Fill the reduced numbers of all scenes but MOST and STEEP; neighbours share what depends on k alone."""
-    k = nu = theta = depth_factor = crest = steepest = math.nan
-    mean = mean_of(punch.waves)
-    for i in range(scenes.shape[1]):
-        if scenes[K, i] != k:
-            k, nu = scenes[K, i], math.nan
-            if not 0.0 <= k <= 1.0:
-                theta = math.nan
-            else:
-                depth_factor, crest = depth_factor_of(k, punch.exponent), crest_of(k, punch.waves)
-                low, high = between(basis, k)
-                steepest = 1.05 * max(basis.crest[low], basis.crest[high])
-        if scenes[NU, i] != nu:
-            nu = scenes[NU, i]
-            theta = theta_of(k, nu)
-        reduce_scene(punch, scenes, i, theta, depth_factor, reduced)
-        fill_reach(punch, i, crest, steepest, mean, reduced)
-
-
-@kernel
-def is_valid(punch: Punch, scenes: Floats, reduced: Floats, i: int) -> bool:
+def _is_valid(punch: Punch, scenes: Floats, reduced: Floats, i: int) -> bool:
     """Return whether all parameters of scene i are in their ranges, and its contact is not too small for tables."""
     sizes = 0.0 < scenes[MODULUS, i] < math.inf and 0.0 < scenes[C0, i] < math.inf
     sizes = sizes and 0.0 < scenes[WAVELENGTH, i] < math.inf and 0.0 <= scenes[AMPLITUDE, i] < math.inf
@@ -199,6 +178,28 @@ def _is_below_tables(punch: Punch, reduced: Floats, i: int) -> bool:
     # d depth/dy = 0 is B m y^(m - eta) = eta; at k = 1 the contact shrinks to a point, and B y^m is compared with 1
     jump_out = eta / punch.exponent if eta > 0.0 else 1.0
     return reduced[RIM_Y, i] < least or reduced[BY_POWER, i] * least ** (punch.exponent - eta) > jump_out
+
+
+@kernel
+def reduce_scenes(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats) -> None:
+    """Fill the reduced numbers of all scenes but MOST and STEEP; neighbours share what depends on k alone."""
+    k = nu = theta = depth_factor = crest = steepest = math.nan
+    mean = mean_of(punch.waves)
+    for i in range(scenes.shape[1]):
+        if scenes[K, i] != k:
+            k, nu = scenes[K, i], math.nan
+            if not 0.0 <= k <= 1.0:
+                theta = math.nan
+            else:
+                depth_factor, crest = depth_factor_of(k, punch.exponent), crest_of(k, punch.waves)
+                low, high = between(basis, k)
+                steepest = 1.05 * max(basis.crest[low], basis.crest[high])
+        if scenes[NU, i] != nu:
+            nu = scenes[NU, i]
+            theta = theta_of(k, nu)
+        reduce_scene(punch, scenes, i, theta, depth_factor, reduced)
+        fill_reach(punch, i, crest, steepest, mean, reduced)
+        reduced[VALID, i] = 1.0 if _is_valid(punch, scenes, reduced, i) else 0.0
 
 
 def reduced_of(punch: Punch, basis: Basis, scenes: Floats, most: Floats, steep: Floats) -> Floats:

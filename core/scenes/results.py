@@ -56,12 +56,14 @@ class Rooms(NamedTuple):
     columns     those that loading visits, and a stack of unloading, (2, branches)
     nodes       of the tables of closing and of opening of interfaces with a pattern, (2, ROWS, bins + 1)
     polys       their polynomials, (2, bins, LANES + 1, N)
+    limits      those of `loading_is_one_disc` of the last curve, (2,)
     """
 
     traces: Floats
     columns: Integers
     nodes: Floats
     polys: Floats
+    limits: Floats
 
 
 def rooms_for(bins: int, patterned: bool) -> Rooms:
@@ -69,4 +71,4 @@ def rooms_for(bins: int, patterned: bool) -> Rooms:
     nodes, polys = room_of(bins if patterned else 0, LANES + 1)
     traces = np.empty((3, *room_for(bins).shape))
     columns = np.empty((2, traces.shape[2]), dtype=np.int64)
-    return Rooms(traces, columns, np.stack((nodes, nodes)), np.stack((polys, polys)))
+    return Rooms(traces, columns, np.stack((nodes, nodes)), np.stack((polys, polys)), np.empty(2))

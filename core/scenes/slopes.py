@@ -46,8 +46,6 @@ from gradhesion.core.jit import kernel
 from gradhesion.core.problem.material import theta_slopes
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, SENSITIVITIES, TURNS
 from gradhesion.core.scenes.cycles import (
-    CLOSING_TRACE,
-    OPENING_TRACE,
     Task,
     Walked,
     curve_end,
@@ -212,19 +210,17 @@ def _observe(pair: Pair, frozen: Frozen, weight: float, out: Floats) -> None:
 
 
 @kernel
-def _freeze(task: Task, walked: Walked, opened: int, y: float, pull: float, turns: bool, jumps: Floats) -> Frozen:
+def _freeze(walked: Walked, at_depth: bool, opened: int, y: float, pull: float, turns: bool, jumps: Floats) -> Frozen:
     """Return the radii of the cycle of a scene that turns at y, short of its rim if it `turns`."""
-    traces, visited = task.rooms.traces, task.rooms.columns[0]
-    own = traces[CLOSING_TRACE]
+    own, visited = walked.loading, walked.columns[0]
     loading = list_loading_jumps(walked.closing, y, own, visited, walked.visits, jumps)
     n = visited_within(own, visited, walked.visits, y)
     passed = turns and n > 0 and own[LANDING, visited[n - 1]] == y
     turn = y
     if passed:
         turn = jumps[LANDED, loading - 1]
-    trace = own if walked.ratio == 1.0 else traces[OPENING_TRACE]
-    count = list_unloading_jumps(walked.opening, turn, trace, opened, jumps, loading)
-    by_depth = 1.0 if task.punch.turn == AT_DEPTH else 0.0
+    count = list_unloading_jumps(walked.opening, turn, walked.unloading, opened, jumps, loading)
+    by_depth = 1.0 if at_depth else 0.0
     pull = turn if pull == y else pull
     left = jumps[LEFT, loading - 1] if passed else 0.0
     return Frozen(pull, turn, turns, passed, left, by_depth, 1.0 - by_depth, jumps, loading, count)
@@ -337,13 +333,13 @@ def _fill_scene(
 ) -> bool:
     """Store the derivatives of scene i, which turns at y; return False if the table is too short."""
     pair = Pair(walked.closing, walked.opening, walked.pattern, walked.ratio)
-    own, n = task.rooms.traces[CLOSING_TRACE], walked.visits
+    own, n = walked.loading, walked.visits
     lowest = lowest_load(pair.opening, y, 0, pair.opening.table.bins)
-    beyond = y > end_of(pair.closing.table) and (n == 0 or own[END, task.rooms.columns[0, n - 1]] < y)
+    beyond = y > end_of(pair.closing.table) and (n == 0 or own[END, walked.columns[0, n - 1]] < y)
     if walked.branches < 0 or opened < 0 or beyond or not (lowest.known and lowest.load < 0.0):
         return False
     turns = task.punch.turn != AT_RIM and y < reduced[RIM_Y, i]
-    frozen = _freeze(task, walked, opened, y, lowest.y, turns, near.jumps)
+    frozen = _freeze(walked, task.punch.turn == AT_DEPTH, opened, y, lowest.y, turns, near.jumps)
     near.scene[:, 0], near.numbers[:, 0] = scenes[:, i], reduced[:, i]
     near.value[:] = 0.0
     _observe(pair, frozen, 1.0, near.value)
@@ -359,10 +355,10 @@ def fill_slopes(task: Task, near: Near, scenes: Floats, reduced: Floats, first: 
     """Store the derivatives of the scenes `first` to `last` - 1 of one exponent, or SHORT as status."""
     start = first
     while start < last:
-        end = curve_end(task, scenes, reduced, start, last, out)
+        end = curve_end(task.reach, scenes, reduced, start, last, out)
         if end > start:
             walked = turns_of(task, scenes, reduced, start, end, out)
-            opened, _ = open_curve(task, walked, start, end, out)
+            opened, _ = open_curve(walked, task.punch.turn, start, end, out)
             for i in range(start, end):
                 y = out[TURN, i]
                 if y > 0.0 and not _fill_scene(task, near, walked, opened, y, scenes, reduced, i, out):

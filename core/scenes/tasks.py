@@ -38,12 +38,12 @@ from gradhesion.core.scenes.reduced import (
     PULL,
     RIM,
     RIM_Y,
+    VALID,
     WAVELENGTH,
     WINDOW,
     K,
     Punch,
     depth_factor_of,
-    is_valid,
     reduced_of,
 )
 from gradhesion.core.scenes.results import DEEPEST, RESULT_ROWS, SATURATION, SHORT, STATUS, Rooms, Wanted, rooms_for
@@ -117,7 +117,7 @@ def near_forces(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats, out
     nodes[Y] = basis.fixed[0, : most + 1]  # a table ends where its last bin does, filled or not
     weights, k, first, last = np.zeros(NODES), math.nan, 0, 0
     for i in range(scenes.shape[1]):
-        if not is_valid(punch, scenes, reduced, i):
+        if not reduced[VALID, i]:
             no_value(out, i, NO_VALUE)
             continue
         if scenes[K, i] != k:
