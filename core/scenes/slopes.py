@@ -84,20 +84,19 @@ from gradhesion.core.scenes.reduced import (
 )
 from gradhesion.core.scenes.results import RESULT_ROWS, SHORT, TURN, Rooms, Wanted, rooms_for
 from gradhesion.core.scenes.tasks import (
-    NearRooms,
+    NearTables,
     Request,
     columns_of,
     end_of_exponent,
     in_groups,
     long_table,
-    near_rooms,
     near_task,
     punch_of,
     run_parts,
     scenes_of,
     solve_far,
 )
-from gradhesion.core.table.basis import NODES, Basis, basis_of, empty_table, fill_table
+from gradhesion.core.table.basis import NODES, Basis, basis_of, empty_table, fill_table, kept_tables, room_of
 from gradhesion.core.table.layout import EXACT, GEOMETRIC, Table, Y, end_of, span_of
 from gradhesion.core.types import Floats, Integers
 
@@ -370,9 +369,10 @@ def fill_slopes(task: Task, near: Near, scenes: Floats, reduced: Floats, first: 
 def near_slopes(
     punch: Punch,
     wanted: Wanted,
-    basis: Basis,
+    near: NearTables,
     profile: Floats,
-    near: NearRooms,
+    nodes: Floats,
+    polys: Floats,
     own_rooms: Rooms,
     scenes: Floats,
     reduced: Floats,
@@ -380,17 +380,18 @@ def near_slopes(
 ) -> None:
     """Store the derivatives of scenes in the order of their exponents; those that reach beyond the basis are SHORT.
 
-    `near` has room for the table of an exponent and its four neighbours.
+    `nodes` and `polys` have room for the tables of four neighbours of an exponent, `own_rooms` for those of a scene
+    with a pattern.
     """
-    nodes, polys, first = near.nodes, near.polys, int(np.int64(0))  # a plain 0 would be a type of its own to callees
+    basis, first = near.basis, int(np.int64(0))  # a plain 0 would be a type of its own to callees
     while first < scenes.shape[1]:
         last, k = end_of_exponent(scenes, first), scenes[K, first]
-        task = near_task(punch, wanted, basis, basis, profile, near, scenes, reduced, first, last)
+        task = near_task(punch, wanted, near, profile, scenes, reduced, first, last)
         tables = (
-            empty_table(basis, k - 2.0 * _STEP, nodes[1], polys[1]),
-            empty_table(basis, k - _STEP, nodes[2], polys[2]),
-            empty_table(basis, k + _STEP, nodes[3], polys[3]),
-            empty_table(basis, k + 2.0 * _STEP, nodes[4], polys[4]),
+            empty_table(basis, k - 2.0 * _STEP, nodes[0], polys[0]),
+            empty_table(basis, k - _STEP, nodes[1], polys[1]),
+            empty_table(basis, k + _STEP, nodes[2], polys[2]),
+            empty_table(basis, k + 2.0 * _STEP, nodes[3], polys[3]),
         )
         fill_slopes(task, _near_of(tables, basis, own_rooms, polys.shape[1], 0), scenes, reduced, first, last, out)
         first = last
@@ -400,11 +401,12 @@ def _near(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Fl
     """Store the derivatives of near scenes of one fineness of bins."""
     basis, patterned = basis_of(punch.exponent, punch.waves, EXACT, finer), punch.rows.shape[1] > 0
     bins = basis.values.shape[0] - 1
-    near = near_rooms(basis, punch, 5)
-    near.nodes[:, Y] = basis.fixed[0, : bins + 1]  # a table ends where its last bin does, filled or not
-    near_slopes(
-        punch, _WANTED, basis, profile, near, rooms_for(bins if patterned else 0, patterned), scenes, reduced, out
-    )
+    nodes, polys = (np.stack([room] * 4) for room in room_of(bins))
+    nodes[:, Y] = basis.fixed[0, : bins + 1]  # a table ends where its last bin does, filled or not
+    own_rooms = rooms_for(bins if patterned else 0, patterned)
+    with kept_tables(basis) as kept:
+        near = NearTables(basis, kept, basis, kept, rooms_for(bins, patterned))
+        near_slopes(punch, _WANTED, near, profile, nodes, polys, own_rooms, scenes, reduced, out)
 
 
 def _far(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Floats, out: Floats) -> None:

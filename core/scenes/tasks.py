@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from gradhesion.core.curve.values import Curve, bin_of
 from gradhesion.core.cycle.disc import disc_of, profile_of
 from gradhesion.core.cycle.long import MOST, NEAR, Long, space_for
-from gradhesion.core.cycle.pull_off import envelope_place, lowest_load
+from gradhesion.core.cycle.pull_off import Lowest, envelope_place, lowest_load
 from gradhesion.core.cycle.waves import Waves, reach_of, waves_of
 from gradhesion.core.edge.pattern import bins_of_wave, bounds_of, rows_by_number
 from gradhesion.core.jit import kernel
@@ -48,15 +48,17 @@ from gradhesion.core.scenes.reduced import (
 )
 from gradhesion.core.scenes.results import DEEPEST, RESULT_ROWS, SATURATION, SHORT, STATUS, Rooms, Wanted, rooms_for
 from gradhesion.core.table.basis import (
-    NODES,
     Basis,
+    Kept,
     basis_of,
     between,
     empty_table,
-    fill_table,
-    fill_weights,
+    fill_kept,
     is_interpolated,
+    kept_table,
+    kept_tables,
     mix_bins,
+    place_for,
     room_of,
 )
 from gradhesion.core.table.filling import fill_bins, source_of, waves_at, width_of, with_bounds
@@ -65,12 +67,9 @@ from gradhesion.core.table.layout import (
     EXACT,
     FIRST,
     GEOMETRIC,
-    LANES,
     PER_WAVE,
-    ROWS,
     U1,
     E,
-    N,
     Source,
     Table,
     U,
@@ -97,7 +96,7 @@ _BINS_OF_A_WAVE: Final = 1024
 """Bins of a wave at most, where waves are summed: 5 MB for each doubling of their number."""
 _KEPT_WAVES: Final = 64e6
 """Bytes of all waves (cycle/waves.py) that are kept between calls."""
-_AROUND: Final = 6
+_AROUND: Final = 8
 """Bins around the lowest place of the envelope that are filled at once for a pull-off."""
 _LONGEST: Final = 30.0
 """By which a table may be longer than what was asked for at first."""
@@ -110,38 +109,28 @@ Group: TypeAlias = Callable[[int, Floats, Floats, Floats], None]
 
 
 @kernel
-def near_forces(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats, out: Floats) -> None:
+def near_forces(punch: Punch, basis: Basis, kept: Kept, scenes: Floats, reduced: Floats, out: Floats) -> None:
     """Solve the pull-off alone of scenes in the order of their exponents; bins are filled where the search arrives."""
     most = basis.values.shape[0] - 1
-    nodes, polys = np.zeros((ROWS, most + 1)), np.zeros((most, LANES, N))
-    nodes[Y] = basis.fixed[0, : most + 1]  # a table ends where its last bin does, filled or not
-    weights, k, first, last = np.zeros(NODES), math.nan, 0, 0
+    k, place = math.nan, 0
     for i in range(scenes.shape[1]):
-        if not reduced[VALID, i]:
+        if reduced[VALID, i] == 0.0:
             no_value(out, i, NO_VALUE)
             continue
         if scenes[K, i] != k:
-            k, first, last = scenes[K, i], 0, 0
-            fill_weights(basis.k, k, weights)
-        table = empty_table(basis, k, nodes, polys)
+            k = scenes[K, i]
+            place = place_for(basis, kept, k)
+            table = empty_table(basis, k, kept.nodes[place], kept.polys[place])
         curve, rim = Curve(table, reduced[BY_POWER, i], reduced[BY_WAVES, i], 0.0, 1.0), reduced[RIM_Y, i]
-        place = bin_of(table, min(envelope_place(curve), rim))
-        if rim <= end_of(table):
-            j = bin_of(table, rim)
-            mix_bins(basis, k, weights, j, j + 1, nodes, polys)
-        around = _AROUND
-        while True:
-            low, high = max(place - around, 0), min(place + around, most)
-            if first == last:
-                first = last = low
-            if low < first:
-                mix_bins(basis, k, weights, low, first, nodes, polys)
-            if high > last:
-                mix_bins(basis, k, weights, last, high, nodes, polys)
-            first, last = min(low, first), max(high, last)
-            lowest = lowest_load(curve, rim, first, last)
-            if lowest.known or (low == 0 and high == most):
-                break
+        at_rim, around = bin_of(table, min(rim, end_of(table))), _AROUND
+        middle = bin_of(table, min(envelope_place(curve), rim))
+        if rim <= end_of(table) and not kept.filled[place, 0] <= at_rim < kept.filled[place, 1]:
+            mix_bins(basis, k, kept.weights[place], at_rim, at_rim + 1, kept.nodes[place], kept.polys[place])
+        lowest = Lowest(0.0, 0.0, 0.0, 0.0, False)
+        while not lowest.known and around < 3 * most:
+            low, high = max(middle - around, 0) // _AROUND * _AROUND, min(middle + around, most)
+            fill_kept(basis, kept, place, low, high)
+            lowest = lowest_load(curve, rim, kept.filled[place, 0], kept.filled[place, 1])
             around *= 3
         put_force(lowest, reduced, i, out)
 
@@ -155,44 +144,34 @@ def end_of_exponent(scenes: Floats, first: int) -> int:
     return last
 
 
-class NearRooms(NamedTuple):
-    """Room for near tables and the curves on them.
+class NearTables(NamedTuple):
+    """What near scenes are solved on.
 
-    rooms       for curves
-    nodes, polys  of the table and, of leading terms, of that of its loads, (2, ROWS, .) and (2, .)
-    weights     (NODES,)
+    basis, kept         of the cycle, and its tables
+    by_load, kept_by_load  of the pull-off: the same but for the leading terms of short waves
+    rooms               for curves
     """
 
+    basis: Basis
+    kept: Kept
+    by_load: Basis
+    kept_by_load: Kept
     rooms: Rooms
-    nodes: Floats
-    polys: Floats
-    weights: Floats
-
-
-def near_rooms(basis: Basis, punch: Punch, tables: int = 1) -> NearRooms:
-    """Return room for that many tables of a basis."""
-    bins, patterned = basis.values.shape[0] - 1, punch.rows.shape[1] > 0
-    nodes, polys = (np.stack([room] * tables) for room in room_of(bins))
-    return NearRooms(rooms_for(bins, patterned), nodes, polys, np.zeros(NODES))
 
 
 @kernel
 def near_task(
     punch: Punch,
     wanted: Wanted,
-    basis: Basis,
-    by_load: Basis,
+    near: NearTables,
     profile: Floats,
-    near: NearRooms,
     scenes: Floats,
     reduced: Floats,
     first: int,
     last: int,
 ) -> Task:
-    """Return what the scenes `first` to `last` - 1, of one exponent, are solved with, tables filled as they need.
-
-    `by_load` is the basis of the pull-off, which is that of the cycle but for the leading terms of short waves.
-    """
+    """Return what the scenes `first` to `last` - 1, of one exponent, are solved with, tables filled as they need."""
+    basis = near.basis
     most = basis.values.shape[0] - 1
     reach = basis.start + (most - 2 - GEOMETRIC) * basis.width
     k, far = scenes[K, first], 0.0
@@ -202,10 +181,10 @@ def near_task(
     if not (far > 0.0 and 0.0 <= k <= 1.0):
         k = 0.5  # none can be solved here
     bins = min(GEOMETRIC + max(16, int((far - basis.start) / basis.width) + 2), most)
-    table = fill_table(basis, k, near.weights, bins, near.nodes[0], near.polys[0])
+    table = kept_table(basis, near.kept, k, bins)
     pull = table
-    if by_load.form != basis.form:
-        pull = fill_table(by_load, k, near.weights, bins, near.nodes[1], near.polys[1])
+    if near.by_load.form != basis.form:
+        pull = kept_table(near.by_load, near.kept_by_load, k, bins)
     low, high = between(basis, k)
     crest = 1.01 * max(basis.crest[low], basis.crest[high])
     disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
@@ -214,21 +193,13 @@ def near_task(
 
 @kernel
 def near_cycles(
-    punch: Punch,
-    wanted: Wanted,
-    basis: Basis,
-    by_load: Basis,
-    profile: Floats,
-    near: NearRooms,
-    scenes: Floats,
-    reduced: Floats,
-    out: Floats,
+    punch: Punch, wanted: Wanted, near: NearTables, profile: Floats, scenes: Floats, reduced: Floats, out: Floats
 ) -> None:
     """Solve cycles in the order of their exponents; scenes that reach beyond the basis are left as SHORT."""
     first = int(np.int64(0))  # a plain 0 would be a type of its own, for which callees are compiled once more
     while first < scenes.shape[1]:
         last = end_of_exponent(scenes, first)
-        task = near_task(punch, wanted, basis, by_load, profile, near, scenes, reduced, first, last)
+        task = near_task(punch, wanted, near, profile, scenes, reduced, first, last)
         solve_cycles(task, scenes, reduced, first, last, out)
         first = last
 
@@ -263,11 +234,12 @@ def _solve_near(
     basis = near_basis(punch, form, scenes, finer)
     by_load = basis if form == EXACT else near_basis(punch, BY_LOAD, scenes, finer)
     patterned = punch.rows.shape[1] > 0
-    if not wanted.cycle and punch.turn == AT_RIM and not patterned:
-        near_forces(punch, by_load, scenes, reduced, out)
-        return
-    rooms = near_rooms(basis, punch, 1 if form == EXACT else 2)
-    near_cycles(punch, wanted, basis, by_load, profile, rooms, scenes, reduced, out)
+    with kept_tables(basis) as kept, kept_tables(by_load) as pulls:
+        if wanted.cycle or punch.turn != AT_RIM or patterned:
+            near = NearTables(basis, kept, by_load, pulls, rooms_for(basis.values.shape[0] - 1, patterned))
+            near_cycles(punch, wanted, near, profile, scenes, reduced, out)
+        else:
+            near_forces(punch, by_load, pulls, scenes, reduced, out)
 
 
 _tables: OrderedDict[tuple[object, ...], tuple[Table, Source, float]] = OrderedDict()

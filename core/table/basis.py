@@ -10,6 +10,8 @@ call, so that a value does not depend on its neighbours.
 import math
 import threading
 from collections import OrderedDict
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -47,7 +49,7 @@ from gradhesion.core.table.layout import (
     Y,
 )
 from gradhesion.core.table.leading import crests_of
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Integers
 
 NODES: Final = 21
 _MOST_HARMONICS: Final = 8
@@ -60,6 +62,10 @@ FIXED: Final = (Y, P, SLOPE, BP, M0, PC, YC, HALF)
 """Rows that do not depend on k."""
 _KEPT: Final = 16
 """Bases kept, of five megabytes each: the bins of patterns have up to 13 widths."""
+_TABLES: Final = 8
+"""Tables of a basis that a thread keeps, of 0.4 MB each."""
+_LENT: Final = 4
+"""Threads for which tables of a basis are kept between calls."""
 
 
 class Basis(NamedTuple):
@@ -141,7 +147,9 @@ def basis_of(exponent: float, waves: Floats, form: int = EXACT, finer: int = 1, 
         if key not in _bases:
             _bases[key] = make_basis(exponent, waves, form, finer, k)
             if len(_bases) > _KEPT:
-                _bases.popitem(last=False)
+                _, gone = _bases.popitem(last=False)
+                _free.pop(id(gone.values), None)
+            _free[id(_bases[key].values)] = []
         _bases.move_to_end(key)
         return _bases[key]
 
@@ -224,9 +232,92 @@ def fill_table(basis: Basis, k: float, weights: Floats, bins: int, nodes: Floats
     """Return the table of an exponent with its first `bins` bins filled, bounds and integrals included."""
     fill_weights(basis.k, k, weights)
     mix_bins(basis, k, weights, 0, bins, nodes, polys)
+    return bounded_table(basis, k, bins, nodes, polys)
+
+
+@kernel
+def bounded_table(basis: Basis, k: float, bins: int, nodes: Floats, polys: Floats) -> Table:
+    """Return the table of an exponent whose first `bins` bins are filled."""
     low, high = between(basis, k)
     crest = 1.01 * max(basis.crest[low], basis.crest[high])
     return with_bounds(empty_table(basis, k, nodes, polys), crest, bins)
+
+
+class Kept(NamedTuple):
+    """Tables on one basis, of the last exponents that were asked for, as far as they are filled.
+
+    k           their exponents, (_TABLES,), NaN: none
+    filled      the first bin that is filled and the one after the last, (_TABLES, 2)
+    oldest      which of them is the next to go, (1,)
+    weights     of `fill_weights`, (_TABLES, NODES)
+    nodes, polys  those of the tables, (_TABLES, ROWS, bins + 1) and (_TABLES, bins, LANES, N)
+    """
+
+    k: Floats
+    filled: Integers
+    oldest: Integers
+    weights: Floats
+    nodes: Floats
+    polys: Floats
+
+
+_free: dict[int, list[Kept]] = {}
+"""Kept tables that no thread uses, for each basis that is kept: by the identity of its values."""
+
+
+@contextmanager
+def kept_tables(basis: Basis) -> Iterator[Kept]:
+    """Lend a thread tables that are kept between calls."""
+    bins = basis.values.shape[0] - 1
+    with _lock:
+        free = _free.get(id(basis.values), [])
+        kept = free.pop() if free else None
+    if kept is None:
+        nodes, polys = np.zeros((_TABLES, ROWS, bins + 1)), np.zeros((_TABLES, bins, LANES, N))
+        nodes[:, Y] = basis.fixed[0, : bins + 1]  # a table ends where its last bin does, filled or not
+        marks = np.zeros((_TABLES, 2), dtype=np.int64), np.zeros(1, dtype=np.int64)
+        kept = Kept(np.full(_TABLES, np.nan), *marks, np.zeros((_TABLES, NODES)), nodes, polys)
+    yield kept
+    with _lock:
+        free = _free.get(id(basis.values), [])
+        if len(free) < _LENT:
+            free.append(kept)
+
+
+@kernel
+def place_for(basis: Basis, kept: Kept, k: float) -> int:
+    """Return the place of the table of an exponent, an empty one if it is not among those that are kept."""
+    for place in range(_TABLES):
+        if kept.k[place] == k:
+            return place
+    place = kept.oldest[0]
+    kept.oldest[0] = (place + 1) % _TABLES
+    kept.k[place] = k
+    kept.filled[place, 0] = kept.filled[place, 1] = 0
+    fill_weights(basis.k, k, kept.weights[place])
+    return place
+
+
+@kernel
+def fill_kept(basis: Basis, kept: Kept, place: int, low: int, high: int) -> None:
+    """Fill the bins `low` to `high` - 1 of a kept table, and those between them and the ones that are filled."""
+    k, weights, nodes, polys = kept.k[place], kept.weights[place], kept.nodes[place], kept.polys[place]
+    first, last = kept.filled[place]
+    if first == last:
+        first = last = low
+    if low < first:
+        mix_bins(basis, k, weights, low, first, nodes, polys)
+    if high > last:
+        mix_bins(basis, k, weights, last, high, nodes, polys)
+    kept.filled[place, 0], kept.filled[place, 1] = min(low, first), max(high, last)
+
+
+@kernel
+def kept_table(basis: Basis, kept: Kept, k: float, bins: int) -> Table:
+    """Return the table of an exponent with its first `bins` bins filled, bounds and integrals included."""
+    place = place_for(basis, kept, k)
+    fill_kept(basis, kept, place, 0, bins)
+    return bounded_table(basis, k, bins, kept.nodes[place], kept.polys[place])
 
 
 def room_of(bins: int, lanes: int = LANES) -> tuple[Floats, Floats]:
