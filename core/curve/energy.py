@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 
 from gradhesion.core.curve.values import Curve, depth_and_load, place_of, softness
-from gradhesion.core.jit import kernel, quadrature_leaf
+from gradhesion.core.jit import kernel, leaf, quadrature_leaf
 from gradhesion.core.table.layout import (
     HALF,
     HM,
@@ -90,7 +90,7 @@ def _from_zero(curve: Curve, depth: float, i: int) -> float:
     return nodes[HM, i] - of_shape - of_depth
 
 
-@kernel
+@leaf
 def energy_between(curve: Curve, depth: float, low: float, high: float) -> float:
     """Return int y (kappa^2 - rho^2) dy at a depth between two radii, in the order low <= high; low may be 0."""
     j, end = place_of(curve.table, high)
@@ -112,14 +112,12 @@ def jump_energy(curve: Curve, y: float, depth: float, load: float, landing: floa
     Outwards from y = 0 (of depth and load 0) or inwards to it. A dead load that lets go falls without end: its
     jump to 0 has no bounded energy, and is not asked for.
     """
-    outwards = landing > y
-    lost = energy_between(curve, depth, y, landing) if outwards else -energy_between(curve, depth, landing, y)
-    if curve.by_load != 0.0:
-        there = stiffness = 0.0  # the load at the place of landing, at the depth of the state
-        if landing > 0.0:
-            i, t = place_of(curve.table, landing)
-            depth_there, load_there = depth_and_load(curve, i, t)
-            stiffness = landing ** (1.0 + curve.table.k)
-            there = load_there + stiffness * (depth - depth_there)
-        lost += curve.by_load / softness(curve, stiffness) * (load - there) ** 2 / (1.0 + curve.table.k)
-    return lost
+    sign, there, stiffness = 1.0 if landing > y else -1.0, 0.0, 0.0
+    lost = sign * energy_between(curve, depth, min(y, landing), max(y, landing))
+    if curve.by_load != 0.0 and landing > 0.0:  # the load at the place of landing, at the depth of the state
+        i, t = place_of(curve.table, landing)
+        depth_there, load_there = depth_and_load(curve, i, t)
+        stiffness = landing ** (1.0 + curve.table.k)
+        there = load_there + stiffness * (depth - depth_there)
+    fall = load - there
+    return lost + curve.by_load / softness(curve, stiffness) * fall * fall / (1.0 + curve.table.k)

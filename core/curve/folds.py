@@ -42,7 +42,7 @@ _TINY: Final = 1e-300
 """Stands for a D of 0 at a double zero, so that it has a sign."""
 
 
-@kernel
+@leaf
 def zero_in(curve: Curve, i: int, low: float, high: float, guess: float, rising: bool) -> tuple[float, float]:
     """Return the place in bin i, between two at which D has different signs, where D is 0, and the depth there.
 
@@ -162,26 +162,27 @@ def _add_fold(
 
     Return the number of branches, FULL if there is no room.
     """
-    if count < 0 or count >= trace.shape[1]:
-        return FULL
     t, depth = zero_in(curve, i, low, high, guess, rising)
     load = 0.0
     if curve.by_load != 0.0:
         depth, load = depth_and_load(curve, i, t)
     y, level = radius_of(curve.table, i, t), coordinate_of(curve, depth, load)
-    if rising:
+    if count < 0 or count >= trace.shape[1]:
+        count = FULL
+    elif rising:
         trace[START, count], trace[START_DEPTH, count], trace[START_LOAD, count] = y, depth, load
         trace[START_LEVEL, count], trace[UNLOADED, count] = level, math.nan
         trace[END, count] = trace[END_LEVEL, count] = math.inf
-        return count + 1
-    trace[END, count - 1], trace[END_DEPTH, count - 1], trace[END_LOAD, count - 1] = y, depth, load
-    trace[END_LEVEL, count - 1] = level
+        count += 1
+    else:
+        trace[END, count - 1], trace[END_DEPTH, count - 1], trace[END_LOAD, count - 1] = y, depth, load
+        trace[END_LEVEL, count - 1] = level
     return count
 
 
 @kernel
 def _add_folds(curve: Curve, i: int, older: float, before: float, after: float, trace: Floats, count: int) -> int:
-    """Put the folds of bin i into the trace, which has one, two that are next to each other, or three; or none.
+    """Put the folds of bin i, in which D may turn on its way, into the trace: none to three.
 
     D is `before` and `after` at its edges, and `older` an edge below. Return the number of branches, or FULL.
     """
@@ -197,9 +198,7 @@ def _add_folds(curve: Curve, i: int, older: float, before: float, after: float, 
         if abs(extreme) <= close * half:
             trace[CLOSE_PAIR, 0] = min(trace[CLOSE_PAIR, 0], curve.table.nodes[Y, i])
     else:
-        found, crest, trough = False, -1.0, 1.0
-        if abs(after - before) < 4.0 * swing:  # D may turn twice on its way
-            found, crest, trough = detour_in(curve, i, sign)
+        found, crest, trough = detour_in(curve, i, sign)
         if found:
             count = _add_fold(curve, i, -1.0, crest, 0.5 * (crest - 1.0), rises, trace, count)
             count = _add_fold(curve, i, crest, trough, 0.5 * (crest + trough), not rises, trace, count)
@@ -233,7 +232,10 @@ def scan(curve: Curve, first: int, last: int, count: int, trace: Floats) -> tupl
         end = min(start + CHUNK, last)
         for i in range(start, end):
             after = slope_at(curve, i + 1)
-            if (before > 0.0) != (after > 0.0) or min(abs(before), abs(after)) < swing_in(curve, i):
+            crosses, swing = (before > 0.0) != (after > 0.0), swing_in(curve, i)
+            if crosses and abs(after - before) >= 4.0 * swing:  # one fold, and no more
+                count = _add_fold(curve, i, -1.0, 1.0, _guess_of(older, before, after), after > 0.0, trace, count)
+            elif crosses or min(abs(before), abs(after)) < swing:
                 count = _add_folds(curve, i, older, before, after, trace, count)
             older, before = before, after
         start = end

@@ -110,7 +110,7 @@ def _radius_of_level(curve: Curve, level: float, i: int, low: float, high: float
         t = ahead
         if (step < accuracy and step * abs(D1) < 4e-2 * abs(D)) or b - a < 1e-12:
             break
-    return centre + half * t
+    return radius_of(curve.table, i, t)
 
 
 @kernel

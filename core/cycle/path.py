@@ -122,15 +122,16 @@ def inner_branch(trace: Floats, j: int, level: float) -> int:
     return j
 
 
-@kernel
-def _leave(curve: Curve, state: State, inner: int, trace: Floats) -> float:
-    """Return what the jump inwards from a state to a branch loses; -1: out of contact."""
-    if inner < 0:
-        dead = curve.by_depth == 0.0  # a dead load falls without end: its jump-out is left out
-        return 0.0 if dead else jump_energy(curve, state.y, state.depth, state.load, 0.0)
-    level = coordinate_of(curve, state.depth, state.load)
-    landing = at_level(curve, level, trace[START, inner], trace[END, inner], ACCURACY)
-    return jump_energy(curve, state.y, state.depth, state.load, landing)
+@leaf
+def _leave(curve: Curve, state: State, low: float, high: float) -> float:
+    """Return what the jump inwards from a state to the branch between two radii loses; both 0: out of contact."""
+    landing = 0.0
+    if high > 0.0:
+        landing = at_level(curve, coordinate_of(curve, state.depth, state.load), low, high, ACCURACY)
+    lost = 0.0
+    if high > 0.0 or curve.by_depth > 0.0:  # a dead load falls without end: its jump-out is left out
+        lost = jump_energy(curve, state.y, state.depth, state.load, landing)
+    return lost
 
 
 @kernel
@@ -144,14 +145,15 @@ def fill_unloading(curve: Curve, trace: Floats, j: int, stack: Integers) -> None
     while n > 0:
         n -= 1
         i = stack[n]
-        state = start_state(trace, i)
+        state, lost, jumps, last = start_state(trace, i), 0.0, 0.0, i
+        low = high = 0.0
         if j >= 0:
-            trace[UNLOADED, i] = trace[UNLOADED, j] + _leave(curve, state, j, trace)
-            trace[UNLOADING_JUMPS, i], trace[LAST, i] = trace[UNLOADING_JUMPS, j] + 1.0, trace[LAST, j]
-        else:
-            shrinks = state.y == 0.0  # to a point, without a jump
-            trace[UNLOADED, i] = 0.0 if shrinks else _leave(curve, state, -1, trace)
-            trace[UNLOADING_JUMPS, i], trace[LAST, i] = 0.0 if shrinks else 1.0, i
+            low, high = trace[START, j], trace[END, j]
+            lost, jumps, last = trace[UNLOADED, j], trace[UNLOADING_JUMPS, j], int(trace[LAST, j])
+        if state.y > 0.0:  # else the contact shrinks to a point, without a jump
+            lost += _leave(curve, state, low, high)
+            jumps += 1.0
+        trace[UNLOADED, i], trace[UNLOADING_JUMPS, i], trace[LAST, i] = lost, jumps, last
         j = i
 
 
@@ -215,7 +217,10 @@ def unload_from(curve: Curve, rim: float, trace: Floats, count: int, stack: Inte
     if j < 0 or trace[END, j] < rim:
         depth, load = state_in(curve, rim)
         j = inner_branch(trace, j, coordinate_of(curve, depth, load))
-        lost, jumps, last = _leave(curve, State(rim, depth, load), j, trace), 1.0, depth
+        low = high = 0.0
+        if j >= 0:
+            low, high = trace[START, j], trace[END, j]
+        lost, jumps, last = _leave(curve, State(rim, depth, load), low, high), 1.0, depth
     if j >= 0:
         fill_unloading(curve, trace, j, stack)
         lost, jumps = lost + trace[UNLOADED, j], jumps + trace[UNLOADING_JUMPS, j]

@@ -50,11 +50,11 @@ def _load_at(curve: Curve, i: int) -> float:
     return nodes[T, i] * (smooth + curve.g * (nodes[U, i] - nodes[U1, i]) - nodes[Y, i] * nodes[E, i])
 
 
-@kernel
-def _trough(curve: Curve, crest: float, i: int, before: float, after: float, rim: float, best: Lowest) -> Lowest:
-    """Take in the trough of bin i, at whose edges D is `before` and `after`, if it may be among the lowest."""
+@leaf
+def _may_dip(curve: Curve, crest: float, i: int, before: float, after: float, best: Lowest) -> bool:
+    """Return whether bin i, at whose edges D is `before` and `after`, may have a trough among the lowest."""
+    may = (before < 0.0) == (after < 0.0) and min(abs(before), abs(after)) <= swing_in(curve, i)
     nodes = curve.table.nodes
-    low, high = -1.0, 1.0
     if before < 0.0 <= after:
         # the cubic through values and slopes, at the zero of its linear slope, tells whether the trough can matter
         width = nodes[Y, i + 1] - nodes[Y, i]
@@ -63,23 +63,28 @@ def _trough(curve: Curve, crest: float, i: int, before: float, after: float, rim
         first, last = nodes[T, i] * before * width, nodes[T, i + 1] * after * width
         ends = _load_at(curve, i) * (1.0 + 2.0 * s) * r * r + _load_at(curve, i + 1) * s * s * (3.0 - 2.0 * s)
         estimate = ends + first * s * r * r - last * s * s * r
-        if estimate - _MARGIN * crest * nodes[T, i + 1] * nodes[Y, i + 1] * nodes[E, i + 1] > best.load:
-            return best
-        guess = 2.0 * s - 1.0
-    elif (before < 0.0) == (after < 0.0) and min(abs(before), abs(after)) <= swing_in(curve, i):
+        may = estimate - _MARGIN * crest * nodes[T, i + 1] * nodes[Y, i + 1] * nodes[E, i + 1] <= best.load
+    return may
+
+
+@kernel
+def _trough(curve: Curve, i: int, before: float, after: float, rim: float, best: Lowest) -> Lowest:
+    """Take in the trough of bin i, at whose edges D is `before` and `after`, if there is one within the rim."""
+    low, high, found = -1.0, 1.0, True
+    guess = 2.0 * before / (before - after) - 1.0
+    if (before < 0.0) == (after < 0.0):
         found, t, _ = pair_in(curve, i, -1.0 if before < 0.0 else 1.0)
-        if not found:
-            return best
         if before < 0.0:
             high = t
         else:
             low = t
         guess = 0.5 * (low + high)
-    else:
-        return best
-    t, _ = zero_in(curve, i, low, high, guess, True)
-    y = radius_of(curve.table, i, t)
-    return deeper(best, depth_and_load(curve, i, t)[1], y) if y <= rim else best
+    if found:
+        t, _ = zero_in(curve, i, low, high, guess, True)
+        y, (_, load) = radius_of(curve.table, i, t), depth_and_load(curve, i, t)
+        if y <= rim:
+            best = deeper(best, load, y)
+    return best
 
 
 @leaf
@@ -117,7 +122,8 @@ def lowest_load(curve: Curve, rim: float, first: int, last: int) -> Lowest:
         if i >= last:
             return unknown
         after = slope_at(curve, i + 1)
-        best = _trough(curve, crest, i, before, after, rim, best)
+        if _may_dip(curve, crest, i, before, after, best):
+            best = _trough(curve, i, before, after, rim, best)
         before = after
         i += 1
     if i >= table.bins and rim > end and _envelope(curve, crest, table.bins) <= best.load:
@@ -127,7 +133,8 @@ def lowest_load(curve: Curve, rim: float, first: int, last: int) -> Lowest:
         if i < first:
             return unknown
         before = slope_at(curve, i)
-        best = _trough(curve, crest, i, before, after, rim, best)
+        if _may_dip(curve, crest, i, before, after, best):
+            best = _trough(curve, i, before, after, rim, best)
         after = before
         i -= 1
     return best

@@ -4,7 +4,8 @@ import math
 
 from gradhesion.core.curve.folds import CLOSE
 from gradhesion.core.curve.trace import CLOSE_PAIR, END, END_LEVEL, START, START_LEVEL
-from gradhesion.core.curve.values import Curve, bin_of, coordinate_of, place_of, slope_near, state_in, terms_at
+from gradhesion.core.curve.values import Curve, bin_of, coordinate_of, depth_and_load, place_of, slope_in, terms_at
+from gradhesion.core.cycle.path import started_within
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.table.layout import HALF, end_of
 from gradhesion.core.types import Floats
@@ -19,20 +20,17 @@ def _are_close(curve: Curve, one: float, other: float, y: float) -> bool:
 @kernel
 def rim_is_tied(curve: Curve, rim: float) -> bool:
     """Return whether a rim, or where a cycle turns, is next to a fold."""
-    if rim > end_of(curve.table):
-        return False
-    i, t = place_of(curve.table, rim)
-    D, D1, _, _ = slope_near(curve, i, t)  # the distance of the fold by a step of Newton's method
-    return abs(D) * curve.table.nodes[HALF, i] <= 2.0 * CLOSE * rim * abs(D1)
+    i, t = place_of(curve.table, min(rim, end_of(curve.table)))
+    D, D1, _, _ = slope_in(curve, i, t)  # the distance of the fold by a step of Newton's method
+    return rim <= end_of(curve.table) and abs(D) * curve.table.nodes[HALF, i] <= 2.0 * CLOSE * rim * abs(D1)
 
 
 @leaf
 def _level_at(curve: Curve, rim: float) -> float:
     """Return what is prescribed at a rim, inf beyond the table, where it is on the endless branch."""
-    if rim > end_of(curve.table):
-        return math.inf
-    depth, load = state_in(curve, rim)
-    return coordinate_of(curve, depth, load)
+    i, t = place_of(curve.table, min(rim, end_of(curve.table)))
+    depth, load = depth_and_load(curve, i, t)
+    return coordinate_of(curve, depth, load) if rim <= end_of(curve.table) else math.inf
 
 
 @leaf
@@ -47,42 +45,31 @@ def loading_is_tied(curve: Curve, end: float, at_rim: bool, trace: Floats, count
 
     Loading ends at its rim, or where it turns: there a jump may land that has passed the target, as high as it was.
     """
-    if _pair_is_close(end, trace, count):
-        return True
-    highest = 0.0
-    for j in range(count):
-        if trace[START, j] > end:
-            return False
-        top, y = trace[END_LEVEL, j], trace[END, j]
-        if y >= end and not at_rim:
-            return False
-        if y >= end:
-            top, y = _level_at(curve, end), end
-        if top < math.inf and _are_close(curve, top, highest, y):
-            return True
+    tied, highest, j = _pair_is_close(end, trace, count), 0.0, 0
+    while j < count and not tied and trace[START, j] <= end and (at_rim or trace[END, j] < end):
+        top, y = trace[END_LEVEL, j], min(trace[END, j], end)
+        if y == end:
+            top = _level_at(curve, end)
+        tied = top < math.inf and _are_close(curve, top, highest, y)
         highest = max(highest, top)
-    return False
+        j += 1
+    return tied
 
 
 @kernel
 def unloading_is_tied(curve: Curve, rim: float, trace: Floats, count: int) -> bool:
     """Return whether it is close which branches exist, or which of them start lower than those after."""
-    if _pair_is_close(rim, trace, count):
-        return True
-    j = count - 1
-    while j >= 0 and trace[START, j] > rim:
-        j -= 1
-    level, y = _level_at(curve, rim), rim
+    tied, level, y = _pair_is_close(rim, trace, count), _level_at(curve, rim), rim
+    j = started_within(trace, count, rim) - 1
     if j >= 0 and trace[END, j] >= rim:
         level, y = trace[START_LEVEL, j], trace[START, j]
         j -= 1
-    while j >= 0 and y > 0.0:
-        if level < math.inf and _are_close(curve, trace[START_LEVEL, j], level, y):
-            return True
+    while j >= 0 and y > 0.0 and not tied:
+        tied = level < math.inf and _are_close(curve, trace[START_LEVEL, j], level, y)
         if trace[START_LEVEL, j] < level:
             level, y = trace[START_LEVEL, j], trace[START, j]
         j -= 1
-    return False
+    return tied
 
 
 @kernel
