@@ -4,6 +4,8 @@ A kernel is a function of floats, arrays and NamedTuples. It neither raises nor 
 step) is the only freedom that its arithmetic has; sums of quadrature may be reordered as well. `isnan` keeps its
 meaning everywhere.
 
+Numba counts references to arrays, but not in functions that call leaves alone and end in one place: inner loops do so.
+
 Numba notices an edit in the file of a kernel, but not in the files of those that it calls. Code is therefore kept in a
 folder that is named after a digest of all sources of the core. Code that is kept is run unchecked, and numba's index
 of it is a pickle: a folder is used only if this user and the system alone can change what is in it.
@@ -117,7 +119,7 @@ def _remove_unused(parent: Path) -> None:
 
 def _compiled(function: _Function, **options: Any) -> _Function:
     """Have numba compile a function when it is called, and keep its code in the folder of `place`, if there is one."""
-    options |= {"nogil": True, "error_model": "numpy"}
+    options |= {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}  # no C code calls them
     folder, of_the_user = place().folder, numba.config.CACHE_DIR
     if folder is not None:
         numba.config.CACHE_DIR = str(folder)  # numba reads it when a function is decorated, and not later

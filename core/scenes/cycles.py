@@ -180,33 +180,6 @@ def measured_curve(curve: Curve, turn: int) -> Curve:
     return Curve(curve.table, curve.B, curve.g, 1.0, 0.0)
 
 
-@leaf
-def _walk(task: Task, scenes: Floats, reduced: Floats, i: int, y_end: float) -> Walked:
-    """Trace the curve of closing of scene i up to y_end, and let loading go along it."""
-    rooms, turn = task.rooms, task.punch.turn
-    table, crest, nodes, polys, ratio = task.table, task.crest, rooms.nodes, rooms.polys, reduced[CLOSING, i]
-    pattern = pattern_of(task.punch, scenes, reduced, i)
-    closing = curve_of(table, crest, pattern, reduced, i, math.sqrt(ratio), y_end, nodes[0], polys[0])
-    opening = closing
-    if ratio != 1.0:
-        opening = curve_of(table, crest, pattern, reduced, i, 1.0, y_end, nodes[1], polys[1])
-    loading, columns = rooms.traces[CLOSING_TRACE], rooms.columns
-    unloading = rooms.traces[OPENING_TRACE] if ratio != 1.0 else loading
-    turning = loading
-    rooms.limits[0], rooms.limits[1] = 0.0, -1.0
-    branches, visits = find_folds(closing, y_end, loading), 0
-    measured = branches
-    if branches >= 0:
-        visits = walk_loading(closing, loading, branches, columns[0])
-        if turn != AT_RIM:  # losses forgive the error of a landing, but not where a cycle turns
-            _polish_landings(closing, loading, columns[0], visits)
-            own = measured_curve(closing, turn)
-            if own.by_depth != closing.by_depth or own.by_load != closing.by_load:
-                turning = rooms.traces[MEASURED_TRACE]
-                measured = find_folds(own, y_end, turning)
-    return Walked(closing, opening, pattern, ratio, loading, unloading, turning, columns, branches, visits, measured)
-
-
 @kernel
 def _polish_landings(closing: Curve, loading: Floats, visited: Integers, visits: int) -> None:
     """Bring the radii at which loading lands to rounding."""
@@ -373,21 +346,42 @@ def turns_of(task: Task, scenes: Floats, reduced: Floats, first: int, last: int,
 
     The curve is traced as far as some scene is sure to turn, and farther where a jump has passed its target.
     """
-    turn, end, far = task.punch.turn, end_of(task.table), 0.0
+    rooms, turn, table, far = task.rooms, task.punch.turn, task.table, 0.0
+    nodes, polys, ratio = rooms.nodes, rooms.polys, reduced[CLOSING, first]
+    pattern = pattern_of(task.punch, scenes, reduced, first)
+    loading, columns = rooms.traces[CLOSING_TRACE], rooms.columns
     for i in range(first, last):
         far = max(far, reduced[NEED, i] if turn != AT_RIM else reduced[RIM_Y, i])
     while True:
-        walked = _walk(task, scenes, reduced, first, far)
+        closing = curve_of(table, task.crest, pattern, reduced, first, math.sqrt(ratio), far, nodes[0], polys[0])
+        opening, unloading, turning = closing, loading, loading
+        if ratio != 1.0:
+            opening = curve_of(table, task.crest, pattern, reduced, first, 1.0, far, nodes[1], polys[1])
+            unloading = rooms.traces[OPENING_TRACE]
+        rooms.limits[0], rooms.limits[1] = 0.0, -1.0
+        branches, visits = find_folds(closing, far, loading), 0
+        measured = branches
+        if branches >= 0:
+            visits = walk_loading(closing, loading, branches, columns[0])
+        if branches >= 0 and turn != AT_RIM:  # losses forgive the error of a landing, but not where a cycle turns
+            _polish_landings(closing, loading, columns[0], visits)
+            own = measured_curve(closing, turn)
+            if own.by_depth != closing.by_depth or own.by_load != closing.by_load:
+                turning = rooms.traces[MEASURED_TRACE]
+                measured = find_folds(own, far, turning)
+        walked = Walked(
+            closing, opening, pattern, ratio, loading, unloading, turning, columns, branches, visits, measured
+        )
         farther = False
         for i in range(first, last):
             out[TURN, i] = math.nan
-            if walked.branches >= 0:
+            if branches >= 0:
                 out[TURN, i] = reduced[RIM_Y, i] if turn == AT_RIM else _turn(walked, turn, reduced, i)
-            if turn != AT_RIM and out[TURN, i] == reduced[RIM_Y, i] and far < min(reduced[RIM_Y, i], end):
+            if turn != AT_RIM and out[TURN, i] == reduced[RIM_Y, i] and far < min(reduced[RIM_Y, i], end_of(table)):
                 farther = True  # not reached as far as the curve is traced
         if not farther:
             return walked
-        far = min(2.0 * far, end)
+        far = min(2.0 * far, end_of(table))
 
 
 @kernel
