@@ -1,9 +1,8 @@
 """A scene has the values that it has alone: beside any others, in any order, by any number of threads and blocks."""
 
 import numpy as np
-import pytest
 
-from .kinds import BY_NAME, KINDS, Kind, Scenes, drawn, for_kinds, one_of, rng_of, some
+from .kinds import KINDS, Kind, drawn, for_kinds, one_of, rng_of, some
 from .promises import agree, same_status
 
 EVERY = for_kinds(KINDS)
@@ -68,13 +67,3 @@ def test_what_is_asked_for_changes_no_value(kind: Kind) -> None:
         asked = kind.solve(scenes, names)
         assert set(asked) == {*names, "status"}
         agree(kind, scenes, found | asked, found, names)
-
-
-@pytest.mark.parametrize("ratios", [[0.5], [0.5, 0.9], [0.5, 1.0], [0.5, 0.0, 1.0]])
-def test_the_scene_whose_ratio_was_forgotten_beside_1(ratios: list[float]) -> None:
-    """An array of ratios that held 1 or 0 once gave every scene the values of its opening curve."""
-    scene: Scenes = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.1, "lambda_over_R": 0.1, "A": 0.03}
-    scene |= {"a_max_over_R": 0.5, "closing_ratio": np.array(ratios)}
-    found = BY_NAME["cosine, two works"].solve(scene, ["delta_max", "loading_jumps"])
-    assert float(found["delta_max"][0]) == pytest.approx(0.14582587, abs=5e-9)  # the digits that were noted
-    assert found["loading_jumps"][0] == 4

@@ -1,6 +1,6 @@
 """Decisions: `close_to_a_jump` where two decisions tie, and one disc against the gap by brute force."""
 
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import pytest
@@ -8,12 +8,25 @@ from scipy.interpolate import CubicSpline
 
 from gradhesion.core import FLAGS, draw_curves
 
-from .faults import OF_PATTERNS, OF_TIES
 from .kinds import COUNTS, EXACT, Kind, Scenes, drawn, for_kinds, one_of, rng_of, some
 from .promises import CLOSE, has
 from .theory import Curve
 
 NOT_ONE = FLAGS["loading_contact_not_one_disc"]
+# What the present solver is known to do wrong, and the kinds that meet it in some draws
+OF_TIES: Final = (
+    "close_to_a_jump is missing on some ties of cycles that turn, through a machine, and of patterns",
+    (
+        "pattern of toughness",
+        "exponent 1.5, machine, turned",
+        "pattern of work, machine, two works, turned",
+        "sines, machine, two works, turned",
+    ),
+)
+OF_PATTERNS: Final = (
+    "close_to_a_jump is set on scenes of patterns at k = 1 whose curve starts without a fold",
+    ("pattern of toughness", "pattern of work, machine, two works, turned"),
+)
 
 
 @for_kinds(EXACT, OF_PATTERNS)
@@ -45,27 +58,24 @@ def bisected(kind: Kind, scenes: Scenes, name: str, output: str) -> list[Scenes]
 @pytest.mark.parametrize("at_1", [False, True])
 @for_kinds([kind for kind in EXACT if not kind.unbounded], OF_TIES)
 def test_scenes_on_a_tie_are_close_to_a_jump(kind: Kind, at_1: bool) -> None:
-    """A count is promised where the bit is not set: at two neighbouring doubles it may be either; k = 1 or not."""
+    """Counts, and the place of the pull-off, are promised without the bit: at two neighbouring doubles they may differ."""
     scenes, tied = drawn(kind)[0], 0
     scenes = some(scenes, np.flatnonzero((scenes["k"] == 1) == at_1)[:40])
-    for name, output in (("A", COUNTS[0]), ("lambda_over_R", COUNTS[1]), ("a_max_over_R", COUNTS[0])):
+    steps = (
+        ("A", COUNTS[0]),
+        ("lambda_over_R", COUNTS[1]),
+        ("a_max_over_R", COUNTS[0]),
+        ("lambda_over_R", "pull_off_radius"),
+    )
+    for name, output in steps:
         for ends in bisected(kind, scenes, name, output) if scenes["k"].size else ():
             if ends["A"].size:
-                on = has(kind.solve(ends, COUNTS), CLOSE)
+                on = has(kind.solve(ends, [output]), CLOSE)
                 assert on.all(), some(ends, ~on)
-                apart = has(kind.solve(ends | {name: ends[name] * (1 + 3e-7)}, COUNTS), CLOSE)
+                apart = has(kind.solve(ends | {name: ends[name] * (1 + 3e-7)}, [output]), CLOSE)
                 assert apart.sum() <= 0.1 * apart.size
                 tied += on.size
     assert tied > 6 or at_1
-
-
-@for_kinds(["cosine", "two harmonics", "sines, machine", "exponent 1.5"])
-def test_two_troughs_that_tie(kind: Kind) -> None:
-    """The place of the pull-off steps where two troughs are equally deep."""
-    for ends in bisected(kind, some(drawn(kind)[0], slice(120)), "lambda_over_R", "pull_off_radius"):
-        on = has(kind.solve(ends, ["pull_off_force", "pull_off_radius"]), CLOSE)
-        assert on.size > 2
-        assert on.all(), some(ends, ~on)
 
 
 def least_gap(kind: Kind, scene: Scenes) -> float:
