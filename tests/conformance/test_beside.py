@@ -3,7 +3,7 @@
 import numpy as np
 
 from .kinds import KINDS, Kind, drawn, for_kinds, one_of, rng_of, some
-from .promises import agree, same_status
+from .promises import NO_VALUE, agree, has, same_status
 
 EVERY = for_kinds(KINDS)
 
@@ -59,11 +59,11 @@ def test_a_grid_is_its_points(kind: Kind) -> None:
 @EVERY
 def test_what_is_asked_for_changes_no_value(kind: Kind) -> None:
     scenes, found = (some(values, slice(50)) for values in drawn(kind))
-    rng = rng_of(f"asked {kind.name}")
-    # contact_slope is that of what else is asked for; a rim of its own has a value where others of short waves have none
-    of_others = ("contact_slope", "turning_radius" if kind.solver == "asymptotic" else "")
-    for _ in range(4):
-        names = [str(name) for name in rng.permutation(kind.outputs)[:3] if name not in of_others]
-        asked = kind.solve(scenes, names)
-        assert set(asked) == {*names, "status"}
-        agree(kind, scenes, found | asked, found, names)
+    names = [name for name in kind.outputs if name != "contact_slope"]  # it is that of what else is asked for
+    order = [str(name) for name in rng_of(f"asked {kind.name}").permutation(names)]
+    alone = ["pull_off_force", "pull_off_radius", "turning_radius"]  # need no cycle; of short waves one without value
+    where = (kind.solver != "asymptotic") | ~has(found, NO_VALUE)
+    for few in (order[:3], order[3:6], order[6:9], order[9:], alone):
+        asked = kind.solve(scenes, few)
+        assert set(asked) == {*few, "status"}
+        agree(kind, scenes, found | asked, found, few, where=where)

@@ -52,11 +52,10 @@ def test_what_is_lost_is_the_sum_over_the_drawn_jumps(kind: Kind) -> None:
     found = kind.solve(scenes)
     for i in range(2):
         jumps, _ = draw_curves(one_of(scenes, i), ["jumps"], **kind.how)
-        unloading, lost = jumps["jump_unloading"] == 1, jumps["jump_energy"]
-        sums = {"loading_energy": lost[~unloading].sum(), "unloading_energy": lost[unloading].sum()}
-        sums |= {"loading_jumps": (~unloading).sum(), "unloading_jumps": unloading.sum()}
-        values = some(found, [i])
-        own = values | {name: np.array([value]) for name, value in sums.items()}
+        own = values = some(found, [i])
+        for back, name in enumerate(("loading", "unloading")):
+            lost = jumps["jump_energy"][jumps["jump_unloading"] == back]
+            own = own | {f"{name}_energy": lost.sum(keepdims=True), f"{name}_jumps": np.array([lost.size])}
         agree_but_for_a_jump(kind, some(scenes, [i]), own, values, ["loading_energy", "unloading_energy"])
 
 

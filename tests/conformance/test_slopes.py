@@ -7,7 +7,8 @@ import numpy as np
 from gradhesion.core import OUTPUTS, PARAMETERS
 
 from .kinds import COUNTS, EXACT, Kind, Scenes, drawn, for_kinds, one_of, powers_of, rng_of, some
-from .promises import SENSITIVITY, SHARE, Array, errors, is_sure, phase_of
+from .promises import SENSITIVITY, SHARE, errors, is_sure, phase_of
+from .theory import Array
 
 VALUES = ("pull_off_force", "dissipated_energy")
 EVERY = for_kinds([kind for kind in EXACT if not kind.unbounded])

@@ -14,19 +14,10 @@ from .theory import Curve
 
 NOT_ONE = FLAGS["loading_contact_not_one_disc"]
 # What the present solver is known to do wrong, and the kinds that meet it in some draws
-OF_TIES: Final = (
-    "close_to_a_jump is missing on some ties of cycles that turn, through a machine, and of patterns",
-    (
-        "pattern of toughness",
-        "exponent 1.5, machine, turned",
-        "pattern of work, machine, two works, turned",
-        "sines, machine, two works, turned",
-    ),
-)
-OF_PATTERNS: Final = (
-    "close_to_a_jump is set on scenes of patterns at k = 1 whose curve starts without a fold",
-    ("pattern of toughness", "pattern of work, machine, two works, turned"),
-)
+PATTERNS: Final = ("pattern of toughness", "pattern of work, machine, two works, turned")
+OF_PATTERNS: Final = ("the bit is set on scenes of patterns at k = 1 whose curve starts without a fold", PATTERNS)
+TURNED: Final = ("exponent 1.5, machine, turned", "sines, machine, two works, turned")
+OF_TIES: Final = ("the bit is missing on some ties through a machine, and of patterns", (*PATTERNS, *TURNED))
 
 
 @for_kinds(EXACT, OF_PATTERNS)
