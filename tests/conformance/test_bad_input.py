@@ -12,6 +12,7 @@ from .kinds import COUNTS, DEPTH, KINDS, LOAD, Kind, drawn, for_kinds, some
 from .promises import NO_CONTACT, NO_VALUE, agree, has
 
 NAN, INF = math.nan, math.inf
+NO_NUMBERS: list[Any] = ["a", [1, "b"], {}, 1j]
 SCENE = {"k": 0.3, "nu": 0.3, "modulus": 300.0, "c0_over_R": 0.1, "lambda_over_R": 0.2, "A": 0.03, "a_max_over_R": 0.5}
 OUT_OF_RANGE: dict[str, list[float]] = {
     "k": [-1e-9, 1 + 2.0**-52, NAN, INF, -INF],
@@ -63,7 +64,7 @@ def test_what_is_a_number_is_read(value: Any) -> None:
         np.testing.assert_array_equal(np.squeeze(found[name]), expected[name])
 
 
-@pytest.mark.parametrize("change", [*({"modulus": v} for v in ("a", [1, "b"], {}, 1j)), {"A": [0, 0], "k": [0, 0, 0]}])
+@pytest.mark.parametrize("change", [*({"modulus": value} for value in NO_NUMBERS), {"A": [0, 0], "k": [0, 0, 0]}])
 def test_what_is_no_number_or_does_not_fit_is_refused(change: Any) -> None:
     with pytest.raises((TypeError, ValueError)):
         solve(SCENE | change)
