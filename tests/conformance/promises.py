@@ -119,8 +119,7 @@ def agree(
 
     Numbers may be off by `times` the promised error, 2 by default: two solves that are compared may be off by it each;
     and by a part `more` of their sizes. Counts are compared where neither scene is close to a jump. What has no value
-    must have none in both. With `bits` the status is compared, but for `close_to_a_jump`: a tie within 1e-10 may be 1e-10
-    and an ulp.
+    must have none in both. With `bits` the status is compared, but for `close_to_a_jump`, which has a limit.
     """
     if more.get("bits"):
         assert ((found["status"] ^ expected["status"]) & ~CLOSE == 0).all(), (found["status"], expected["status"])

@@ -98,21 +98,22 @@ def touches_elsewhere(kind: Kind, scene: Scenes) -> bool:
 
 
 def beside_the_step(kind: Kind, scenes: Scenes) -> list[Scenes]:
-    """Scenes by 3 percent of A below and above the amplitude from which on contact is not one disc."""
+    """Scenes by a percent of A below and above the amplitude from which on contact is not one disc."""
     low, high = 0.2 * scenes["A"], 4.0 * scenes["A"]
     first, last = (has(kind.solve(scenes | {"A": A}), NOT_ONE) for A in (low, high))
     for _ in range(12):
-        middle = 0.5 * (low + high)
-        flagged = has(kind.solve(scenes | {"A": middle}), NOT_ONE)
-        low, high = np.where(flagged, low, middle), np.where(flagged, middle, high)
-    return [some(scenes | {"A": A}, last & ~first) for A in (0.97 * low, 1.03 * high)]
+        flagged = has(kind.solve(scenes | {"A": 0.5 * (low + high)}), NOT_ONE)
+        low, high = np.where(flagged, [low, 0.5 * (low + high)], [0.5 * (low + high), high])
+    return [some(scenes | {"A": A}, last & ~first) for A in (0.99 * low, 1.01 * high)]
 
 
 @for_kinds(["cosine", "cosine, turned at a depth", "two harmonics", "cosine, machine", "exponent 1.5", "cosine, load"])
-def test_one_disc_against_the_gap_by_brute_force(kind: Kind) -> None:
-    """Where it is decided: at random most scenes are far from it."""
+@pytest.mark.parametrize("at_1", [False, True])
+def test_one_disc_against_the_gap_by_brute_force(kind: Kind, at_1: bool) -> None:
+    """Where it is decided, from which random scenes are far; at k = 1 the gap is that of the profile at each radius."""
     rng, decided = rng_of(f"disc {kind.name}"), {True: 0, False: 0}
-    for scenes in beside_the_step(kind, some(drawn(kind)[0], slice(60))):
+    own = some(drawn(kind)[0], slice(60)) | ({"k": np.ones(60), "nu": np.full(60, 0.5)} if at_1 else {})
+    for scenes in beside_the_step(kind, own):
         flagged = has(kind.solve(scenes), NOT_ONE)
         for i in rng.permutation(flagged.size)[:8]:
             least, flag = least_gap(kind, one_of(scenes, i)), bool(flagged[i])
