@@ -146,7 +146,7 @@ BY_NAME: Final = {kind.name: kind for kind in KINDS}
 
 
 def for_kinds(kinds: Iterable[Kind | str], fault: tuple[str, Sequence[str]] = ("", ())) -> pytest.MarkDecorator:
-    """Have a law hold for kinds, given or by name; those with a known fault (faults.py) may fail."""
+    """Have a law hold for kinds, given or by name; those with a known fault, its reason and kinds, may fail."""
     known = pytest.mark.xfail(strict=False, reason=fault[0])
     given = [kind if isinstance(kind, Kind) else BY_NAME[kind] for kind in kinds]
     rows = [pytest.param(kind, id=kind.name, marks=[known] if kind.name in fault[1] else []) for kind in given]
@@ -159,15 +159,10 @@ def rng_of(name: str) -> np.random.Generator:
 
 
 @cache
-def _solved(kind: Kind, count: int) -> tuple[Scenes, dict[str, NDArray[Any]]]:
-    scenes = kind.draw(rng_of(kind.name), count)
+def drawn(kind: Kind) -> tuple[Scenes, dict[str, NDArray[Any]]]:
+    """160 scenes of a kind and all their results, solved in one call for all laws, none of which may change them."""
+    scenes = kind.draw(rng_of(kind.name), 160)
     return scenes, kind.solve(scenes)
-
-
-def drawn(kind: Kind, count: int = 160) -> tuple[Scenes, dict[str, NDArray[Any]]]:
-    """Scenes of a kind and all their results, solved in one call for all laws."""
-    scenes, found = _solved(kind, count)
-    return dict(scenes), dict(found)
 
 
 def some(scenes: Mapping[str, Any], index: Any) -> Scenes:

@@ -101,22 +101,23 @@ def test_the_steps_of_the_sum_over_many_punches_on_one_plate() -> None:
     np.testing.assert_allclose(found["dissipated_energy"], np.concatenate([before, after]), rtol=1e-11)
 
 
-ROUGH = ((2, -0.7718687889912584, -1.6313131794236955), (3, -0.6062622993243558, -0.3368594067365812))
+ROUGH = ((1, 0.5256813568663443, 0.33329100650643), (2, -0.7718687889912584, -1.6313131794236955))
+OTHERS = [
+    pytest.param(Kind(waves=(*ROUGH, (3, -0.6062622993243558, -0.3368594067365812))), [0.0, 0.3, 272.6285627172757, 0.03702579865172199, 0.3577329844002347, 0.021389499543939563, 0.6257603035931136],
+                 {"unloading_energy": 0.964779886646169, "energy_residual": 0.0}, id="a rough series that loses much on unloading"),
+    pytest.param(Kind(turn=LOAD), [1.0, 0.5, 1450.8610002823204, 0.6480129811209651, 0.4865190784591345, 0.09693642947498178, 0.4573723130551461],
+                 {"pull_off_force": 6.24870569780131}, id="a trough close to the rim of a turned cycle"),
+    pytest.param(Kind(exponent=1.5, solver="asymptotic"), [0.1, -0.14948324019929654, 1797.6287307914445, 0.019586376145827922, 0.1606546729216172, 0.05713366846748247, 0.24396449978013468],
+                 {"dissipated_energy": 0.06979559339537085}, id="short waves of a power", marks=pytest.mark.xfail(strict=True, reason="loading energies of short waves are up to 3e-5 off")),
+    pytest.param(Kind(exponent=1.0, waves=((1, 1.0, 0.5),), solver="asymptotic"), [1.0, 0.5, 114.54403694634479, 0.05249341923986221, 0.9071833220759363, 0.008083235579520901, math.inf],
+                 {"dissipated_energy": 0.0027090523327527216}, id="short waves of a cone"),
+]  # fmt: skip
 
 
-def test_a_rough_series_that_loses_much_on_unloading() -> None:
-    """The value was confirmed by its loop integral; 1e-11: the digits are those of a solver."""
-    scene = {"k": 0.0, "nu": 0.3, "modulus": 272.6285627172757, "c0_over_R": 0.03702579865172199}
-    scene |= {"lambda_over_R": 0.3577329844002347, "A": 0.021389499543939563, "a_max_over_R": 0.6257603035931136}
-    found = Kind(waves=((1, 0.5256813568663443, 0.33329100650643), *ROUGH)).solve(
-        scene, ["unloading_energy", "energy_residual"]
-    )
-    assert float(found["unloading_energy"]) == pytest.approx(0.964779886646169, rel=1e-11)
-    assert abs(float(found["energy_residual"])) <= 1e-11
-
-
-def test_a_trough_close_to_the_rim_of_a_turned_cycle() -> None:
-    scene = {"k": 1.0, "nu": 0.5, "modulus": 1450.8610002823204, "c0_over_R": 0.6480129811209651, LOAD: 25.767153602798}
-    scene |= {"lambda_over_R": 0.4865190784591345, "A": 0.09693642947498178, "a_max_over_R": 0.4573723130551461}
-    found = Kind(turn=LOAD).solve(scene, ["pull_off_force"])
-    assert float(found["pull_off_force"]) == pytest.approx(6.24870569780131, rel=1e-11)
+@pytest.mark.parametrize(("kind", "values", "expected"), OTHERS)
+def test_values_that_were_confirmed_by_integrals(kind: Kind, values: Any, expected: dict[str, float]) -> None:
+    """Of loops, or by quadrature of each jump; 1e-11: the digits are those of a solver."""
+    scene = dict(zip(PARAMETERS, values, strict=True)) | ({LOAD: 25.767153602798} if kind.turn else {})
+    found = kind.solve(scene, list(expected))
+    for output, value in expected.items():
+        assert float(found[output]) == pytest.approx(value, rel=1e-11, abs=0.0 if value else 1e-11)

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from gradhesion.core import OUTPUTS, draw_curves, solve
-from gradhesion.core.problem.names import EDGE
 
 from .kinds import COUNTS, DEPTH, KINDS, LOAD, Kind, drawn, for_kinds, some
 from .promises import NO_CONTACT, NO_VALUE, agree, has
 
 NAN, INF = math.nan, math.inf
+NO_NUMBERS: list[Any] = ["a", [1, "b"], {}, 1j]
 SCENE = {"k": 0.3, "nu": 0.3, "modulus": 300.0, "c0_over_R": 0.1, "lambda_over_R": 0.2, "A": 0.03, "a_max_over_R": 0.5}
 OUT_OF_RANGE: dict[str, list[float]] = {
     "k": [-1e-9, 1 + 2.0**-52, NAN, INF, -INF],
@@ -40,43 +40,21 @@ def test_out_of_range_has_no_value_and_does_not_reach_its_neighbours(kind: Kind)
         with np.errstate(all="ignore"):
             found = kind.solve(bad)
         assert has(found, NO_VALUE)[1], (name, value)
-        for output in set(kind.outputs) - {*EDGE}:
-            known = kind.solver != "asymptotic" or (name, output) != ("a_max_over_R", "pull_off_radius")
-            empty = found[output][1] == -1 if output in COUNTS else np.isnan(found[output][1])
-            assert empty or not known, (name, value, output)
+        for output in kind.outputs:
+            assert found[output][1] == -1 if output in COUNTS else np.isnan(found[output][1]), (name, value, output)
         agree(kind, scenes, {n: np.delete(v, 1) for n, v in found.items()}, expected)
-
-
-@pytest.mark.parametrize(
-    ("change", "output", "solver"),
-    [
-        ({"A": -1.0}, "front_energy", "exact"),
-        ({"A": -1.0}, "pinned_depth", "exact"),
-        ({"a_max_over_R": -1.0}, "pull_off_radius", "asymptotic"),
-        ({"lambda_over_R": 0.0, "closing_ratio": 0.5}, "dissipated_energy", "exact"),
-    ],
-)
-def test_other_results_have_no_value_either(change: Any, output: str, solver: str) -> None:
-    with np.errstate(all="raise"):
-        assert np.isnan(solve(SCENE | change, [output], solver=solver)[output])
 
 
 @for_kinds(KINDS)
 def test_empty_and_single_arrays_keep_their_shape(kind: Kind) -> None:
     scenes, found = drawn(kind)
-    for shape in ((0,), (0, 3), (2, 0)) if not kind.turn else ():
-        empty = kind.solve(some(scenes, 0) | {"A": np.zeros(shape)}, OUTPUTS)
+    for shape in ((0,), (0, 3), (2, 0)):
+        empty = kind.solve(some(scenes, 0) | {"A": np.zeros(shape)})
         assert {values.shape for values in empty.values()} == {shape}
     for single in ((), (1,), (1, 1, 1)):
         one = kind.solve({name: np.full(single, values[0]) for name, values in scenes.items()})
         assert {values.shape for values in one.values()} == {single}
         agree(kind, some(scenes, [0]), {name: values.reshape(1) for name, values in one.items()}, some(found, [0]))
-
-
-@for_kinds(["cosine", "sines, machine", "cosine, two works", *(kind for kind in KINDS if kind.turn)])
-def test_no_scenes_have_no_values(kind: Kind) -> None:
-    empty = kind.solve(some(drawn(kind)[0], slice(0)))
-    assert {values.shape for values in empty.values()} == {(0,)}
 
 
 @pytest.mark.parametrize("value", [np.int16(300), np.array(300, dtype=object), np.float32(300), 300, [300], "300"])
@@ -86,9 +64,7 @@ def test_what_is_a_number_is_read(value: Any) -> None:
         np.testing.assert_array_equal(np.squeeze(found[name]), expected[name])
 
 
-@pytest.mark.parametrize(
-    "change", [{"modulus": "a"}, {"modulus": [1, "b"]}, {"modulus": {}}, {"modulus": 1j}, {"A": [0, 0], "k": [0, 0, 0]}]
-)
+@pytest.mark.parametrize("change", [*({"modulus": value} for value in NO_NUMBERS), {"A": [0, 0], "k": [0, 0, 0]}])
 def test_what_is_no_number_or_does_not_fit_is_refused(change: Any) -> None:
     with pytest.raises((TypeError, ValueError)):
         solve(SCENE | change)
@@ -98,10 +74,8 @@ def test_what_is_no_number_or_does_not_fit_is_refused(change: Any) -> None:
 def test_a_depth_without_contact_has_nothing(kind: Kind) -> None:
     found = kind.solve(some(drawn(kind)[0], slice(4)) | {DEPTH: np.full(4, -0.01)})
     assert (found["status"].astype(int) == NO_CONTACT).all()
-    for output in ("pull_off_force", "dissipated_energy", "turning_radius", *COUNTS):
-        assert not found[output].any(), output
-    for output in ("pull_off_radius", "delta_jump_out"):
-        assert np.isnan(found[output]).all(), output
+    assert not np.any([found[name] for name in ("pull_off_force", "dissipated_energy", "turning_radius", *COUNTS)])
+    assert np.isnan([found[name] for name in ("pull_off_radius", "delta_jump_out")]).all()
 
 
 @pytest.mark.parametrize("name", SCENE)

@@ -36,12 +36,11 @@ def study(kind: Kind, folder: Path, parameters: dict[str, Any]) -> Path:
     return path
 
 
-def read(out: Path, names: Any) -> tuple[dict[str, Any], dict[str, Any]]:
+def read(out: Path, names: Any) -> tuple[dict[str, Any], ...]:
     """Scenes and values of a dataset, in one dimension."""
     with gr.open(out) as dataset:
-        like = dataset["pull_off_force"]
-        scenes = {name: dataset[name].broadcast_like(like).transpose(*like.dims).to_numpy().ravel() for name in names}
-        return scenes, {name: dataset[name].to_numpy().ravel() for name in (*NAMES, "status")}
+        rows = dataset.to_dataframe().reset_index()
+    return tuple({name: rows[name].to_numpy() for name in columns} for columns in (names, (*NAMES, "status")))
 
 
 @EVERY

@@ -9,22 +9,8 @@ import pytest
 from gradhesion.core import FLAGS, draw_curves
 
 from .kinds import COUNTS, DEPTH, EXACT, KINDS, LOAD, Kind, Scenes, drawn, for_kinds, one_of, rescaled, rng_of, some
-from .promises import (
-    CLOSE,
-    NO_VALUE,
-    SHARE,
-    agree,
-    depth_size,
-    errors,
-    has,
-    is_sure,
-    load_size,
-    phase_of,
-    reached,
-    turn_error,
-    work_size,
-)
-from .theory import FORCE, Curve, stiffness
+from .promises import NO_VALUE, agree, depth_size, errors, has, is_sure, load_size, phase_of, turn_error, work_size
+from .theory import Curve, stiffness
 
 
 @for_kinds(KINDS)
@@ -52,7 +38,7 @@ def test_the_same_problem_in_other_numbers(kind: Kind) -> None:
         for of in ("toughness", "work"):
             others[f"with a flat pattern of {of}"] = (replace(kind, pattern=of), scenes | flat, found)
     for name, (other, own, expected) in others.items():
-        agree(replace(kind, name=f"{kind.name} {name}"), own, other.solve(own, kind.outputs), expected)
+        agree(replace(kind, name=f"{kind.name} {name}"), own, other.solve(own, kind.outputs), expected, bits=True)
 
 
 @for_kinds(KINDS)
@@ -70,13 +56,11 @@ def test_parts_are_all_that_is_lost(kind: Kind) -> None:
 
 @for_kinds([kind for kind in EXACT if kind.control != "load"])
 def test_the_losses_are_the_loop_integral(kind: Kind) -> None:
-    """It is a sum of products of load and depth, each good to the promise."""
     scenes, found = (some(values, slice(80)) for values in drawn(kind))
     residual = kind.solve(scenes, ["energy_residual"])["energy_residual"]
-    limit = 10 * SHARE * work_size(kind, scenes, reached(found)) + 2 * errors(kind, scenes, found)["dissipated_energy"]
-    known = np.isfinite(residual)
+    known, limit = np.isfinite(residual), errors(kind, scenes, found)["energy_residual"]
     assert known.mean() > 0.5
-    assert (np.abs(residual) <= limit)[known].all(), np.nanmax(np.abs(residual) / limit)
+    assert (np.abs(residual) <= limit)[known].all(), np.nanmax((np.abs(residual) - limit)[known])
 
 
 @for_kinds([kind for kind in EXACT if kind.has_rim])
@@ -92,7 +76,11 @@ def test_rims_beside_each_other(kind: Kind) -> None:
     rate = 4e-7 * (phase_of(kind, scenes, rim) + 8)  # of a power of the radius up to 8, and of waves
     assert (np.abs(np.diff(values["dissipated_energy"][:, 3:5])[:, 0]) <= rate * work_size(kind, scenes, rim)).all()
     assert (np.diff(force[:, 3:5])[:, 0] <= rate * load_size(kind, scenes, rim)).all()
-    agree(kind, scenes, some(values, np.s_[:, 3]), found)
+    inner = found["pull_off_radius"] < 0.98 * rim  # where force is stationary: by 1e-16 phase^2 of its terms
+    scenes, found = some(scenes, inner), some(found, inner)
+    for off in (-1e-8, -1e-10, 0.0, 1e-8):
+        near = kind.solve(scenes | {"a_max_over_R": found["pull_off_radius"] * (1 + off)}, ["pull_off_force"])
+        agree(kind, scenes, found | near, found, ["pull_off_force"], more=1e-10)
 
 
 @for_kinds([kind for kind in EXACT if kind.turn])
@@ -132,20 +120,19 @@ def test_a_turn_at_what_loading_reaches_is_a_rim_there(kind: Kind, turn: str) ->
     index, radii, values = reached_by_loading(kind, turn, rng_of(f"reach {turn} {kind.name}"))
     own, turned = some(drawn(kind)[0], index), replace(kind, turn=turn)
     found = turned.solve(own | {turn: values})
-    free = ~has(found, CLOSE)  # where a path is steepest or a load highest is a drawn point, and a tie
+    free = is_sure(found)  # where a path is steepest or a load highest is a drawn point, and a tie
     own, found, radii = some(own, free), some(found, free), radii[free]
     wide = own | {turn: values[free]}
     assert radii.size >= 3
-    assert (
-        np.abs(found["turning_radius"] - radii) <= np.maximum(1e-9 * radii, 20 * turn_error(turned, wide, radii))
-    ).all()
+    allowed = np.maximum(1e-9 * radii, 20 * turn_error(turned, wide, radii))
+    assert (np.abs(found["turning_radius"] - radii) <= allowed).all()
     rim = kind.solve(own | {"a_max_over_R": found["turning_radius"]})
     agree(turned, wide, rim, found, [name for name in kind.outputs if name != "contact_slope"])
 
 
 @for_kinds(EXACT)
 def test_the_drawn_path(kind: Kind) -> None:
-    """It is in equilibrium, its jumps are those that are counted and lose what is lost, and its area is the loss."""
+    """It is in equilibrium, its jumps are those that are counted and lose what is lost."""
     scenes, found = drawn(kind)
     few = found["loading_jumps"] < 3000  # the most that every kind can draw is a few times that
     sure = np.flatnonzero(few & is_sure(found))
@@ -153,15 +140,14 @@ def test_the_drawn_path(kind: Kind) -> None:
         scene, values, own = one_of(scenes, i), some(found, [i]), some(scenes, [i])
         path, status = draw_curves(scene, ["path", "jumps"], **kind.how)
         assert status & NO_VALUE == 0
-        unloading = path["jump_unloading"] == 1
-        out = kind.control == "load" and values["unloading_jumps"][0] > 0  # the jump out of a dead load is not listed
-        assert (~unloading).sum() == values["loading_jumps"][0], scene
-        assert unloading.sum() + out == values["unloading_jumps"][0], scene
-        sums = {f"{name}_energy": np.array([path["jump_energy"][which].sum()]) for name, which in (("loading", ~unloading), ("unloading", unloading))}  # fmt: skip
-        agree(kind, own, values | sums, values, list(sums))
+        for back, name in enumerate(("loading", "unloading")):
+            lost = path["jump_energy"][path["jump_unloading"] == back]
+            out = (
+                back and kind.control == "load" and values[f"{name}_jumps"][0] > 0
+            )  # that of a dead load is not listed
+            assert lost.size + out == values[f"{name}_jumps"][0], scene
+            agree(kind, own, values | {f"{name}_energy": lost.sum(keepdims=True)}, values, [f"{name}_energy"])
         is_in_equilibrium(kind, scene, path)
-        if kind.control != "load" and np.isfinite(values["turning_radius"][0]):
-            has_the_area(kind, scene, path, float(values["dissipated_energy"][0]))
 
 
 def is_in_equilibrium(kind: Kind, scene: Scenes, path: Any) -> None:
@@ -174,16 +160,6 @@ def is_in_equilibrium(kind: Kind, scene: Scenes, path: Any) -> None:
         for drawn_values, true, size in ((depth, curve.depth, depth_size), (load, curve.load, load_size)):
             off = np.abs(true(a[on]) - drawn_values[on]) / size(kind, scene, a[on])
             assert off.max(initial=0.0) <= 1e-11, scene
-
-
-def has_the_area(kind: Kind, scene: Scenes, path: Any, energy: float) -> None:
-    """The area of the drawn polygon: chords stay within 2e-4 of the span, so 2/3 of that times the length is left."""
-    depth, load = path["path_indentation"], FORCE * path["path_load"]
-    if kind.control == "machine":
-        depth = depth + load / (scene["machine_stiffness"] * scene["modulus"])
-    area = float(np.sum(0.5 * (load[1:] + load[:-1]) * np.diff(depth)))
-    moved = np.hypot(np.diff(depth) / np.ptp(depth), np.diff(load) / np.ptp(load))
-    assert abs(area - energy) <= 2e-4 * np.ptp(depth) * np.ptp(load) * moved.sum(), scene
 
 
 @for_kinds(["cosine", "sines, machine", "exponent 1.5"])

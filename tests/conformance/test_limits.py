@@ -9,9 +9,8 @@ import pytest
 from gradhesion.core import solve
 from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
 
-from .faults import fault
 from .kinds import EXACT, SINES, Kind, Scenes, drawn, for_kinds, some
-from .promises import SHARE, agree, errors, work_size
+from .promises import SHARE, agree, work_size
 from .theory import stiffness, stretch, wave_size
 
 EXPONENTS = np.array([0.0, 0.1, 0.37, 0.7, 0.96])
@@ -114,31 +113,6 @@ def test_the_asymptotic_form_is_the_limit_of_the_exact_one(k: float) -> None:
     assert off[2] < 0.2 * off[1] < 0.04 * off[0] or off[2] < 1e-4, off
 
 
-LOADED = {"k": 0.1, "nu": -0.14948324019929654, "modulus": 1797.6287307914445, "c0_over_R": 0.019586376145827922}
-LOADED |= {"lambda_over_R": 0.1606546729216172, "A": 0.05713366846748247, "a_max_over_R": 0.24396449978013468}
-CONE = {"k": 1.0, "nu": 0.5, "modulus": 114.54403694634479, "c0_over_R": 0.05249341923986221, "a_max_over_R": np.inf}
-CONE |= {"lambda_over_R": 0.9071833220759363, "A": 0.008083235579520901}
-
-
-@pytest.mark.parametrize(
-    ("kind", "scene", "energy"),
-    [
-        pytest.param(
-            Kind(exponent=1.5, solver="asymptotic"),
-            LOADED,
-            0.06979559339537085,
-            marks=fault("loading energies of short waves are up to 3e-5 off"),
-        ),
-        (Kind(exponent=1.0, waves=((1, 1.0, 0.5),), solver="asymptotic"), CONE, 0.0027090523327527216),
-    ],
-    ids=["1.5", "cone"],
-)
-def test_short_waves_that_another_solver_has_right(kind: Kind, scene: Scenes, energy: float) -> None:
-    """The energies are those of another solver, the first confirmed by adaptive quadrature of each of its jumps."""
-    found = kind.solve(scene, ["dissipated_energy"])
-    assert float(found["dissipated_energy"]) == pytest.approx(energy, rel=1e-11)
-
-
 @pytest.mark.parametrize("k", [0.0, 0.31, 0.8])
 @pytest.mark.parametrize("ratio", [0.5, 0.1, 0.03])
 def test_the_pattern_that_has_the_load_of_short_waves(k: float, ratio: float) -> None:
@@ -146,10 +120,10 @@ def test_the_pattern_that_has_the_load_of_short_waves(k: float, ratio: float) ->
     chi, phase, scene = 0.4, (1 + k) * math.pi / 4, short(k, 0.4, ratio)
     waves = (ToughnessHarmonic(n=1, cos=chi * math.sin(phase), sin=-chi * math.cos(phase)),)
     tough = scene | {"A": 0.0, "toughness_wavelength_over_R": scene["lambda_over_R"]}
-    one = solve(scene, ["pull_off_force", "pull_off_radius"], solver="asymptotic")
-    other = solve(tough, ["pull_off_force", "pull_off_radius"], toughness=Toughness(waves))
-    assert float(one["pull_off_force"]) == pytest.approx(float(other["pull_off_force"]), rel=20 * SHARE)
-    assert float(one["pull_off_radius"]) == pytest.approx(float(other["pull_off_radius"]), rel=1e-6)
+    off = {"pull_off_force": 20 * SHARE, "pull_off_radius": 1e-6}
+    one, other = solve(scene, list(off), solver="asymptotic"), solve(tough, list(off), toughness=Toughness(waves))
+    for name, allowed in off.items():
+        assert float(one[name]) == pytest.approx(float(other[name]), rel=allowed)
 
 
 @for_kinds([kind for kind in EXACT if kind.ratio])
@@ -159,7 +133,4 @@ def test_a_tiny_ratio_is_none(kind: Kind) -> None:
     none, tiny = (kind.solve(scenes | {"closing_ratio": np.full(60, ratio)}) for ratio in (0.0, 1e-24))
     same = np.abs(none["turning_radius"] - tiny["turning_radius"]) <= 1e-3 * scenes["a_max_over_R"]
     assert same.mean() > 0.9
-    for name in ("dissipated_energy", "pull_off_force", "delta_max"):
-        bound = 2 * errors(kind, scenes, none)[name] + 1e-8 * (np.abs(none[name]) + scenes["a_max_over_R"] ** 2)
-        off = np.abs(none[name] - tiny[name])
-        assert ((off <= bound) | (off == 0))[same].all(), name
+    agree(kind, scenes, tiny, none, ("dissipated_energy", "pull_off_force", "delta_max"), where=same, times=1e4)

@@ -1,6 +1,6 @@
 """Decisions: `close_to_a_jump` where two decisions tie, and one disc against the gap by brute force."""
 
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import pytest
@@ -8,12 +8,16 @@ from scipy.interpolate import CubicSpline
 
 from gradhesion.core import FLAGS, draw_curves
 
-from .faults import OF_PATTERNS, OF_TIES
 from .kinds import COUNTS, EXACT, Kind, Scenes, drawn, for_kinds, one_of, rng_of, some
 from .promises import CLOSE, has
 from .theory import Curve
 
 NOT_ONE = FLAGS["loading_contact_not_one_disc"]
+# What the present solver is known to do wrong, and the kinds that meet it in some draws
+PATTERNS: Final = ("pattern of toughness", "pattern of work, machine, two works, turned")
+OF_PATTERNS: Final = ("the bit is set on scenes of patterns at k = 1 whose curve starts without a fold", PATTERNS)
+TURNED: Final = ("exponent 1.5, machine, turned", "sines, machine, two works, turned")
+OF_TIES: Final = ("the bit is missing on some ties through a machine, and of patterns", (*PATTERNS, *TURNED))
 
 
 @for_kinds(EXACT, OF_PATTERNS)
@@ -45,27 +49,24 @@ def bisected(kind: Kind, scenes: Scenes, name: str, output: str) -> list[Scenes]
 @pytest.mark.parametrize("at_1", [False, True])
 @for_kinds([kind for kind in EXACT if not kind.unbounded], OF_TIES)
 def test_scenes_on_a_tie_are_close_to_a_jump(kind: Kind, at_1: bool) -> None:
-    """A count is promised where the bit is not set: at two neighbouring doubles it may be either; k = 1 or not."""
+    """Counts, and the place of the pull-off, are promised without the bit: at two neighbouring doubles they may differ."""
     scenes, tied = drawn(kind)[0], 0
     scenes = some(scenes, np.flatnonzero((scenes["k"] == 1) == at_1)[:40])
-    for name, output in (("A", COUNTS[0]), ("lambda_over_R", COUNTS[1]), ("a_max_over_R", COUNTS[0])):
+    steps = (
+        ("A", COUNTS[0]),
+        ("lambda_over_R", COUNTS[1]),
+        ("a_max_over_R", COUNTS[0]),
+        ("lambda_over_R", "pull_off_radius"),
+    )
+    for name, output in steps:
         for ends in bisected(kind, scenes, name, output) if scenes["k"].size else ():
             if ends["A"].size:
-                on = has(kind.solve(ends, COUNTS), CLOSE)
+                on = has(kind.solve(ends, [output]), CLOSE)
                 assert on.all(), some(ends, ~on)
-                apart = has(kind.solve(ends | {name: ends[name] * (1 + 3e-7)}, COUNTS), CLOSE)
+                apart = has(kind.solve(ends | {name: ends[name] * (1 + 3e-7)}, [output]), CLOSE)
                 assert apart.sum() <= 0.1 * apart.size
                 tied += on.size
     assert tied > 6 or at_1
-
-
-@for_kinds(["cosine", "two harmonics", "sines, machine", "exponent 1.5"])
-def test_two_troughs_that_tie(kind: Kind) -> None:
-    """The place of the pull-off steps where two troughs are equally deep."""
-    for ends in bisected(kind, some(drawn(kind)[0], slice(120)), "lambda_over_R", "pull_off_radius"):
-        on = has(kind.solve(ends, ["pull_off_force", "pull_off_radius"]), CLOSE)
-        assert on.size > 2
-        assert on.all(), some(ends, ~on)
 
 
 def least_gap(kind: Kind, scene: Scenes) -> float:
@@ -96,13 +97,26 @@ def touches_elsewhere(kind: Kind, scene: Scenes) -> bool:
     return bool(height.min() < 0)
 
 
+def beside_the_step(kind: Kind, scenes: Scenes) -> list[Scenes]:
+    """Scenes by a percent of A below and above the amplitude from which on contact is not one disc."""
+    low, high = 0.2 * scenes["A"], 4.0 * scenes["A"]
+    first, last = (has(kind.solve(scenes | {"A": A}), NOT_ONE) for A in (low, high))
+    for _ in range(12):
+        flagged = has(kind.solve(scenes | {"A": 0.5 * (low + high)}), NOT_ONE)
+        low, high = np.where(flagged, [low, 0.5 * (low + high)], [0.5 * (low + high), high])
+    return [some(scenes | {"A": A}, last & ~first) for A in (0.99 * low, 1.01 * high)]
+
+
 @for_kinds(["cosine", "cosine, turned at a depth", "two harmonics", "cosine, machine", "exponent 1.5", "cosine, load"])
-def test_one_disc_against_the_gap_by_brute_force(kind: Kind) -> None:
-    scenes, found = drawn(kind)
-    flagged, rng, decided = has(found, NOT_ONE), rng_of(f"disc {kind.name}"), {True: 0, False: 0}
-    for flag in (True, False):
-        for i in rng.permutation(np.flatnonzero((flagged == flag) & (found["loading_jumps"] > 0)))[:6]:
-            least = least_gap(kind, one_of(scenes, i))
+@pytest.mark.parametrize("at_1", [False, True])
+def test_one_disc_against_the_gap_by_brute_force(kind: Kind, at_1: bool) -> None:
+    """Where it is decided, from which random scenes are far; at k = 1 the gap is that of the profile at each radius."""
+    rng, decided = rng_of(f"disc {kind.name}"), {True: 0, False: 0}
+    own = some(drawn(kind)[0], slice(60)) | ({"k": np.ones(60), "nu": np.full(60, 0.5)} if at_1 else {})
+    for scenes in beside_the_step(kind, own):
+        flagged = has(kind.solve(scenes), NOT_ONE)
+        for i in rng.permutation(flagged.size)[:8]:
+            least, flag = least_gap(kind, one_of(scenes, i)), bool(flagged[i])
             if abs(least) > 2e-3 and not touches_elsewhere(kind, one_of(scenes, i)):  # nearer, radii between decide
                 assert (least < 0) == flag, (least, one_of(scenes, i))
                 decided[flag] += 1

@@ -15,10 +15,8 @@ from numpy.typing import NDArray
 from scipy.special import gamma, jv, roots_jacobi, struve
 
 Array = NDArray[np.float64]
-Waves = tuple[tuple[int, float, float], ...]
-"""n, cos_n and sin_n of harmonics."""
-FORCE = 1.5 * math.pi
-"""The unit of forces, 1.5 pi R dgamma."""
+Waves = tuple[tuple[int, float, float], ...]  # n, cos_n and sin_n of harmonics
+FORCE = 1.5 * math.pi  # the unit of forces, 1.5 pi R dgamma
 
 
 def stiffness(k: Any, nu: Any, modulus: Any, c0_over_R: Any) -> Array:
