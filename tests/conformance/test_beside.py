@@ -1,8 +1,11 @@
 """A scene has the values that it has alone: beside any others, in any order, by any number of threads and blocks."""
 
-import numpy as np
+from dataclasses import replace
 
-from .kinds import KINDS, Kind, drawn, for_kinds, one_of, rng_of, some
+import numpy as np
+import pytest
+
+from .kinds import BY_NAME, KINDS, Kind, Scenes, drawn, for_kinds, one_of, rng_of, some
 from .promises import NO_VALUE, agree, has
 
 EVERY = for_kinds(KINDS)
@@ -64,3 +67,24 @@ def test_what_is_asked_for_changes_no_value(kind: Kind) -> None:
         asked = kind.solve(scenes, few)
         assert set(asked) == {*few, "status"}
         agree(kind, scenes, found | asked, found, few, where=where)
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.2, 0.97])
+@for_kinds(["cosine", "two harmonics", "sines, machine", "cosine, load"])
+def test_a_ratio_beside_1_and_0(kind: Kind, ratio: float) -> None:
+    """An array of ratios that holds 1 or 0 once gave every scene the values of its opening curve."""
+    closing = replace(kind, ratio=True)
+    scenes = some(drawn(kind)[0], slice(30)) | {"closing_ratio": np.full(30, ratio)}
+    alone = closing.solve(scenes)
+    for other in (1.0, 0.0, 0.9):
+        both = closing.solve(scenes | {"closing_ratio": np.array([[ratio], [other]])})
+        agree(closing, scenes, some(both, 0), alone)
+
+
+@pytest.mark.parametrize("ratios", [[0.5], [0.5, 0.9], [0.5, 1.0], [0.5, 0.0, 1.0]])
+def test_the_scene_whose_ratio_was_forgotten_beside_1(ratios: list[float]) -> None:
+    scene: Scenes = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.1, "lambda_over_R": 0.1, "A": 0.03}
+    scene |= {"a_max_over_R": 0.5, "closing_ratio": np.array(ratios)}
+    found = BY_NAME["cosine, two works"].solve(scene, ["delta_max", "loading_jumps"])
+    assert float(found["delta_max"][0]) == pytest.approx(0.14582587, abs=5e-9)  # the digits that were noted
+    assert found["loading_jumps"][0] == 4

@@ -13,7 +13,7 @@ from gradhesion.twin import stated
 from gradhesion.twin.general import PLAIN, Shape
 from gradhesion.twin.scene import waves_to_follow
 
-from .kinds import COUNTS, KINDS, SINES, Kind, Scenes, drawn, for_kinds, one_of, rng_of, some
+from .kinds import COUNTS, KINDS, NO_FIRST, SINES, Kind, Scenes, drawn, for_kinds, one_of, rng_of, some
 from .promises import agree, errors
 
 MOST_WAVES = 25.0  # of the shortest harmonic in a scene: the twin needs some 15 ms for each
@@ -55,30 +55,37 @@ def test_fresh_scenes(kind: Kind) -> None:
     assert sum(values) > 20
 
 
-ULP = 2.0**-53
+SMOOTH, ULP = {"A": 0.0}, 2.0**-53
 ENDLESS = {"a_max_over_R": math.inf, "lambda_over_R": 0.7}
 CORNERS: dict[str, tuple[Kind, Scenes]] = {
     "k = 0": (Kind(), {"k": 0.0}),
     "k an ulp above 0": (Kind(), {"k": 5e-324}),
     "k = 1e-16": (Kind(waves=SINES[:2]), {"k": 1e-16}),
     "k an ulp below 1": (Kind(), {"k": 1 - ULP, "nu": 0.5}),
+    "k = 1": (Kind(), {"k": 1.0, "nu": 0.5}),
     "k = 1, sines": (Kind(waves=SINES[:2]), {"k": 1.0, "nu": 0.5}),
     "k = 1, load": (Kind(control="load"), {"k": 1.0, "nu": 0.5}),
+    "cone": (Kind(exponent=1.0), {}),
     "cone, k = 0": (Kind(exponent=1.0), {"k": 0.0}),
     "cone, k = 1": (Kind(exponent=1.0), {"k": 1.0, "nu": 0.5}),
     "cone with a groove": (Kind(exponent=1.0, waves=((1, -1.0, -0.2),)), {}),
+    "exponent 1.5, k = 0": (Kind(exponent=1.5), {"k": 0.0}),
     "exponent 1.5, k = 0, machine": (Kind(exponent=1.5, control="machine"), {"k": 0.0}),
     "exponent 6.5": (Kind(exponent=6.5), {}),
+    "no first harmonic": (Kind(waves=NO_FIRST), {"lambda_over_R": 0.7}),
     "a groove": (Kind(waves=((1, -0.8, 0.0),)), {}),
-    "smooth series, machine": (Kind(waves=SINES, control="machine"), {"A": 0.0}),
+    "smooth": (Kind(), SMOOTH),
+    "smooth series, machine": (Kind(waves=SINES, control="machine"), SMOOTH),
     "next to smooth": (Kind(), {"A": 1e-13}),
     "rim in the first bin": (Kind(), {"a_max_over_R": 1e-6}),
     "rim in the first bin, series": (Kind(waves=SINES), {"k": 0.0, "a_max_over_R": 1e-6}),
     "tiny modulus": (Kind(), {"modulus": 1e-7}),
     "huge modulus": (Kind(), {"modulus": 1e11, "A": 1e-5}),
+    "unbounded": (Kind(), ENDLESS),
     "unbounded, load": (Kind(control="load"), ENDLESS),
     "unbounded, exponent 4": (Kind(exponent=4.0), ENDLESS),
     "unbounded, exponent 1.5": (Kind(exponent=1.5), ENDLESS | {"k": 0.6, "lambda_over_R": 2.0}),
+    "ratio 0": (Kind(ratio=True), {"closing_ratio": 0.0}),
     "ratio 1e-12, sines": (Kind(ratio=True, waves=SINES[:2]), {"closing_ratio": 1e-12}),
     "ratio an ulp below 1": (Kind(ratio=True), {"closing_ratio": 1 - ULP}),
 }
@@ -100,7 +107,7 @@ def test_as_many_harmonics_as_there_may_be() -> None:
     kind, scenes = Kind("rough", waves=waves), some(drawn(Kind("cosine"))[0], slice(12))
     scenes |= {"A": 0.3 * scenes["A"], "lambda_over_R": 1.1 * scenes["a_max_over_R"]}
     found = kind.solve(scenes, [*kind.outputs, "energy_residual"])
-    assert (np.abs(found["energy_residual"]) <= errors(kind, scenes, found)["energy_residual"]).all()
+    assert (np.abs(found["energy_residual"]) <= 100 * errors(kind, scenes, found)["dissipated_energy"]).all()
     doubled = replace(kind, waves=tuple((2 * n, even, odd) for n, even, odd in waves))
     other = scenes | {"lambda_over_R": 2 * scenes["lambda_over_R"], "A": scenes["A"] / 2}
     agree(kind, scenes, doubled.solve(other), found)

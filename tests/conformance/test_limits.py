@@ -10,7 +10,7 @@ from gradhesion.core import solve
 from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
 
 from .kinds import EXACT, SINES, Kind, Scenes, drawn, for_kinds, some
-from .promises import SHARE, agree, work_size
+from .promises import SHARE, agree, errors, work_size
 from .theory import stiffness, stretch, wave_size
 
 EXPONENTS = np.array([0.0, 0.1, 0.37, 0.7, 0.96])
@@ -133,4 +133,7 @@ def test_a_tiny_ratio_is_none(kind: Kind) -> None:
     none, tiny = (kind.solve(scenes | {"closing_ratio": np.full(60, ratio)}) for ratio in (0.0, 1e-24))
     same = np.abs(none["turning_radius"] - tiny["turning_radius"]) <= 1e-3 * scenes["a_max_over_R"]
     assert same.mean() > 0.9
-    agree(kind, scenes, tiny, none, ("dissipated_energy", "pull_off_force", "delta_max"), where=same, times=1e4)
+    for name in ("dissipated_energy", "pull_off_force", "delta_max"):
+        bound = 2 * errors(kind, scenes, none)[name] + 1e-8 * (np.abs(none[name]) + scenes["a_max_over_R"] ** 2)
+        off = np.abs(none[name] - tiny[name])
+        assert ((off <= bound) | (off == 0))[same].all(), name

@@ -3,10 +3,11 @@
 from typing import Any
 
 import numpy as np
+import pytest
 
 from gradhesion.core import OUTPUTS, PARAMETERS
 
-from .kinds import COUNTS, EXACT, Kind, Scenes, drawn, for_kinds, one_of, powers_of, rng_of, some
+from .kinds import BY_NAME, COUNTS, DEPTH, EXACT, Kind, Scenes, drawn, for_kinds, one_of, powers_of, rng_of, some
 from .promises import SENSITIVITY, SHARE, errors, is_sure, phase_of
 from .theory import Array
 
@@ -78,3 +79,15 @@ def test_central_differences(kind: Kind) -> None:
             assert off[i] <= 1, (value, name, slope[i], one[i], two[i], one_of(scenes, i))
             checked += int(free.sum())
     assert checked > 100
+
+
+def test_the_force_of_a_cycle_that_turns_where_a_jump_lands() -> None:
+    """The modulus enters with the machine's stiffness, the depth does not: along the scaling the force is as c^(1/2)."""
+    scene = {"k": 0.3443860140892524, "nu": -0.08136502703452836, "modulus": 159.43358869251338, "c0_over_R": 0.0147}
+    scene |= {"lambda_over_R": 0.12031530620905485, "A": 0.10565226205156701, "a_max_over_R": 0.08084695945355684}
+    scene |= {"machine_stiffness": 0.3087407794859256, DEPTH: 0.0023183885312195443}
+    kind = BY_NAME["exponent 1.5, machine, turned"]
+    slopes = kind.solve(scene, ["pull_off_force_sensitivity"])["pull_off_force_sensitivity"]
+    powers = powers_of(kind, scene["k"])
+    total = sum(powers[name] * slope for name, slope in zip(scene, slopes, strict=True) if name in powers)
+    assert total == pytest.approx(0.5, abs=SENSITIVITY * 100)  # the slopes are 10 and more
