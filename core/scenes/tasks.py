@@ -9,6 +9,7 @@ import threading
 from collections import OrderedDict
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import nullcontext
 from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
@@ -234,7 +235,7 @@ def _solve_near(
     basis = near_basis(punch, form, scenes, finer)
     by_load = basis if form == EXACT else near_basis(punch, BY_LOAD, scenes, finer)
     patterned = punch.rows.shape[1] > 0
-    with kept_tables(basis) as kept, kept_tables(by_load) as pulls:
+    with kept_tables(basis) as kept, nullcontext(kept) if by_load is basis else kept_tables(by_load) as pulls:
         if wanted.cycle or punch.turn != AT_RIM or patterned:
             near = NearTables(basis, kept, by_load, pulls, rooms_for(basis.values.shape[0] - 1, patterned))
             near_cycles(punch, wanted, near, profile, scenes, reduced, out)
