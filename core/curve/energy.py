@@ -98,7 +98,7 @@ def energy_between(curve: Curve, depth: float, low: float, high: float) -> float
         i, start = place_of(curve.table, low)
         first = i + 1
         inner = _within(curve, depth, i, start, 1.0 if i < j else end)
-    else:
+    else:  # whatever is below the uniform bins is known from 0 on
         i, first = -1, min(j, curve.table.geometric)
         inner = _from_zero(curve, depth, first)
     outer = _within(curve, depth, j, -1.0, end) if i < j else 0.0

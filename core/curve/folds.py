@@ -30,7 +30,7 @@ from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.table.layout import BE, BP, BV, HALF, QPOW, QUP, RLOW, RPOW, Y, end_of
 from gradhesion.core.types import Floats
 
-CHUNK: Final = 32
+_CHUNK: Final = 32
 """Bins after which it is asked whether the folds have come to an end."""
 CLOSE: Final = 1e-10
 """Decisions closer than this, relative to the sizes of their terms, are reported as close_to_a_jump."""
@@ -74,7 +74,7 @@ def zero_in(curve: Curve, i: int, low: float, high: float, guess: float, rising:
 def pair_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
     """Look for a pair of folds in bin i, at whose edges D has this sign: whether D has an extremum of the other one.
 
-    Return that, the place of the extremum and D there times the half width; (False, 0, inf) if there is none.
+    Return that, the place of the extremum and D there times the half width, which is infinite if there is none.
     """
     _, left, _, _ = slope_near(curve, i, -1.0)
     _, right, _, _ = slope_near(curve, i, 1.0)
@@ -229,7 +229,7 @@ def scan(curve: Curve, first: int, last: int, count: int, trace: Floats) -> tupl
     older = before = slope_at(curve, first)
     start, ended = first, may_end and _folds_end(curve, first)
     while start < last and count >= 0 and not ended:
-        end = min(start + CHUNK, last)
+        end = min(start + _CHUNK, last)
         for i in range(start, end):
             after = slope_at(curve, i + 1)
             crosses, swing = (before > 0.0) != (after > 0.0), swing_in(curve, i)
