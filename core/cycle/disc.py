@@ -48,14 +48,15 @@ def profile_of(waves: Floats) -> Floats:
 
     It is empty, (3, 0), if the waves are nowhere below 0. `waves` are rows (n, cos, sin).
     """
+    if not ((waves[:, 1] < 0.0).any() or waves[:, 2].any()):
+        return np.empty((3, 0))
     y = np.linspace(0.0, 2.0 * np.pi, _SAMPLES * int(waves[:, 0].max()) + 1)
     height, slope = np.zeros(y.size), np.zeros(y.size)
     for n, cos, sin in waves:
         cosine, sine = np.cos(n * y), np.sin(n * y)
         height += cos * (1.0 - cosine) + sin * sine
         slope += n * (cos * sine + sin * cosine)
-    needed = bool((waves[:, 1] < 0.0).any() or waves[:, 2].any())
-    return np.ascontiguousarray(np.array([y, height, slope])[:, : None if needed else 0])
+    return np.array([y, height, slope])
 
 
 @kernel
