@@ -20,8 +20,8 @@ from gradhesion.cli.terminal import interrupts, messages
 from gradhesion.cli.work.solve.blocks import solve_block
 from gradhesion.core import place
 
-SECONDS: Final = 10
-"""About how long one core compiles what both outputs of a first map need."""
+SECONDS: Final = 60
+"""About how long one core compiles what both outputs of a first map need: 45 s on one machine, 90 s on another."""
 PAUSE: Final = 0.2
 """Seconds between two looks at what another process compiles."""
 _MARK: Final = "compiled"
