@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import OUTPUTS, draw_curves, solve
+from gradhesion.core import OUTPUTS, Loading, draw_curves, solve
+from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
 
 from .kinds import COUNTS, DEPTH, KINDS, LOAD, Kind, drawn, for_kinds, some
 from .promises import NO_CONTACT, NO_VALUE, agree, has
@@ -29,6 +30,36 @@ OUT_OF_RANGE: dict[str, list[float]] = {
     "toughness_wavelength_over_R": [0.0, -1.0, NAN],
     "toughness_amplitude": [NAN, INF, 1e3],
 }
+PATTERN = Toughness((ToughnessHarmonic(n=1, sin=0.3),))
+PERIOD, STIFFNESS = "toughness_wavelength_over_R", "machine_stiffness"
+LOADED, MACHINE = Loading(control="load"), Loading(control="machine")
+CONTRADICTORY: list[tuple[str, dict[str, Any], dict[str, Any]]] = [  # what the refusal names, keys, how to solve
+    ("force", {}, {"outputs": ["force"]}),
+    ("pull_off_force_error", {}, {"outputs": ["pull_off_force_error"]}),
+    ("fast", {}, {"solver": "fast"}),
+    (LOAD, {DEPTH: 0.1, LOAD: 0.1}, {}),
+    (DEPTH, {DEPTH: 0.1}, {"solver": "asymptotic"}),
+    ("asymptotic", {}, {"solver": "asymptotic", "loading": LOADED}),
+    ("energy_residual", {}, {"solver": "asymptotic", "outputs": ["energy_residual"]}),
+    ("asymptotic", {PERIOD: 0.1}, {"solver": "asymptotic", "toughness": PATTERN}),
+    (STIFFNESS, {STIFFNESS: 1.0}, {}),
+    (STIFFNESS, {}, {"loading": MACHINE}),
+    ("energy_residual", {}, {"loading": LOADED, "outputs": ["energy_residual"]}),
+    (PERIOD, {PERIOD: 0.1}, {}),
+    (PERIOD, {}, {"toughness": PATTERN}),
+]
+
+
+@pytest.mark.parametrize(("name", "keys", "how"), CONTRADICTORY)
+def test_what_contradicts_itself_is_refused(name: str, keys: dict[str, Any], how: dict[str, Any]) -> None:
+    with pytest.raises(ValueError, match=name):
+        solve(SCENE | keys, **how)
+
+
+@pytest.mark.parametrize("name", SCENE)
+def test_what_lacks_a_parameter_is_refused(name: str) -> None:
+    with pytest.raises(ValueError, match=name):
+        solve({other: value for other, value in SCENE.items() if other != name})
 
 
 @for_kinds(KINDS)
