@@ -50,7 +50,9 @@ def zero_in(curve: Curve, i: int, low: float, high: float, guess: float, rising:
     under a load to 1e-12, since the depth is not stationary there.
     """
     t, depth = guess, 0.0
-    near = 4e-4 if curve.by_load == 0.0 else 1e-6  # the next step would be the cube of this one
+    near, bend = 4e-4, 4e-3  # the next step is this one times the square of its part of the distance to D' = 0
+    if curve.by_load != 0.0:
+        near, bend = 1e-6, 1e-4
     for _ in range(60):
         D, D1, D2, depth = slope_in(curve, i, t)
         if (D > 0.0) == rising:
@@ -62,7 +64,7 @@ def zero_in(curve: Curve, i: int, low: float, high: float, guess: float, rising:
         if not (low <= ahead <= high):
             ahead = 0.5 * (low + high)
             step = ahead - t
-        if (abs(step) < near and abs(step * D2) < 4e-3 * abs(D1)) or step == 0.0:
+        if (abs(step) < near and abs(step * D2) < bend * abs(D1)) or step == 0.0:
             if curve.by_load == 0.0:  # what the last step still changes
                 depth += step * (D + step * (0.5 * D1 + step * D2 / 6.0))
             return ahead, depth

@@ -94,8 +94,9 @@ def _radius_of_level(curve: Curve, level: float, i: int, low: float, high: float
     t = _guess(curve, i, level)
     if not (a < t < b):
         t = 0.5 * (a + b)
+    bend = 4e-2  # the next step is this one times the square of its part of the distance to a fold
     if curve.by_load != 0.0:
-        accuracy = min(accuracy, _UNDER_LOAD)
+        accuracy, bend = min(accuracy, _UNDER_LOAD), 1e-4
     for _ in range(60):
         value, D, D1 = _value_in(curve, i, t)
         value -= level
@@ -108,7 +109,7 @@ def _radius_of_level(curve: Curve, level: float, i: int, low: float, high: float
             ahead = 0.5 * (a + b)
         step = abs(ahead - t)
         t = ahead
-        if (step < accuracy and step * abs(D1) < 4e-2 * abs(D)) or b - a < 1e-12:
+        if (step < accuracy and step * abs(D1) < bend * abs(D)) or b - a < 1e-12:
             break
     return radius_of(curve.table, i, t)
 

@@ -729,7 +729,7 @@ def turn_far(
     found = turning_radius(start, target, space.trace, space.visited, visits, space.measured, rising)
     if found < math.inf:
         return 0.0, False
-    space = long.window
+    space, visits = long.window, 0
     if not before.landed and before.wave < long.most:
         visits = land(long, curve, before)[1]
         piece = on(measured, waves_from(long.waves, before.wave - 2.0, space.nodes, space.polys))
@@ -743,10 +743,11 @@ def turn_far(
             return rim if high < long.most else math.inf, False
         found = _turn_in(long, sought, wave)
         piece = on(measured, waves_from(long.waves, wave - 1.0, space.nodes, space.polys))
-        rising = _trace(piece, long.waves.per, space.measured)[2]
+        rising, visits = _trace(piece, long.waves.per, space.measured)[2], 0
     if found < start_of(long.waves, long.near + 2.0):
         return 0.0, False
-    return min(found, rim), target_is_tied(piece, target, found, space.measured, rising)
+    tied = target_is_tied(piece, target, found, space.trace, space.visited, visits, space.measured, rising)
+    return min(found, rim), tied
 
 
 @kernel

@@ -3,12 +3,13 @@
 import math
 
 from gradhesion.core.curve.folds import CLOSE
-from gradhesion.core.curve.trace import CLOSE_PAIR, END, END_LEVEL, START, START_LEVEL
+from gradhesion.core.curve.trace import CLOSE_PAIR, END, END_LEVEL, LANDING, START, START_LEVEL
 from gradhesion.core.curve.values import Curve, bin_of, coordinate_of, depth_and_load, place_of, slope_in, terms_at
 from gradhesion.core.cycle.path import started_within
+from gradhesion.core.cycle.turning import value_at
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.table.layout import HALF, end_of
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Integers
 
 
 @leaf
@@ -43,12 +44,12 @@ def _pair_is_close(rim: float, trace: Floats, count: int) -> bool:
 def loading_is_tied(curve: Curve, end: float, at_rim: bool, trace: Floats, count: int) -> bool:
     """Return whether it is close which branches exist, or which of them reach higher than those before.
 
-    Loading ends at its rim, or where it turns: there a jump may land that has passed the target, as high as it was.
+    Loading ends at its rim, which cuts its branch short, or where it turns.
     """
     tied, highest, j = _pair_is_close(end, trace, count), 0.0, 0
-    while j < count and not tied and trace[START, j] <= end and (at_rim or trace[END, j] < end):
+    while j < count and not tied and trace[START, j] <= end:
         top, y = trace[END_LEVEL, j], min(trace[END, j], end)
-        if y == end:
+        if at_rim and y == end:
             top = _level_at(curve, end)
         tied = top < math.inf and _are_close(curve, top, highest, y)
         highest = max(highest, top)
@@ -73,11 +74,27 @@ def unloading_is_tied(curve: Curve, rim: float, trace: Floats, count: int) -> bo
 
 
 @kernel
-def target_is_tied(measured: Curve, target: float, rim: float, branches: Floats, count: int) -> bool:
-    """Return whether the depth or load at which a cycle turns is close to the top of a branch of it."""
+def target_is_tied(
+    measured: Curve,
+    target: float,
+    rim: float,
+    trace: Floats,
+    visited: Integers,
+    visits: int,
+    branches: Floats,
+    count: int,
+) -> bool:
+    """Return whether the depth or load at which a cycle turns is close to one that decides where.
+
+    That is the top of a branch of `measured`, or where a jump of loading begins or lands. Arguments are those of
+    `turning_radius`.
+    """
+    tied = False
+    for v in range(visits):
+        for y in (trace[LANDING, visited[v]], trace[END, visited[v]]):
+            if trace[LANDING, visited[v]] <= rim and y < math.inf:
+                tied = tied or _are_close(measured, value_at(measured, y), target, y)
     for j in range(count):
-        if branches[START, j] > rim:
-            return False
-        if branches[END, j] < math.inf and _are_close(measured, branches[END_LEVEL, j], target, branches[END, j]):
-            return True
-    return False
+        if branches[START, j] <= rim and branches[END, j] < math.inf:
+            tied = tied or _are_close(measured, branches[END_LEVEL, j], target, branches[END, j])
+    return tied

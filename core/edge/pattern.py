@@ -12,7 +12,7 @@ import numpy as np
 
 from gradhesion.core.curve.energy import GAUSS, GAUSS_WEIGHTS
 from gradhesion.core.curve.values import bin_of
-from gradhesion.core.jit import kernel, quadrature
+from gradhesion.core.jit import kernel, leaf, quadrature
 from gradhesion.core.table.filling import bend_of, fit, with_bounds
 from gradhesion.core.table.layout import (
     BV,
@@ -82,25 +82,42 @@ def toughness_at(pattern: Pattern, y: float) -> float:
     return math.sqrt(t) if pattern.of_work else t
 
 
+@leaf
+def _at_centre(pattern: Pattern) -> float:
+    """Return the series of the pattern at the centre of the contact, kappa there or its square."""
+    t = 1.0
+    for n in range(pattern.rows.shape[1]):
+        t += pattern.amplitude * pattern.rows[0, n]
+    return t
+
+
 @quadrature
-def _sample(pattern: Pattern, centre: float, half: float, kappa: Floats, circle: Floats) -> None:
-    """Put kappa at the points of a bin into `kappa` (N,); `circle` is room (4, N)."""
-    cos0, sin0 = math.cos(pattern.waves * centre), math.sin(pattern.waves * centre)
+def _sample(pattern: Pattern, centre: float, half: float, kappa: Floats, rise: Floats, circle: Floats) -> None:
+    """Put kappa at the points of a bin into `kappa` (N,), and what it is above that of the centre into `rise` (N,).
+
+    The rise is no difference of the two: at k = 1 it is all that bends the depth, down to the smallest radii.
+    `circle` is room (4, N) for sin x, 1 - cos x, sin n x and 1 - cos n x.
+    """
+    cos0, sin0 = math.cos(0.5 * pattern.waves * centre), math.sin(0.5 * pattern.waves * centre)
     for j in range(N):
-        angle = pattern.waves * half * POINTS[j]
+        angle = 0.5 * pattern.waves * half * POINTS[j]
         near_cos, near_sin = math.cos(angle), math.sin(angle)
-        circle[0, j], circle[1, j] = cos0 * near_cos - sin0 * near_sin, sin0 * near_cos + cos0 * near_sin
-        circle[2, j], circle[3, j] = circle[0, j], circle[1, j]
-        kappa[j] = 0.0
+        cos, sin = cos0 * near_cos - sin0 * near_sin, sin0 * near_cos + cos0 * near_sin
+        circle[0, j] = circle[2, j] = 2.0 * sin * cos
+        circle[1, j] = circle[3, j] = 2.0 * sin * sin
+        rise[j] = 0.0
     for n in range(pattern.rows.shape[1]):
         for j in range(N):
-            kappa[j] += pattern.rows[0, n] * circle[2, j] + pattern.rows[1, n] * circle[3, j]
-            cos, sin = circle[2, j], circle[3, j]
-            circle[2, j] = cos * circle[0, j] - sin * circle[1, j]
-            circle[3, j] = sin * circle[0, j] + cos * circle[1, j]
+            sin, versine = circle[2, j], circle[3, j]
+            rise[j] += pattern.amplitude * (pattern.rows[1, n] * sin - pattern.rows[0, n] * versine)
+            circle[2, j] = sin * (1.0 - circle[1, j]) + (1.0 - versine) * circle[0, j]
+            circle[3, j] = versine * (1.0 - circle[1, j]) + circle[1, j] + sin * circle[0, j]
+    t = _at_centre(pattern)
     for j in range(N):
-        t = 1.0 + pattern.amplitude * kappa[j]
-        kappa[j] = math.sqrt(max(t, 0.0)) if pattern.of_work else t
+        kappa[j] = t + rise[j]
+        if pattern.of_work:
+            kappa[j] = math.sqrt(max(kappa[j], 0.0))
+            rise[j] /= max(kappa[j] + math.sqrt(max(t, 0.0)), 1e-300)
 
 
 @quadrature
@@ -117,20 +134,24 @@ def patterned_table(
         for i in range(bins + 1):
             nodes[row, i] = factor * plain.nodes[row, i]
     samples, waves, legendre = np.zeros((1, N)), np.zeros((1, N)), np.zeros(N)
-    kappa, circle, stretch = np.zeros(N), np.zeros((4, N)), np.zeros(N)
+    kappa, rise, circle, stretch = np.zeros(N), np.zeros(N), np.zeros((4, N)), np.zeros(N)
+    above = _at_centre(pattern)
+    above = (math.sqrt(max(above, 0.0)) if pattern.of_work else above) - 1.0
     for i in range(bins):
         centre, half = plain.nodes[YC, i], plain.nodes[HALF, i]
-        _sample(pattern, centre, half, kappa, circle)
+        _sample(pattern, centre, half, kappa, rise, circle)
         stretch[:] = 0.0
         for n in range(N - 1, -1, -1):
             for j in range(N):
                 stretch[j] = stretch[j] * POINTS[j] + plain.polys[i, PE, n]
-        area = 0.0
+        area, middle = 0.0, 1.0 if k == 1.0 else centre * plain.polys[i, PE, 0]
         for j in range(N):
             y = centre + half * POINTS[j]
-            samples[0, j] = (kappa[j] - 1.0) * y * stretch[j]
+            pull = 1.0 if k == 1.0 else y * stretch[j]  # without rounding, which would bend it
+            samples[0, j] = rise[j] * pull + above * (pull - middle)
             area += half * WEIGHTS[j] * y * kappa[j] * kappa[j]
         fit(samples, 0, waves, 0, legendre)
+        waves[0, 0] += above * middle
         nodes[M0, i] = area
         bend = 0.0
         for n in range(N):

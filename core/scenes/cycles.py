@@ -225,9 +225,18 @@ def _loading_keeps_one_disc(task: Task, walked: Walked, y: float, reduced: Float
 
 @kernel
 def _target_is_tied(walked: Walked, turn: int, y: float, reduced: Floats, i: int) -> bool:
-    """Return whether the target of scene i, which turns at y, is close to the top of a branch."""
+    """Return whether the target of scene i, which turns at y, is close to a highest one before."""
     target = reduced[TARGET_VALUE, i] / math.sqrt(walked.ratio)
-    return target_is_tied(measured_curve(walked.closing, turn), target, y, walked.turning, walked.measured)
+    return target_is_tied(
+        measured_curve(walked.closing, turn),
+        target,
+        y,
+        walked.loading,
+        walked.columns[0],
+        walked.visits,
+        walked.turning,
+        walked.measured,
+    )
 
 
 @leaf

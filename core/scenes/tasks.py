@@ -561,6 +561,7 @@ def set_lengths(punch: Punch, scenes: Floats) -> None:
     """Give smooth punches on a pattern its wavelength, where that is shorter: another has no meaning for them."""
     if punch.rows.shape[1] > 0:
         smooth = (scenes[AMPLITUDE] == 0.0) & (scenes[PATTERN_WAVELENGTH] < scenes[WAVELENGTH])
+        smooth &= scenes[WAVELENGTH] < np.inf  # which is out of range
         scenes[WAVELENGTH, smooth] = scenes[PATTERN_WAVELENGTH, smooth]
 
 

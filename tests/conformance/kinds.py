@@ -145,12 +145,10 @@ EXACT: Final = tuple(kind for kind in KINDS if kind.solver == "exact")
 BY_NAME: Final = {kind.name: kind for kind in KINDS}
 
 
-def for_kinds(kinds: Iterable[Kind | str], fault: tuple[str, Sequence[str]] = ("", ())) -> pytest.MarkDecorator:
-    """Have a law hold for kinds, given or by name; those with a known fault, its reason and kinds, may fail."""
-    known = pytest.mark.xfail(strict=False, reason=fault[0])
+def for_kinds(kinds: Iterable[Kind | str]) -> pytest.MarkDecorator:
+    """Have a law hold for kinds, given or by name."""
     given = [kind if isinstance(kind, Kind) else BY_NAME[kind] for kind in kinds]
-    rows = [pytest.param(kind, id=kind.name, marks=[known] if kind.name in fault[1] else []) for kind in given]
-    return pytest.mark.parametrize("kind", rows)
+    return pytest.mark.parametrize("kind", [pytest.param(kind, id=kind.name) for kind in given])
 
 
 def rng_of(name: str) -> np.random.Generator:

@@ -97,7 +97,10 @@ def errors(kind: Kind, scenes: Scenes, found: Results) -> dict[str, Array]:
         turned = 4 * moved / most
         depth, load = depth_size(kind, scenes, most), load_size(kind, scenes, pull)
         losses = np.abs(found["loading_energy"]) + np.abs(found["unloading_energy"])
-        energy = share * (losses + np.pi * most**2) + 2 * np.pi * most * moved
+        terms = losses + np.pi * most**2
+        if kind.control == "load":  # what the load does is a term of its own
+            terms = work_size(kind, scenes, most)
+        energy = share * terms + 2 * np.pi * most * moved
         allowed = dict.fromkeys(("dissipated_energy", "loading_energy", "unloading_energy", "front_energy"), energy)
         allowed["pull_off_force"] = (share + np.where(pull == end, turned, 0.0)) * load
         allowed["pull_off_radius"] = PLACE * pull + moved

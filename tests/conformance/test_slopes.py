@@ -69,6 +69,8 @@ def test_central_differences(kind: Kind) -> None:
                 free &= np.logical_and.reduce([values[count] == found[count] for count in COUNTS])
                 free &= np.abs(values["pull_off_radius"] / found["pull_off_radius"] - 1) < 0.02
                 free &= np.abs(values["turning_radius"] / found["turning_radius"] - 1) < 0.1
+                at_rim = values["turning_radius"] == (moved if name == "a_max_over_R" else scenes["a_max_over_R"])
+                free &= at_rim == (found["turning_radius"] == scenes["a_max_over_R"])
         for value in VALUES:
             slope, size = slopes[value][name], sizes(kind, scenes, found, value)
             with np.errstate(all="ignore"):

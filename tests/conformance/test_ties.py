@@ -1,6 +1,6 @@
 """Decisions: `close_to_a_jump` where two decisions tie, and one disc against the gap by brute force."""
 
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,14 +13,9 @@ from .promises import CLOSE, has
 from .theory import Curve
 
 NOT_ONE = FLAGS["loading_contact_not_one_disc"]
-# What the present solver is known to do wrong, and the kinds that meet it in some draws
-PATTERNS: Final = ("pattern of toughness", "pattern of work, machine, two works, turned")
-OF_PATTERNS: Final = ("the bit is set on scenes of patterns at k = 1 whose curve starts without a fold", PATTERNS)
-TURNED: Final = ("exponent 1.5, machine, turned", "sines, machine, two works, turned")
-OF_TIES: Final = ("the bit is missing on some ties through a machine, and of patterns", (*PATTERNS, *TURNED))
 
 
-@for_kinds(EXACT, OF_PATTERNS)
+@for_kinds(EXACT)
 def test_random_scenes_are_close_to_no_jump(kind: Kind) -> None:
     """Ties within 1e-10 among some hundred decisions of 160 scenes: once in 10,000 seeds."""
     assert not has(drawn(kind)[1], CLOSE).any()
@@ -47,7 +42,7 @@ def bisected(kind: Kind, scenes: Scenes, name: str, output: str) -> list[Scenes]
 
 
 @pytest.mark.parametrize("at_1", [False, True])
-@for_kinds([kind for kind in EXACT if not kind.unbounded], OF_TIES)
+@for_kinds([kind for kind in EXACT if not kind.unbounded])
 def test_scenes_on_a_tie_are_close_to_a_jump(kind: Kind, at_1: bool) -> None:
     """Counts, and the place of the pull-off, are promised without the bit: at two neighbouring doubles they may differ."""
     scenes, tied = drawn(kind)[0], 0
@@ -63,7 +58,7 @@ def test_scenes_on_a_tie_are_close_to_a_jump(kind: Kind, at_1: bool) -> None:
             if ends["A"].size:
                 on = has(kind.solve(ends, [output]), CLOSE)
                 assert on.all(), some(ends, ~on)
-                apart = has(kind.solve(ends | {name: ends[name] * (1 + 3e-7)}, [output]), CLOSE)
+                apart = has(kind.solve(ends | {name: ends[name] * (1 + 1e-6)}, [output]), CLOSE)
                 assert apart.sum() <= 0.1 * apart.size
                 tied += on.size
     assert tied > 6 or at_1
