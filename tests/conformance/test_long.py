@@ -47,10 +47,11 @@ def test_similarity_and_alone_and_beside(kind: Kind) -> None:
 
 @for_kinds(PLAIN)
 def test_what_is_lost_is_the_sum_over_the_drawn_jumps(kind: Kind) -> None:
-    """Some thousand jumps, listed one by one."""
-    scenes = long(kind, "sum", [900.0, 2500.0])
+    """Some thousand jumps, listed one by one; from rims on either side of the pull-off, on a branch or between two."""
+    scenes = long(kind, "sum", [900.0, 2500.0, *[2500.0] * 6])
+    scenes["a_max_over_R"][2:] *= np.linspace(0.1, 0.4, 6)
     found = kind.solve(scenes)
-    for i in range(2):
+    for i in range(8):
         jumps, _ = draw_curves(one_of(scenes, i), ["jumps"], **kind.how)
         own = values = some(found, [i])
         for back, name in enumerate(("loading", "unloading")):
