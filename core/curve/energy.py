@@ -107,10 +107,11 @@ def energy_between(curve: Curve, depth: float, low: float, high: float) -> float
 
 @kernel
 def jump_energy(curve: Curve, y: float, depth: float, load: float, landing: float) -> float:
-    """Return what a jump dissipates from a state to another radius, at the same value of what is prescribed.
+    """Return what a jump dissipates, in 2 pi l^2 dgamma, from a state (y, depth, load) to the radius `landing`.
 
-    Outwards from y = 0 (of depth and load 0) or inwards to it. A dead load that lets go falls without end: its
-    jump to 0 has no bounded energy, and is not asked for.
+    What is prescribed keeps its value. Either radius may be 0: out of contact depth and load are 0. Where the state is
+    further out than the integral is wanted from, y = 0 with its depth and load adds what is below it, which the caller
+    takes off. A dead load that lets go falls without end: its jump to 0 has no bounded energy, and is not asked for.
     """
     sign, there, stiffness = 1.0 if landing > y else -1.0, 0.0, 0.0
     lost = sign * energy_between(curve, depth, min(y, landing), max(y, landing))

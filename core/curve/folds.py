@@ -141,7 +141,7 @@ def detour_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
 
 @leaf
 def swing_in(curve: Curve, i: int) -> float:
-    """Return a bound of how far D swings in bin i beyond its edges: h^2/2 times its second derivative."""
+    """Return a bound of how far D swings in bin i beyond its values at the edges: h^2/2 times its second derivative."""
     nodes = curve.table.nodes
     highest = 0.5 * (1.0 - curve.table.k) + (1.0 + curve.table.k if curve.by_load != 0.0 else 0.0)
     return curve.g * nodes[BV, i] + curve.B * nodes[BP, i] + highest * nodes[BE, i]

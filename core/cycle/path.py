@@ -74,9 +74,11 @@ def start_state(trace: Floats, j: int) -> State:
 
 @kernel
 def walk_on(curve: Curve, trace: Floats, first: int, count: int, visited: Integers, visits: int, state: State) -> int:
-    """Let loading go on from a state over the branches `first` to `count` - 1; return the number of branches visited.
+    """Let loading go on from a state over the branches `first` to `count` - 1; return how many are visited in all.
 
-    `visited` (bins,) has the columns of the `visits` branches visited so far, the last of which has what was lost.
+    `visited`, as long as a row of `trace`, has their columns in order: `visits` of them at first, the last of which
+    has what was lost by then; new ones are appended. Their rows LANDING, LOADED and LOADING_JUMPS are filled. A
+    landing beyond the table ends the walk.
     """
     lost = jumps = 0.0
     if visits > 0:
@@ -136,7 +138,10 @@ def _leave(curve: Curve, state: State, low: float, high: float) -> float:
 
 @kernel
 def fill_unloading(curve: Curve, trace: Floats, j: int, stack: Integers) -> None:
-    """Fill what unloading loses from the start of branch j on, and of all branches on its way; `stack` is (bins,)."""
+    """Fill what unloading loses from the start of branch j on, and of all branches on its way.
+
+    `stack` is room as long as a row of the trace.
+    """
     n = 0
     while j >= 0 and math.isnan(trace[UNLOADED, j]):
         stack[n] = j

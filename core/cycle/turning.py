@@ -45,8 +45,11 @@ def turning_radius(
 
 
 @leaf
-def _surely_above(k: float, m: float, B: float, crest: float, mean: float, by_load: bool, y: float) -> float:
-    """Return a bound below the depth or the load at y: waves and stretch are below crest y^((1-k)/2) + mean."""
+def _lower_bound(k: float, m: float, B: float, crest: float, mean: float, by_load: bool, y: float) -> float:
+    """Return what the depth, or `by_load` the load, at y is not below, in the units of table/layout.py.
+
+    The curve is B y^m of the gradient exponent k, less waves and stretch, which are at most crest y^((1-k)/2) + mean.
+    """
     share = (1.0 + k) / (1.0 + k + m) if by_load else 0.0
     bound = B * y**m * (1.0 - share) - crest * y ** (0.5 * (1.0 - k)) - mean
     return bound * y ** (1.0 + k) if by_load else bound
@@ -58,7 +61,7 @@ def turning_reach(k: float, m: float, B: float, crest: float, mean: float, targe
     low, high = 0.0, 1.0
     for _ in range(300):
         y = high if low == 0.0 else math.sqrt(low * high)
-        if _surely_above(k, m, B, crest, mean, by_load, y) > target:
+        if _lower_bound(k, m, B, crest, mean, by_load, y) > target:
             low = 1e-3 * y if low == 0.0 else low
             high = y
         elif low == 0.0:

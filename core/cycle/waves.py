@@ -261,7 +261,10 @@ def fill_rule(count: float, places: Floats, weights: Floats, last: Floats) -> No
 
 @kernel
 def _add_integrals(waves: Waves, number: float, weight: float, nodes: Floats, polys: Floats, sums: Floats) -> None:
-    """Add the integrals of y^k times U, y^m U and U^2 over a wave, with a weight, to `sums` (3,); the rest is room."""
+    """Add the integrals of y^k times U, y^m U and U^2 over wave `number`, times `weight`, to `sums` (3,).
+
+    `nodes` (ROWS, per + 1) and `polys` (per, LANES, N) are room for the bins of that wave.
+    """
     waves_from(waves, number, nodes, polys)
     for i in range(waves.per):
         sums[0] += weight * nodes[KU, i]

@@ -10,6 +10,8 @@ envelopes    pull 1 - chi_+ on loading and 1 + chi_- on unloading (closed/envelo
 effective    the path along them, without the single waves, (5.28)-(5.35): jump-in at the depth 0, counted from the mean
              surface; loading along its envelope; early unloading at the radius of the turn, where the load is linear in
              the depth; unloading along its envelope; jump-out at its fold
+
+What is drawn has the names of CURVES (problem/names.py): arrays (points,) of a/R, depth/R and load/(1.5 pi R w_o).
 """
 
 from typing import Any, Final

@@ -61,7 +61,11 @@ def _without_value(curve: str) -> _Curves:
 
 
 def _draw(drawn: Drawn, curve: str, *, turned: bool, grows: bool) -> _Curves | None:
-    """Return the variables of a curve, None where it has no value."""
+    """Return the variables of a curve by name, as those of `draw_curves`; None where it has no value.
+
+    `turned`: the cycle turns at a given depth or load, not at the rim; `grows`: its contact grows from a point, so
+    that its first jump is none.
+    """
     if curve in _OF_A_CYCLE and math.isnan(drawn.turn):
         return None
     if curve == "effective":

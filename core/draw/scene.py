@@ -124,7 +124,7 @@ class Side(NamedTuple):
 
     line      as it is drawn
     curve     in its own units
-    trace     its branches, ends to rounding; `count` of them
+    trace     its branches, ends to rounding; `branches` of them
     extrema   radii at which depth or load is extremal without an end of a branch, in order
     visited   columns of the branches that loading visits
     """
@@ -137,7 +137,7 @@ class Side(NamedTuple):
     visited: Integers
 
     def folds(self, end: float) -> Floats:
-        """Return the ends of branches, in order, between 0 and an end."""
+        """Return the folds in order: radii y of starts and ends of branches, between 0 and `end` (excluded)."""
         ends = np.sort(self.trace[[START, END], : self.branches].ravel())
         return ends[(ends > 0.0) & (ends < end)]
 

@@ -434,8 +434,11 @@ def _far(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Flo
         out[:, within] = found
 
 
-def _by_exponent(k: Floats, nu: Floats, m: float) -> tuple[Floats, Floats, Floats]:
-    """Return d ln theta/dk, d ln theta/dnu and d ln(depth factor of r^m)/dk of scenes, alike ones in a row but once."""
+def _material_slopes(k: Floats, nu: Floats, m: float) -> tuple[Floats, Floats, Floats]:
+    """Return d ln theta/dk, d ln theta/dnu and d ln(depth factor of r^m/m)/dk; these, `k` and `nu` are (scenes,).
+
+    A run of neighbours of the same k and nu is computed once.
+    """
     start = np.flatnonzero(np.append(True, (k[1:] != k[:-1]) | (nu[1:] != nu[:-1])))
     times, half = np.diff(np.append(start, k.size)), 0.5 * (1.0 + k[start])
     slopes = (*theta_slopes(k[start], nu[start]), 0.5 * (psi(half) - psi(half + 0.5 * m)))
@@ -448,8 +451,8 @@ def _by_parameter(
 ) -> dict[str, Floats]:
     """Return the sensitivities of a value by parameter, (scenes,) each, from those to reduced numbers, (ROWS, scenes).
 
-    `length` is the unit l of length in R, `material` what `_by_exponent` returns. The units of depth, load and energy
-    are, with M = theta modulus c0^-k, s = sqrt(2^(1+k) pi/M), K = 2^(1-k) M/(1+k) and eta = (1-k)/2,
+    `length` is the unit l of length in R, `material` what `_material_slopes` returns. The units of depth, load and
+    energy are, with M = theta modulus c0^-k, s = sqrt(2^(1+k) pi/M), K = 2^(1-k) M/(1+k) and eta = (1-k)/2,
 
         s l^eta,    K s l^(1+k+eta),    l^2
     """
@@ -505,7 +508,7 @@ def sensitivities(
         near, far = partial(_near, punch, profile), partial(_far, punch, profile)
         out, _ = in_groups(punch, EXACT, scenes, _ALL_ROWS, near, far)
         with np.errstate(all="ignore"):  # what has no value has no sensitivity
-            material = _by_exponent(scenes[K], scenes[NU], punch.exponent)
+            material = _material_slopes(scenes[K], scenes[NU], punch.exponent)
             for output in outputs:
                 of_force = output == SENSITIVITIES[0]
                 by = out[FORCE : FORCE + ROWS] if of_force else out[ENERGY : ENERGY + ROWS]

@@ -250,9 +250,10 @@ _lock = threading.Lock()
 def long_table(
     punch: Punch, k: float, form: int, finer: int, y_end: float, *, exactly: bool = False
 ) -> tuple[Table, Source, float]:
-    """Return a table of one exponent to y_end or beyond, what its bins are filled from, and the crest of -U'.
+    """Return a table of the exponent k to y = y_end or beyond, the source of its bins, and a bound of -U' y^((k-1)/2).
 
-    One of the last few, if it is long enough. With `exactly` its length is that of y_end, whatever was asked before:
+    `form` is one of table/layout.py; bins are `finer` times narrower than usual. A table that is kept from an earlier
+    call serves if it is long enough. With `exactly` the length follows from y_end alone, whatever was asked before:
     what is beyond it is found in another way, with other rounding.
     """
     width = width_of(punch.waves, finer)

@@ -314,7 +314,10 @@ def fill_kept(basis: Basis, kept: Kept, place: int, low: int, high: int) -> None
 
 @kernel
 def kept_table(basis: Basis, kept: Kept, k: float, bins: int) -> Table:
-    """Return the table of an exponent with its first `bins` bins filled, bounds and integrals included."""
+    """Return the table of an exponent among those of `kept`, its first `bins` bins filled where they are not yet.
+
+    Bounds and integrals are included. It stands in the arrays of `kept`: the next call with them may overwrite it.
+    """
     place = place_for(basis, kept, k)
     fill_kept(basis, kept, place, 0, bins)
     return bounded_table(basis, k, bins, kept.nodes[place], kept.polys[place])
