@@ -8,8 +8,8 @@ import pytest
 
 from gradhesion.core import OUTPUTS, Harmonic, Loading, Profile, solve
 from gradhesion.core.equations import envelopes
-from gradhesion.core.equations._crests import swings
 from gradhesion.core.problem.material import stiffness
+from gradhesion.core.problem.shape import swings
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.twin import stated
 from gradhesion.twin.general import Shape
