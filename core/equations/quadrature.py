@@ -285,7 +285,7 @@ def _edges(low: float, high: float, width: Callable[[float], float]) -> Array:
     """Return the edges of panels from low to high, no wider than a width of their lower edge."""
     edges = [low]
     while edges[-1] < high:
-        edges.append(min(high, edges[-1] + width(edges[-1])))
+        edges.append(min(high, max(edges[-1] + width(edges[-1]), math.nextafter(edges[-1], high))))
     return np.array(edges)
 
 
