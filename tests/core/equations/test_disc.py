@@ -214,6 +214,9 @@ def test_lowest_load_is_the_force_of_the_solver(k: float) -> None:
     for A in (0.0, 0.02):
         material, a = float(stiffness(k, 0.27, 400.0, 0.2)), np.linspace(1e-3, 0.8, 20001)
         i = int(np.argmin(jkr.load(k, material, a, 0.09, A)))
-        bounds = (a[i - 1], a[i + 1])
-        low = minimize_scalar(lambda x: float(jkr.load(k, material, x, 0.09, A)), bounds, bounds=bounds)  # noqa: B023
+        low = minimize_scalar(
+            lambda x: float(jkr.load(k, material, x, 0.09, A)),  # noqa: B023
+            bounds=(a[i - 1], a[i + 1]),
+            options={"xatol": 1e-11},
+        )
         assert -low.fun == pytest.approx(float(solve(names | {"A": A})["pull_off_force"]), rel=1e-11)
