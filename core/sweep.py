@@ -184,8 +184,7 @@ def _roughness(parameters: Mapping[str, ArrayLike], profile: Profile, status: ND
         np.broadcast_to(np.asarray(parameters[name], dtype=float), status.shape).ravel() for name in names
     )
     with np.errstate(all="ignore"):
-        stretch = np.sqrt(2.0 ** (1.0 + k) * np.pi / stiffness(k, nu, modulus, c0))
-        _, down = chis(k, stretch, wavelength, amplitude, profile)
+        _, down = chis(k, stiffness(k, nu, modulus, c0), wavelength, amplitude, profile)
     return np.where(status & NO_VALUE, np.nan, down.reshape(status.shape))
 
 

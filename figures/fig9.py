@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 
 from figures.curves import Values
 from figures.style import DASHES, ENERGY, INK, key, legend, shades
-from gradhesion.core.equations import effective, energy, envelopes
+from gradhesion.core.equations import effective, envelopes
 from gradhesion.core.problem.material import stiffness
 
 MARKED = np.linspace(0.0, 1.0, 11)
@@ -45,7 +45,7 @@ def fitted_curve(dataset: xarray.Dataset, A: float, wavelength: float) -> tuple[
     material = stiffness(k, *(dataset[name].item() for name in ("nu", "modulus", "c0_over_R")))
     strengths = envelopes.adhesion_strength(k, material), envelopes.waviness_strength(k, wavelength, A)
     turn = float(dataset["a_max_over_a2"].item()) * effective.jump_in_radius(k, *strengths)
-    return k, energy.fitted_energy(k, material, wavelength, A, turn)
+    return k, effective.fitted_energy(k, material, wavelength, A, turn)
 
 
 PICTURES = {"fig9": energies, "extra_energy_exponent": energies}

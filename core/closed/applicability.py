@@ -18,16 +18,16 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.equations._crests import swings, swings_of
-from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
+from gradhesion.core.closed.envelope import chis
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import PARAMETERS, RANGE, VALIDITY
 from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.shape import rows_of, swings
 
 _Array = NDArray[np.float64]
 _SLOPE: Final = -1.0
 _CURVATURE: Final = -3.0
-"""The exponents k at which zeta of equations/_crests.py is f2'/(2 pi A) and f2''/(4 pi^2 A)."""
+"""The exponents k at which zeta of `swings` is f2'/(2 pi A) and f2''/(4 pi^2 A)."""
 
 
 def validity(
@@ -74,7 +74,7 @@ def validity(
     arrays = {name: np.asarray(parameters[name], dtype=float) for name in (*PARAMETERS, *needed)}
     shape = np.broadcast_shapes(*(np.shape(array) for array in arrays.values()))
     k, nu, modulus, c0, wavelength, amplitude = (arrays[name] for name in PARAMETERS[:6])
-    rows = tuple((float(wave.n), wave.cos, wave.sin) for wave in profile.harmonics if wave.cos or wave.sin)
+    rows = tuple(map(tuple, rows_of(profile).tolist()))
     with np.errstate(all="ignore"):  # a scene that overflows has no value
         M = stiffness(k, nu, modulus, c0)
         sound = np.isfinite(M) & (wavelength > 0.0) & (amplitude >= 0.0) & (arrays["a_max_over_R"] > 0.0)
@@ -84,8 +84,7 @@ def validity(
             if name == "wave_slope":
                 values = 2.0 * math.pi * amplitude * max(swings(_SLOPE, rows))
             elif name == "johnson_alpha":
-                chi = waviness_strength(k, wavelength, amplitude) * swings_of(k, rows)[1] / adhesion_strength(k, M)
-                values = 1.0 / (math.sqrt(math.pi) * chi)
+                values = 1.0 / (math.sqrt(math.pi) * chis(k, M, wavelength, amplitude, profile)[1])
             elif name == "tabor_parameter":
                 m = profile.exponent
                 values = M ** (-m / (2.0 * m - 1.0 + k)) / _range(arrays[RANGE])

@@ -53,7 +53,7 @@ _RULES: Final[dict[str, dict[str, tuple[tuple[str, ...], Callable[..., Any]]]]] 
     },
     _MACHINE: {"spring_constant": (("E_star", "R"), lambda spring, E_star, R: spring / (E_star * R))},
     "indentation_max_over_R": {"indentation_max": (("R",), _over)},
-    "load_max": {"preload": (("R", "work_of_adhesion"), lambda load, R, work: load / (1.5 * math.pi * R * work))},
+    "load_max": {"preload": (("R", "work_of_adhesion"), lambda load, R, work: load / scales_in_si(R, work)["N"])},
     CLOSING: {"work_of_adhesion_closing": (("work_of_adhesion",), _over)},
     PATTERN[0]: {"toughness_wavelength": (("R",), _over)},
     SPEED: {"speed": (("reference_speed",), _over)},

@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 
 from gradhesion.core.draw.draw import draw_curves
-from gradhesion.core.equations import gap, general, pressure
+from gradhesion.core.equations import general, quadrature
 from gradhesion.core.equations._arguments import Array
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
@@ -193,7 +193,7 @@ def draw_states(
         for i in there:
             a, depth = states[:, i]
             found["pressure_radius"][i] = a * share
-            found["pressure"][i] = pressure.pressure(k, material, a * share, a, depth, *wave)
+            found["pressure"][i] = quadrature.pressure(k, material, a * share, a, depth, *wave)
     if "surface" in curves:
         half = count // 2
         names = ("surface_radius", "surface_displacement", "surface_gap")
@@ -205,7 +205,7 @@ def draw_states(
             inside = a * np.arange(half) / half
             outside = a + (end - a) * (np.arange(half + 1) / half) ** 2
             r = np.concatenate([inside, outside])
-            opening = np.concatenate([np.zeros(half), gap.series_gap(k, outside, a, depth, *wave)])
+            opening = np.concatenate([np.zeros(half), quadrature.series_gap(k, outside, a, depth, *wave)])
             m = shape.exponent
             height = r**m / m + wavelength * general.waviness(r / wavelength, cosines, sines)
             found["surface_radius"][i] = r

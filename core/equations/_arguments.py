@@ -1,13 +1,10 @@
-"""What equations share: their arguments, each described once, by its name; arrays that are NaN out of range.
-
-Lengths are in R, loads in 1.5 pi R dgamma, and the material is its one number M R^(1+k)/dgamma.
-"""
+"""What equations share: their arguments, each described once, by its name; arrays that are NaN out of range."""
 
 import inspect
 import math
-import sys
-from collections.abc import Callable, Sequence
-from typing import Any, Final, TypeAlias, get_origin
+from collections.abc import Sequence
+from types import ModuleType
+from typing import Final, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,9 +14,6 @@ Real: TypeAlias = ArrayLike
 """A number, or an array of numbers."""
 Waves: TypeAlias = Sequence[float]
 """The coefficients of a Fourier series, from the first harmonic on."""
-
-LOAD_UNIT: Final = 1.5 * math.pi
-"""1.5 pi R dgamma over R dgamma."""
 MEANINGS: Final = {
     "k": "Gradient exponent, 0 to 1.",
     "stiffness": "M R^(1+k)/dgamma > 0; inf, which is contact without adhesion, has depths but no loads.",
@@ -31,13 +25,17 @@ MEANINGS: Final = {
     "amplitude": "A, amplitude over wavelength, >= 0.",
     "cosines": "a_1, a_2, ..., over the wavelength; [-A] is one cosine wave, [] a smooth punch.",
     "sines": "b_1, b_2, ..., over the wavelength.",
+    "waves": "(n, a_n, b_n) of each harmonic, over the wavelength.",
+    "heights": "f2 at xi = 0, 1/N, ..., (N-1)/N, over the wavelength; a constant in it has no effect.",
+    "terms": "How many harmonics, 1 or more; of N samples up to (N-1)/2.",
     "exponent": "m >= 1, the power of the smooth part: 1 is a cone, 2 a paraboloid.",
     "mean_height": "Mean height of the waves, lambda A/R or -lambda sum a_n/R, or whether to add it; the printed form "
     "leaves it out.",
     "adhesion": "s/R^((1+k)/2) > 0, as `envelopes.adhesion_strength`.",
-    "waviness": "r/R^((1+k)/2) >= 0, as `envelopes.waviness_strength`.",
+    "waviness": "r/R^((1+k)/2) >= 0, as `envelopes.waviness_strength`; of `general.coefficients` f2, a function of an "
+    "array of xi in [0, 1), over lambda.",
     "pull": "s - r for loading, s + r for unloading, over R^((1+k)/2).",
-    "ratio": "r/s >= 0; of `saturation.share` u >= 0, the slope of the smooth punch over the steepest of the wave.",
+    "ratio": "r/s >= 0; of `short_waves.share` u >= 0, the slope of the smooth punch over the steepest of the wave.",
     "alpha": "A value of zeta, between `envelopes.zeta_extrema`.",
     "slope": "f'(r), a function of an array of r/R in (0, a/R); smooth there, and bounded at 0.",
     "shortest": "The shortest wave of f'/R, if it has waves.",
@@ -48,53 +46,41 @@ MEANINGS: Final = {
 }
 
 
-def describe(module: str) -> None:
-    """Have `help` describe arguments and results of all public functions of a module that do not do so themselves."""
-    for function in list(vars(sys.modules[module]).values()):
-        if inspect.isfunction(function) and function.__module__ == module and not function.__name__.startswith("_"):
-            text, signature = inspect.getdoc(function) or "", inspect.signature(function)
-            if "Parameters\n---" not in text:
-                text += "\n\nParameters\n----------\n"
-                text += "\n".join(f"{name}\n    {MEANINGS[name]}" for name in signature.parameters)
-            several = get_origin(signature.return_annotation) is tuple
-            if "Returns\n---" not in text and (several or signature.return_annotation == Array):
-                result = "Arrays" if several else "Array"
-                text += f"\n\nReturns\n-------\n{result} of the broadcast shape; NaN outside the ranges."
+def describe(module: ModuleType) -> None:
+    """Have `help` describe arguments and results of all public functions of a module."""
+    for function in vars(module).values():
+        if inspect.isfunction(function) and function.__module__ == module.__name__ and function.__name__[0] != "_":
+            signature = inspect.signature(function)
+            arguments = "\n".join(f"{name}\n    {MEANINGS[name]}" for name in signature.parameters)
+            result = "Returns\n-------\nAn array of the broadcast shape, or several; NaN outside the ranges."
+            text = f"{inspect.getdoc(function)}\n\nParameters\n----------\n{arguments}"
             plain = [one.replace(annotation=one.empty) for one in signature.parameters.values()]  # the text has it
             shown = signature.replace(parameters=plain, return_annotation=signature.empty)
-            function.__doc__, function.__signature__ = text, shown  # type: ignore[attr-defined]
+            function.__doc__ = text if "Returns\n---" in text else f"{text}\n\n{result}"
+            function.__signature__ = shown  # type: ignore[attr-defined]
+
+
+def _within(values: Real, low: float, high: float = math.inf) -> Array:
+    """Return an array, NaN outside [low, high]."""
+    array = np.asarray(values, dtype=float)
+    return np.where((array >= low) & (array <= high), array, np.nan)
 
 
 def exponent_of(k: Real) -> Array:
     """Return k as an array, NaN outside [0, 1]."""
-    values = np.asarray(k, dtype=float)
-    return np.where((values >= 0.0) & (values <= 1.0), values, np.nan)
-
-
-def positive(values: Real) -> Array:
-    """Return an array, NaN where it is not above 0."""
-    array = np.asarray(values, dtype=float)
-    return np.where(array > 0.0, array, np.nan)
-
-
-def not_negative(values: Real) -> Array:
-    """Return an array, NaN where it is not 0 or more."""
-    array = np.asarray(values, dtype=float)
-    return np.where(array >= 0.0, array, np.nan)
+    return _within(k, 0.0, 1.0)
 
 
 def power_of(exponent: Real) -> Array:
     """Return the power m of a smooth profile as an array, NaN below 1."""
-    m = np.asarray(exponent, dtype=float)
-    return np.where(m >= 1.0, m, np.nan)
+    return _within(exponent, 1.0)
 
 
-def point_by_point(formula: Callable[..., float], *numbers: Real) -> Array:
-    """Return a formula of floats at every point of broadcast arrays, NaN where one of them is NaN."""
-    arrays = np.broadcast_arrays(*numbers)
-    out = np.full(arrays[0].shape, np.nan)
-    for place in np.ndindex(out.shape):
-        point: list[Any] = [float(array[place]) for array in arrays]
-        if not any(math.isnan(number) for number in point):
-            out[place] = formula(*point)
-    return out
+def not_negative(values: Real) -> Array:
+    """Return an array, NaN where it is not 0 or more."""
+    return _within(values, 0.0)
+
+
+def positive(values: Real) -> Array:
+    """Return an array, NaN where it is not above 0."""
+    return _within(values, math.ulp(0.0))

@@ -8,7 +8,8 @@
 Loading runs along the upper signs, unloading along the lower ones: a smooth punch with s + r for s, whose pull-off
 force is (3+k)/3 (1+r/s)^2. The printed form leaves out lambda A, the mean height of the wave. For a Fourier series r is
 2^((k-1)/2) G((1+k)/2) lambda^((1+k)/2) times the maximum of zeta for loading, and minus its minimum for unloading,
-(5.21)-(5.25). For a punch r^m/m the first terms are those of `hertz.power_indentation`.
+(5.21)-(5.25). For a punch r^m/m the first terms are those of `hertz.power_indentation`; c = (1-k)/2, and G is that
+factor of depth at a = R.
 """
 
 import math
@@ -16,24 +17,15 @@ import math
 import numpy as np
 from scipy.special import gamma
 
-from gradhesion.core.equations import hertz
-from gradhesion.core.equations._arguments import (
-    Array,
-    Real,
-    Waves,
-    describe,
-    exponent_of,
-    not_negative,
-    positive,
-    power_of,
-)
-from gradhesion.core.equations._crests import swings_of
+from gradhesion.core.equations import hertz, jkr
+from gradhesion.core.equations._arguments import Array, Real, Waves, exponent_of, not_negative, positive, power_of
 from gradhesion.core.equations.general import harmonics
+from gradhesion.core.problem.shape import swings_of
 
 
 def adhesion_strength(k: Real, stiffness: Real) -> Array:
-    """Return s/R^((1+k)/2) = sqrt(2^(1+k) pi dgamma/M)."""
-    return np.sqrt(2.0 ** (1.0 + exponent_of(k)) * math.pi / positive(stiffness))
+    """Return s/R^((1+k)/2) = sqrt(2^(1+k) pi dgamma/M), the Delta of a = R."""
+    return jkr.adhesive_depth(k, stiffness, 1.0)
 
 
 def waviness_strength(k: Real, wavelength: Real, amplitude: Real) -> Array:
@@ -48,9 +40,8 @@ def waviness_strength(k: Real, wavelength: Real, amplitude: Real) -> Array:
 
 def series_strengths(k: Real, wavelength: Real, cosines: Waves, sines: Waves = ()) -> tuple[Array, Array]:
     """Return r/R^((1+k)/2) of a Fourier series, for loading and for unloading (5.21)-(5.25)."""
-    n = 0.5 * (1.0 + exponent_of(k))
-    size = 2.0 ** (n - 1.0) * gamma(n) * positive(wavelength) ** n
     lowest, highest = zeta_extrema(k, cosines, sines)
+    size = depth_over_zeta(k, 1.0, wavelength)
     return size * highest, -size * lowest
 
 
@@ -63,12 +54,16 @@ def zeta_extrema(k: Real, cosines: Waves, sines: Waves = ()) -> tuple[Array, Arr
     return -size * down, size * up
 
 
+def depth_over_zeta(k: Real, radius: Real, wavelength: Real) -> Array:
+    """Return by how much depth/R swings over zeta, 2^((k-1)/2) G((1+k)/2) lambda^((1+k)/2) a^((1-k)/2)."""
+    c = 0.5 * (1.0 - exponent_of(k))
+    return waviness_strength(k, wavelength, 1.0) * (not_negative(radius) / (2.0 * math.pi)) ** c
+
+
 def power_pull_off(k: Real, stiffness: Real, pull: Real, exponent: Real = 2.0) -> tuple[Array, Array]:
     """Return a/R and F/(1.5 pi R dgamma) of pull-off of an envelope of any power m.
 
-    With G the factor of `hertz.power_indentation` and c = (1-k)/2,
-
-        a^(m-c) = (3+k) (s+r)/(2 m G),   F = K (s+r) a^((3+k)/2) (m-c)/(1+k+m)
+    a^(m-c) = (3+k) (s+r)/(2 m G),   F = K (s+r) a^((3+k)/2) (m-c)/(1+k+m)
     """
     gradient, hold, m = exponent_of(k), positive(pull), power_of(exponent)
     c = 0.5 * (1.0 - gradient)
@@ -80,11 +75,9 @@ def power_pull_off(k: Real, stiffness: Real, pull: Real, exponent: Real = 2.0) -
 def power_radii(k: Real, pull: Real, exponent: Real = 2.0) -> tuple[Array, Array]:
     """Return a_2/R and a_4/R of an envelope of any power m, at the depth 0 and at its fold, (5.34) and (5.35).
 
-        a_2^(m-c) = pull/G,   a_4^(m-c) = (1-k) pull/(2 m G)
-
-    depths counted from the mean surface, with G the factor of `hertz.power_indentation` and c = (1-k)/2.
+    a_2^(m-c) = pull/G,   a_4^(m-c) = (1-k) pull/(2 m G),   depths counted from the mean surface
     """
-    gradient, hold, m = exponent_of(k), positive(pull), power_of(exponent)
+    gradient, hold, m = exponent_of(k), not_negative(pull), power_of(exponent)
     c = 0.5 * (1.0 - gradient)
     ratio = hold / hertz.power_indentation(gradient, 1.0, m)
     return ratio ** (1.0 / (m - c)), (c * ratio / m) ** (1.0 / (m - c))
@@ -95,9 +88,6 @@ def pull_off_force(k: Real, ratio: Real) -> Array:
 
     The exact force tends to it as lambda -> 0 at fixed r/s, with an error of the order (lambda/a)^2, below it except
     for k near 1.
-
-    >>> pull_off_force([0.0, 0.6], 0.5).round(12).tolist()
-    [2.25, 2.7]
     """
     return (3.0 + exponent_of(k)) / 3.0 * (1.0 + not_negative(ratio)) ** 2
 
@@ -120,6 +110,3 @@ def load(k: Real, stiffness: Real, radius: Real, pull: Real, exponent: Real = 2.
     smooth = hertz.power_indentation(k, a, m) * m / (1.0 + gradient + m)
     hold = np.asarray(pull, dtype=float) * a ** (0.5 * (1.0 - gradient))
     return hertz.disc_stiffness(k, stiffness, a) * (smooth - hold)
-
-
-describe(__name__)

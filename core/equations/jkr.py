@@ -3,7 +3,8 @@
     G(a, delta) = dgamma [(delta_H(a) - delta)/Delta(a)]^2,   Delta(a) = sqrt(2^(1+k) pi dgamma a^(1-k)/M)
     equilibrium G = dgamma:   delta = delta_H - Delta,   P = P_H - K a^(1+k) Delta
 
-Depth under displacement control folds where q = a delta_H'/Delta meets (1-k)/2, and load where it meets (3+k)/2.
+Depth under displacement control folds where q = a delta_H'/Delta meets (1-k)/2, and load where it meets (3+k)/2. The
+punch is a power with one cosine wave.
 """
 
 import math
@@ -11,8 +12,7 @@ import math
 import numpy as np
 
 from gradhesion.core.equations import hertz
-from gradhesion.core.equations._arguments import Array, Real, describe, exponent_of, not_negative, positive, power_of
-from gradhesion.core.equations.pair import sine_integrals
+from gradhesion.core.equations._arguments import Array, Real, exponent_of, not_negative, positive
 
 
 def adhesive_depth(k: Real, stiffness: Real, radius: Real) -> Array:
@@ -64,13 +64,12 @@ def load(k: Real, stiffness: Real, radius: Real, wavelength: Real, amplitude: Re
 def load_at_depth(
     k: Real, stiffness: Real, radius: Real, depth: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0
 ) -> Array:
-    """Return the load P/(1.5 pi R dgamma) on a disc of fixed radius at any depth, K [a^(1+k) delta - I].
+    """Return the load P/(1.5 pi R dgamma) on a disc of fixed radius at any depth, K [a^(1+k) delta - I] (4.1).
 
     This is contact pinned at the rim of a finite punch, and the state between two equilibria during a jump.
     """
-    raised = np.asarray(depth, dtype=float) - hertz.indentation(k, radius, wavelength, amplitude, exponent)
-    rest = hertz.load(k, stiffness, radius, wavelength, amplitude, exponent)
-    return rest + hertz.disc_stiffness(k, stiffness, radius) * raised
+    hertzian, raised, _ = hertz.over_disc(k, radius, wavelength, hertz.cosine_wave(amplitude), exponent)
+    return hertz.disc_stiffness(k, stiffness, radius) * (raised + (np.asarray(depth, dtype=float) - hertzian))
 
 
 def fold_number(
@@ -81,11 +80,5 @@ def fold_number(
     Depth rises with the radius, and contact is stable under displacement control, where q > (1-k)/2; load rises, and
     contact is stable under load control, where q > (3+k)/2.
     """
-    a, m = positive(radius), power_of(exponent)
-    s0, _, slope, _ = sine_integrals(k, a / positive(wavelength))
-    z = 2.0 * math.pi * a / positive(wavelength)
-    wave = 2.0 * math.pi * not_negative(amplitude) * a * (s0 + z * slope)
-    return (m * hertz.power_indentation(k, a, m) + wave) / adhesive_depth(k, stiffness, a)
-
-
-describe(__name__)
+    rise = hertz.over_disc(k, radius, wavelength, hertz.cosine_wave(amplitude), exponent)[2]
+    return rise / adhesive_depth(k, stiffness, positive(radius))

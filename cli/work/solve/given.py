@@ -98,7 +98,7 @@ def scales_from(study: Study, given: Mapping[str, NDArray[np.float64]]) -> dict[
 
     scales = scales_in_si(given["R"], given["work_of_adhesion"])
     if any(UNITS[name] == "Pa" for name in study.in_si):
-        from gradhesion.core.equations.pressure import pressure_unit  # noqa: PLC0415 (300 ms for SciPy)
+        from gradhesion.core.equations.quadrature import pressure_unit  # noqa: PLC0415 (300 ms for SciPy)
 
         scales["Pa"] = pressure_unit(given["R"], given["work_of_adhesion"])
     return scales

@@ -17,7 +17,6 @@ import numpy as np
 
 from gradhesion.core.closed.reduced import WAYS, parameters_from
 from gradhesion.core.equations import hertz, jkr
-from gradhesion.core.equations.pair import cosine_integrals, sine_integrals
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
@@ -199,9 +198,9 @@ class Model:
         for wave in self.profile.harmonics:
             size = 2.0 * math.pi * wave.n
             if wave.cos:
-                sums += size * wave.cos * sine_integrals(k, wave.n * x)[:2]
+                sums += size * wave.cos * hertz.sine_integrals(k, wave.n * x)[:2]
             if wave.sin:
-                sums += size * wave.sin * cosine_integrals(k, wave.n * x)
+                sums += size * wave.sin * hertz.cosine_integrals(k, wave.n * x)
         return sums
 
     def _toughness(self, scenes: Scenes, a: Floats) -> Floats:

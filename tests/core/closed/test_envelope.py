@@ -8,12 +8,18 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gradhesion.core import FAILED, OUTPUTS, solve
+from gradhesion.core import FAILED, OUTPUTS, Harmonic, Loading, Profile, solve
 from gradhesion.core.problem.material import stiffness
+from gradhesion.core.problem.shape import swings
+from gradhesion.core.problem.status import NO_VALUE
+from gradhesion.twin import stated
+from gradhesion.twin.general import Shape
 
 EPS = float(np.finfo(float).eps)
 NU, C0 = 0.27, 0.13
 EXPONENTS = [0.0, 0.2, 0.53, 0.9, 1.0 - 1e-9]
+WAVES = ((1, 1.0, 0.1), (3, 0.2, -0.3), (4, 0.0, 0.2))
+PROFILE = Profile(exponent=1.4, harmonics=tuple(Harmonic(n=n, cos=even, sin=odd) for n, even, odd in WAVES))
 
 
 def scene_of(k: float, M: float, wavelength: float, chi: float, a_max: float) -> dict[str, float]:
@@ -39,46 +45,51 @@ def length_of(k: float, M: float) -> float:
     return M ** (-1 / (3 + k))
 
 
-def loop_integral(k: float, M: float, chi: float, rim: float) -> float:
-    """Integrate P d(delta) along (5.26), (5.27), (5.32), R = dgamma = 1, with the jumps at their fixed depth."""
-    K = 2 ** (1 - k) * M / (1 + k)
-    s = mpmath.sqrt(2 ** (1 + k) * mpmath.pi / M)
-    c = mpmath.mpf(1 - k) / 2
+def loop_integral(k: float, M: float, m: float, up: float, down: float, rim: float) -> float:
+    """Integrate P d(delta) along envelopes that are off the mean by r_+ and r_-, and along the line at the rim.
+
+    R = dgamma = 1, depths are counted from the mean surface, and the jumps are at their fixed depth.
+    """
+    k, c = mpmath.mpf(k), (1 - mpmath.mpf(k)) / 2
+    K, s = 2 ** (1 - k) * M / (1 + k), mpmath.sqrt(2 ** (1 + k) * mpmath.pi / M)
+    front = mpmath.beta(mpmath.mpf(m) / 2, (1 + k) / 2) / 2
 
     def depth(pull: Any, a: Any) -> Any:
-        return a**2 / (1 + k) - pull * a**c
+        return front * a**m - pull * a**c
+
+    def load(pull: Any, a: Any) -> Any:
+        return K * a ** (1 + k) * (m / (1 + k + m) * front * a**m - pull * a**c)
 
     def work(pull: Any, first: Any, last: Any) -> Any:
-        def integrand(t: Any) -> Any:
+        def rate(t: Any) -> Any:
             a = mpmath.exp(t)
-            load = K * (2 * a ** (3 + k) / ((1 + k) * (3 + k)) - pull * a ** ((3 + k) / mpmath.mpf(2)))
-            return load * (2 * a**2 / (1 + k) - pull * c * a**c)
+            return load(pull, a) * (m * front * a**m - pull * c * a**c)
 
-        return mpmath.quad(integrand, mpmath.linspace(mpmath.log(first), mpmath.log(last), 9)) if last > first else 0
+        return mpmath.quad(rate, mpmath.linspace(mpmath.log(first), mpmath.log(last), 9)) if last > first else 0
 
-    def pinned(first: Any, last: Any) -> Any:
-        def load(d: Any) -> Any:
-            return K * (rim ** (1 + k) * d - mpmath.mpf(rim) ** (3 + k) / (3 + k))
-
-        return mpmath.quad(load, [first, last])
-
-    loading, unloading = s * (1 - chi), s * (1 + chi)
-    a_in = min(rim, ((1 + k) * max(loading, 1e-30)) ** (mpmath.mpf(2) / (3 + k)))
-    a_out = min(rim, ((1 - k * k) / mpmath.mpf(4) * unloading) ** (mpmath.mpf(2) / (3 + k)))
-    top = max(0, depth(loading, rim))
-    return float(work(loading, a_in, rim) - work(unloading, a_out, rim) + pinned(top, depth(unloading, rim)))
+    rim, loading, unloading = mpmath.mpf(rim), s - up, s + down
+    a_in = min(rim, (max(loading, mpmath.mpf(10) ** -30) / front) ** (1 / (m - c)))
+    a_out = min(rim, (c * unloading / (m * front)) ** (1 / (m - c)))
+    drop = max(0, depth(loading, rim)) - depth(unloading, rim)
+    pinned = drop * load(unloading, rim) + K * rim ** (1 + k) * drop**2 / 2
+    return float(work(loading, a_in, rim) - pinned - work(unloading, a_out, rim))
 
 
 @pytest.mark.parametrize("k", EXPONENTS)
 @pytest.mark.parametrize("chi", [0.031, 0.72, 1.0, 2.6])
 @pytest.mark.parametrize("reach", [0.21, 0.9, 1.63, 5.8])
 def test_the_energy_is_the_loop_integral_of_load_over_depth(k: float, chi: float, reach: float) -> None:
-    M = 37.0
-    rim = reach * length_of(k, M)
-    energy = envelope(scene_of(k, M, 0.0023, chi, rim))["dissipated_energy"]
+    M, rim = 37.0, reach * length_of(k, 37.0)
+    scene = scene_of(k, M, 0.0023, chi, rim)
+    one = chi * math.sqrt(2 ** (1 + k) * math.pi / M)
     with mpmath.workdps(20):
-        expected = loop_integral(k, M, chi, rim)
-    assert energy == pytest.approx(expected, rel=400 * EPS)
+        expected = loop_integral(k, M, 2.0, one, one, rim)
+    assert envelope(scene)["dissipated_energy"] == pytest.approx(expected, rel=400 * EPS)
+    up, down = (one * swing for swing in swings(k, WAVES))
+    with mpmath.workdps(20):
+        expected = loop_integral(k, M, 1.4, up, down, rim)
+    found = solve(scene, ["dissipated_energy"], solver="envelope", profile=PROFILE)["dissipated_energy"]
+    assert found == pytest.approx(expected, rel=2000 * EPS)
 
 
 @pytest.mark.parametrize("k", [*EXPONENTS, 1.0])
@@ -192,3 +203,53 @@ def test_what_is_out_of_range_has_no_value() -> None:
         assert result["status"] == 64, change
         assert np.isnan(result["pull_off_force"])
         assert result["loading_jumps"] == -1
+
+
+def _draw(count: int) -> dict[str, np.ndarray]:
+    rng = np.random.default_rng(8)
+    k = rng.choice([0.0, 1e-7, 0.23, 0.71, 1.0], count)
+    return {
+        "k": k,
+        "nu": np.where(k == 1.0, 0.5, 0.27),
+        "modulus": 10.0 ** rng.uniform(1.0, 4.0, count),
+        "c0_over_R": 10.0 ** rng.uniform(-2.0, 0.0, count),
+        "lambda_over_R": 10.0 ** rng.uniform(-4.0, -1.0, count),
+        "A": np.where(rng.random(count) < 0.1, 0.0, 10.0 ** rng.uniform(-4.0, 0.0, count)),
+        "a_max_over_R": np.where(rng.random(count) < 0.1, np.inf, 10.0 ** rng.uniform(-2.0, 0.5, count)),
+    }
+
+
+def test_the_twin_has_the_same_envelopes() -> None:
+    scenes = _draw(40)
+    values = solve(scenes, OUTPUTS, solver="envelope", profile=PROFILE)
+    for i in range(40):
+        scene = {name: float(column[i]) for name, column in scenes.items()}
+        for name, one in stated.expected(scene, OUTPUTS, "envelope", Shape(1.4, WAVES)).items():
+            assert stated.deviation(float(values[name][i]), one) <= one.error, name
+
+
+@pytest.mark.parametrize("k", [0.0, 0.6])
+@pytest.mark.parametrize("waves", [((1, 0.0, 0.5),), ((1, 0.6, 0.1), (3, -0.4, -0.3), (4, -0.2, 0.2))])
+def test_the_exact_solution_tends_to_the_envelopes(k: float, waves: tuple[tuple[int, float, float], ...]) -> None:
+    """Waves of no mean height, which the energy of the envelopes leaves out; one harmonic's crest moves, but keeps its height."""
+    profile = Profile(exponent=2.5, harmonics=tuple(Harmonic(n=n, cos=even, sin=odd) for n, even, odd in waves))
+    wavelength = np.array([4e-3, 1e-3])
+    scene = {"k": k, "nu": 0.2, "modulus": 300.0, "c0_over_R": 0.1, "lambda_over_R": wavelength, "a_max_over_R": 0.6}
+    scene["A"] = 0.02 * (4e-3 / wavelength) ** (0.5 * (1.0 + k))
+    exact, limit = (solve(scene, OUTPUTS, profile=profile, solver=solver) for solver in ("exact", "envelope"))
+    force = np.abs(exact["pull_off_force"] / limit["pull_off_force"] - 1.0)
+    assert np.all(force <= (10.0 * wavelength**2 if len(waves) == 1 else 0.05 * wavelength))
+    energy = np.abs(exact["dissipated_energy"] / limit["dissipated_energy"] - 1.0)
+    assert np.all((energy > 0.0) & (energy <= 30.0 * wavelength))
+    assert np.all(np.abs(exact["delta_max"] - limit["delta_max"]) < 1.2 * wavelength)
+
+
+def test_what_has_no_envelopes_is_refused() -> None:
+    scene = {name: column[0] for name, column in _draw(1).items()}
+    with pytest.raises(ValueError, match="displacement control only: the path along the envelopes jumps"):
+        solve(scene, profile=PROFILE, loading=Loading(control="load"), solver="envelope")
+    bad = solve({**scene, "A": [-1.0, np.nan, 0.1], "k": 0.2}, OUTPUTS, profile=PROFILE, solver="envelope")
+    assert (bad["status"] == NO_VALUE).tolist() == [True, True, False]
+    assert all(np.isnan(bad[name][:2]).all() or (bad[name][:2] == -1).all() for name in OUTPUTS)
+    endless = solve(scene | {"k": 0.2, "A": 0.1, "a_max_over_R": np.inf}, OUTPUTS, profile=PROFILE, solver="envelope")
+    assert [float(endless[name]) for name in ("dissipated_energy", "delta_max")] == [math.inf, math.inf]

@@ -1,72 +1,63 @@
-"""The leading term for short waves against the exact curve: its error falls as the wavelength does."""
+"""Short waves: the leading term, its envelopes, the effective path, its energy, and where folds end."""
 
 import math
+from typing import Any
 
 import mpmath
 import numpy as np
 import pytest
+from scipy.integrate import quad
+from scipy.optimize import minimize_scalar
 
-from gradhesion.core.equations import general, jkr, short_waves
+from gradhesion.core import Harmonic, Profile, solve
+from gradhesion.core.equations import effective, envelopes, general, hertz, jkr, short_waves
+from gradhesion.core.problem.material import stiffness
 
+EPS = float(np.finfo(float).eps)
+M, WAVELENGTH, AMPLITUDE = 150.0, 0.003, 0.02
 COSINES, SINES = [-0.02, 0.004], [0.006, 0.0, -0.001]
-M = 150.0
+EXPONENTS = [0.0, 0.41, 0.9, 1.0]
+SCENE = {"nu": 0.3, "modulus": 300.0, "c0_over_R": 0.01, "A": 0.03}
 
 
-def _window(wavelength: float) -> np.ndarray:
-    """Return one wave of radii around 0.5."""
-    return 0.5 + wavelength * np.linspace(-0.5, 0.5, 101)
+def strengths(k: float) -> tuple[float, float]:
+    s, r = envelopes.adhesion_strength(k, M), envelopes.waviness_strength(k, WAVELENGTH, AMPLITUDE)
+    return float(s), float(r)
+
+
+def amplitude_of(k: float, stiff: float, ratio: float) -> float:
+    """The amplitude at which r/s is a ratio, for waves of 0.01 R."""
+    return ratio * float(envelopes.adhesion_strength(k, stiff) / envelopes.waviness_strength(k, 0.01, 1.0))
+
+
+# ---- the leading term
 
 
 @pytest.mark.parametrize("k", [0.0, 0.3, 0.7, 1.0])
 def test_error_over_the_wave_falls_as_the_wavelength(k: float) -> None:
-    errors = []
-    for wavelength in (0.02, 0.002, 0.0002):
-        a = _window(wavelength)
-        wave = short_waves.indentation(k, M, a, wavelength, COSINES, SINES)
+    errors, rest, means = [], [], []
+    for wavelength in (2e-2, 2e-3, 2e-4):
+        a = 0.5 + wavelength * np.linspace(-0.5, 0.5, 101)
+        wave = (wavelength, COSINES, SINES)
         swing = np.ptp(wavelength ** (0.5 * (1 + k)) * short_waves.zeta(k, a / wavelength, COSINES, SINES))
-        exact = general.indentation(k, M, a, wavelength, COSINES, SINES)
-        load = short_waves.load(k, M, a, wavelength, COSINES, SINES)
-        exact_load = general.load(k, M, a, wavelength, COSINES, SINES)
+        depth = general.indentation(k, M, a, *wave)
+        error = np.abs(short_waves.indentation(k, M, a, *wave) - depth).max() / swing
+        off = np.abs(short_waves.load(k, M, a, *wave) - general.load(k, M, a, *wave)).max()
         # K a^(1+k) in units of 1.5 pi turns a swing of depth to one of load
         disc = 2 ** (1 - k) * M / (1 + k) * 0.5 ** (1 + k) / (1.5 * math.pi)
-        errors.append([np.abs(wave - exact).max() / swing, np.abs(load - exact_load).max() / (disc * swing)])
-    depth, load = np.array(errors).T
-    np.testing.assert_allclose(load[:-1] / load[1:], 10.0, rtol=0.15)
+        errors.append([error, off / (disc * swing)])
+        rest.append(off)
+        means.append(np.mean(depth - short_waves.indentation(k, M, a, *wave, mean_height=False)))
+    falls = np.array(errors[:-1]) / errors[1:]
+    np.testing.assert_allclose(falls[:, 1], 10.0, rtol=0.15)
     if k == 1.0:
-        assert max(depth) < 1e-9  # the depth is exact
+        assert max(error for error, _ in errors) < 1e-9  # the depth is exact
     else:
-        np.testing.assert_allclose(depth[:-1] / depth[1:], 10.0, rtol=0.15)
-    assert max(depth[0], load[0]) < 0.1
-
-
-@pytest.mark.parametrize("k", [0.0, 0.3, 0.7])
-def test_the_remainder_of_the_load_is_smaller_than_the_printed_one(k: float) -> None:
-    """K a^(2+k) O((lambda/a)^((3+k)/2)), not O(lambda/a): with the right (B5) the terms of that order cancel in P."""
-    rest = []
-    for wavelength in (2e-3, 2e-4, 2e-5):
-        a = _window(wavelength)
-        off = short_waves.load(k, M, a, wavelength, COSINES, SINES) - general.load(k, M, a, wavelength, COSINES, SINES)
-        rest.append(np.abs(off).max())
-    np.testing.assert_allclose(np.log10(np.array(rest[:-1]) / rest[1:]), 0.5 * (3.0 + k), atol=0.02)
-
-
-@pytest.mark.parametrize("k", [0.0, 0.3, 0.7, 1.0])
-def test_the_printed_form_lacks_the_mean_height(k: float) -> None:
-    wavelength = 0.0005
-    a = _window(wavelength)
-    exact = general.indentation(k, M, a, wavelength, COSINES, SINES)
-    printed = short_waves.indentation(k, M, a, wavelength, COSINES, SINES, mean_height=False)
-    assert np.mean(exact - printed) == pytest.approx(wavelength * 0.016, rel=0.03)
-
-
-def test_zeta_has_period_one_and_is_a_sine_for_one_cosine() -> None:
-    xi = np.linspace(0.0, 1.0, 57)
-    for k in (0.0, 0.4, 1.0):
-        expected = (2 * math.pi) ** (0.5 * (1 - k)) * 0.03 * np.sin(2 * math.pi * xi - 0.25 * math.pi * (1 + k))
-        np.testing.assert_allclose(short_waves.zeta(k, xi, [-0.03]), expected, atol=1e-16)
-        np.testing.assert_allclose(
-            short_waves.zeta(k, xi + 3.0, COSINES, SINES), short_waves.zeta(k, xi, COSINES, SINES), atol=1e-14
-        )
+        np.testing.assert_allclose(falls[:, 0], 10.0, rtol=0.15)
+        # not of the order lambda/a of K a^(2+k), as printed: with the right (B5) the terms of that order cancel in P
+        assert np.log10(rest[1] / rest[2]) == pytest.approx(0.5 * (3.0 + k), abs=0.02)
+    assert np.max(errors[0]) < 0.1
+    assert means[2] == pytest.approx(2e-4 * 0.016, rel=0.03)  # the mean height, which the printed form lacks
 
 
 @pytest.mark.parametrize("k", [0.0, 0.3, 0.7])
@@ -80,46 +71,276 @@ def test_zeta_is_weyls_fractional_derivative(k: float) -> None:
     def slope(x: mpmath.mpf) -> mpmath.mpf:  # of f2 - a0/2, over x = 2 pi xi
         return -COSINES[0] * mpmath.sin(x) - 2 * COSINES[1] * mpmath.sin(2 * x) + SINES[0] * mpmath.cos(x)
 
+    def integral(x: mpmath.mpf) -> mpmath.mpf:  # of the order be, as (B13) has it
+        half, total = mpmath.pi * be / 2, mpmath.mpf(0)
+        for n, a_n, b_n in general.harmonics(COSINES, SINES[:1]):
+            c, s = mpmath.cos(n * x), mpmath.sin(n * x)
+            wave = mpmath.cos(half) * (a_n * c + b_n * s) + mpmath.sin(half) * (a_n * s - b_n * c)
+            total += mpmath.mpf(n) ** -be * wave
+        return total
+
     with mpmath.workdps(15):
         turn = 2 * mpmath.pi
-        for xi in (0.13, 0.7):
+        for xi in (0.13, 3.7):
             x = turn * mpmath.mpf(xi)
 
             def integrand(v: mpmath.mpf, x: mpmath.mpf = x) -> mpmath.mpf:  # u = v^(1/be)
                 u = v ** (1 / be)
                 return v ** (1 / be - 1) / be * mpmath.zeta(1 - be, u) * slope(x - turn * u)
 
-            whole = turn**be * mpmath.quad(integrand, mpmath.linspace(0, 1, 5))
-            exact = turn**al * whole / mpmath.gamma(be)  # of xi, not of x
-            found = short_waves.zeta(k, xi, COSINES, SINES[:1])
-            assert float(found) == pytest.approx(float(exact), abs=1e-12)
-            # the sums (B13), their derivative (B12) by a central difference
-            step = mpmath.mpf("1e-5")
-            ahead, behind = (_weyl_integral(be, x + h, COSINES, SINES[:1]) for h in (step, -step))
-            assert float(found) == pytest.approx(float(turn**al * (ahead - behind) / (2 * step)), abs=1e-9)
+            exact = turn * mpmath.quad(integrand, mpmath.linspace(0, 1, 5)) / mpmath.gamma(be)  # of xi, not of x
+            found = float(short_waves.zeta(k, xi, COSINES, SINES[:1]))
+            assert found == pytest.approx(float(exact), abs=1e-12)
+            step = mpmath.mpf("1e-5")  # (B12) by a central difference
+            slope_of = turn**al * (integral(x + step) - integral(x - step)) / (2 * step)
+            assert found == pytest.approx(float(slope_of), abs=1e-9)
 
 
-def _weyl_integral(order: mpmath.mpf, x: mpmath.mpf, cosines: list[float], sines: list[float]) -> mpmath.mpf:
-    """Return Q_order(x) as (B13) has it."""
-    total = mpmath.mpf(0)
-    for n, a_n, b_n in general.harmonics(cosines, sines):
-        c, s = mpmath.cos(n * x), mpmath.sin(n * x)
-        half = mpmath.pi * order / 2
-        total += mpmath.mpf(n) ** -order * (
-            mpmath.cos(half) * (a_n * c + b_n * s) + mpmath.sin(half) * (a_n * s - b_n * c)
-        )
-    return total
+# ---- the envelopes
 
 
-def test_a_smooth_punch_is_left_as_it_is() -> None:
-    a = np.linspace(0.1, 0.9, 9)
-    np.testing.assert_allclose(
-        short_waves.indentation(0.4, M, a, 0.1, []), jkr.indentation(0.4, M, a, 0.1, 0.0), rtol=1e-14
+@pytest.mark.parametrize("k", EXPONENTS)
+@pytest.mark.parametrize("m", [1.5, 2.0])
+def test_envelopes_bound_the_leading_term_and_touch_it(k: float, m: float) -> None:
+    a = 0.5 + WAVELENGTH * np.linspace(0.0, 1.0, 2001)
+    wave = (WAVELENGTH, COSINES, SINES)
+    depth, load = short_waves.indentation(k, M, a, *wave, exponent=m), short_waves.load(k, M, a, *wave, exponent=m)
+    up, down = envelopes.series_strengths(k, *wave)
+    assert abs(up - down) > 1e-3 * up
+    s, mean = float(envelopes.adhesion_strength(k, M)), WAVELENGTH * 0.016
+    for sign, pull in ((1.0, s - up), (-1.0, s + down)):
+        space = sign * (envelopes.indentation(k, a, pull, mean, m) - depth)
+        assert -40 * EPS <= space.min() <= 1e-5 * np.ptp(depth)  # (step of phase)^2/8
+        space = sign * (envelopes.load(k, M, a, pull, m) - load)
+        assert -400 * EPS * M <= space.min() <= 1e-5 * np.ptp(load)
+    one = envelopes.waviness_strength(k, WAVELENGTH, AMPLITUDE)
+    for wave_of_one in ([-AMPLITUDE], [AMPLITUDE]):
+        np.testing.assert_allclose(envelopes.series_strengths(k, WAVELENGTH, wave_of_one), one, rtol=8e-15)
+    assert s == pytest.approx(jkr.adhesive_depth(k, M, 1.0), rel=4 * EPS)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.37, 1.0])
+def test_extrema_of_zeta_are_true(k: float) -> None:
+    rng = np.random.default_rng(5)
+    for count in (1, 2, 5, 17, 64):
+        waves = (rng.normal(size=(2, count)) / np.arange(1, count + 1)).tolist()
+        xi = np.linspace(0.0, 1.0, 2000 * count + 1)
+        size = np.sum(np.hypot(*waves) * (2 * math.pi * np.arange(1, count + 1)) ** (0.5 * (1 - k)))
+        for sign, extreme in zip((-1.0, 1.0), envelopes.zeta_extrema(k, *waves), strict=True):
+
+            def height(t: Any, sign: float = sign, waves: list[list[float]] = waves) -> Any:
+                return -sign * short_waves.zeta(k, t, *waves)
+
+            best = xi[np.argmin(height(xi))]
+            around = (best - 1e-3 / count, best + 1e-3 / count)
+            polished = minimize_scalar(lambda t: float(height(t)), bounds=around, options={"xatol": 1e-12})
+            assert sign * extreme == pytest.approx(-polished.fun, abs=50 * EPS * size)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.41, 1.0])
+@pytest.mark.parametrize("m", [1.0, 1.5, 2.0, 4.0, 6.5])
+def test_envelopes_of_any_power(k: float, m: float) -> None:
+    s, r = strengths(k)
+    radius, force = (float(one) for one in envelopes.power_pull_off(k, M, s + r, m))
+    low = minimize_scalar(
+        lambda a: float(envelopes.load(k, M, a, s + r, m)), bounds=(0.5 * radius, 2 * radius), options={"xatol": 1e-12}
     )
-    np.testing.assert_allclose(short_waves.load(0.4, M, a, 0.1, []), jkr.load(0.4, M, a, 0.1, 0.0), rtol=1e-14)
+    assert -low.fun == pytest.approx(force, rel=1e-12)
+    if m == 2.0:
+        assert envelopes.pull_off_force(k, r / s) == pytest.approx(force, rel=1e-12)
+    touch, _ = envelopes.power_radii(k, s - r, m)
+    assert abs(float(envelopes.indentation(k, touch, s - r, 0.0, m))) <= 20 * EPS * s
+    _, fold = envelopes.power_radii(k, s + r, m)
+    near = envelopes.indentation(k, float(fold) * np.array([1 - 1e-4, 1.0, 1 + 1e-4]), s + r, 0.0, m)
+    assert fold == 0.0 if k == 1.0 else near[1] < min(near[0], near[2])
 
 
-def test_outside_the_ranges() -> None:
-    assert np.isnan(short_waves.zeta([-0.1, 1.1], 0.3, [-0.1])).all()
-    assert np.isnan(short_waves.indentation(0.3, [0.0, M, M], [0.1, 0.0, 0.1], [0.1, 0.1, 0.0], [-0.1])).all()
-    assert short_waves.load(np.full((2, 1), 0.3), 1.0, np.ones(3), 0.1, [-0.1], [0.1]).shape == (2, 3)
+@pytest.mark.parametrize("k", [0.0, 0.41, 0.9])
+def test_exact_force_tends_to_that_of_the_envelope(k: float) -> None:
+    material, ratio, errors = float(stiffness(k, 0.3, 300.0, 0.2)), 0.4, []
+    scene = {"k": k, "nu": 0.3, "modulus": 300.0, "c0_over_R": 0.2, "a_max_over_R": math.inf}
+    for wavelength in (1e-2, 1e-3, 1e-4):
+        unit = float(envelopes.waviness_strength(k, wavelength, 1.0))
+        wave = {"lambda_over_R": wavelength, "A": ratio * float(envelopes.adhesion_strength(k, material)) / unit}
+        force = float(solve(scene | wave, ["pull_off_force"])["pull_off_force"])
+        errors.append(abs(float(envelopes.pull_off_force(k, ratio)) / force - 1))
+    # second order in the wavelength, and where the wave next to the lowest point stands is chance
+    assert (np.array(errors) < 10.0 * np.array([1e-4, 1e-6, 1e-8])).all()
+    profile = Profile(exponent=3.0, harmonics=(Harmonic(n=1, cos=0.7, sin=0.2), Harmonic(n=3, cos=-0.1, sin=0.05)))
+    _, r = envelopes.series_strengths(k, 1e-3, [-0.014, 0.0, 0.002], [0.004, 0.0, 0.001])
+    _, force = envelopes.power_pull_off(k, material, envelopes.adhesion_strength(k, material) + r, 3.0)
+    exact = solve(scene | {"lambda_over_R": 1e-3, "A": 0.02}, ["pull_off_force"], profile=profile)["pull_off_force"]
+    assert float(exact) == pytest.approx(float(force), rel=1e-3)  # of the order of the wavelength over the radius
+
+
+# ---- the effective path
+
+
+@pytest.mark.parametrize("k", EXPONENTS)
+def test_corners_of_the_effective_path(k: float) -> None:
+    s, r = strengths(k)
+    start, end = effective.jump_in_radius(k, s, r), float(effective.jump_out_radius(k, s, r))
+    assert envelopes.indentation(k, start, s - r) == pytest.approx(0.0, abs=8 * EPS * s)
+    assert envelopes.indentation(k, 1.01 * start, s - r) > 0.0
+    around = envelopes.indentation(k, end * np.array([0.99, 1.0, 1.01]), s + r)
+    assert k == 1.0 or around[1] < min(around[0], around[2])
+    assert abs(around[2] - around[0]) <= 0.05 * (around[2] - around[1])
+
+
+@pytest.mark.parametrize("k", EXPONENTS)
+@pytest.mark.parametrize("m", [1.5, 2.0])
+def test_early_unloading_joins_the_envelopes(k: float, m: float) -> None:
+    a, wave = 0.6, (WAVELENGTH, COSINES, SINES)
+    lowest, highest = envelopes.zeta_extrema(k, COSINES, SINES)
+    (up, down), s = envelopes.series_strengths(k, *wave), envelopes.adhesion_strength(k, M)
+    ends = []
+    for alpha, pull in ((highest, s - up), (lowest, s + down)):
+        depth = effective.indentation(k, M, a, alpha, WAVELENGTH, exponent=m, mean_height=0.001)
+        assert depth == pytest.approx(envelopes.indentation(k, a, pull, 0.001, m), rel=1e-12)
+        load = envelopes.load(k, M, a, pull, m)
+        assert effective.load(k, M, a, alpha, WAVELENGTH, exponent=m) == pytest.approx(load, rel=1e-12)
+        on_line = effective.load_at_depth(k, M, a, depth, exponent=m, mean_height=0.001)
+        assert on_line == pytest.approx(load, rel=1e-11)
+        assert m != 2.0 or effective.early_unloading_load(k, M, a, depth, 0.001) == pytest.approx(load, rel=1e-11)
+        ends.append(float(depth))
+    drop = effective.drop(k, a, *wave)  # of depths of the order of the radius: eps of it
+    assert ends[0] - ends[1] == pytest.approx(float(drop), abs=4e-16)
+    r = envelopes.waviness_strength(k, WAVELENGTH, AMPLITUDE)
+    one = float(effective.early_unloading_depth(k, a, r))
+    assert effective.drop(k, a, WAVELENGTH, [-AMPLITUDE]) == pytest.approx(one, rel=1e-13)
+    assert one == pytest.approx(2 * float(r) * a ** (0.5 * (1 - k)), rel=1e-13)
+    assert effective.drop(k, a, WAVELENGTH, [0.0]) == 0.0
+
+
+@pytest.mark.parametrize("k", [0.0, 0.41, 0.9])
+def test_early_unloading_is_contact_pinned_at_its_radius(k: float) -> None:
+    # a disc of the radius a_am held at any depth: P = P_H + K a^(1+k) (delta - delta_H), of the whole series
+    a, depth = 0.6, 0.3
+    for wavelength in (1e-3, 1e-4):
+        wave = (wavelength, COSINES, SINES)
+        lowered = depth - general.hertz_indentation(k, a, *wave)
+        pinned = general.hertz_load(k, M, a, *wave) + hertz.disc_stiffness(k, M, a) * lowered
+        line = effective.load_at_depth(k, M, a, depth, mean_height=wavelength * 0.016)
+        # what is left is the waviness's own moment, (lambda/a)^((3+k)/2)
+        assert abs(float(pinned - line)) < 3 * M * 0.03 * a * (wavelength / a) ** (0.5 * (3 + k))
+        assert abs(float(pinned - effective.load_at_depth(k, M, a, depth))) > 0.1 * wavelength
+        one = jkr.load_at_depth(k, M, a, depth, wavelength, AMPLITUDE)
+        line = effective.early_unloading_load(k, M, a, depth, wavelength * AMPLITUDE)
+        assert abs(float(one - line)) < 3 * M * AMPLITUDE * a * (wavelength / a) ** (0.5 * (3 + k))
+
+
+# ---- the energy
+
+
+def loop(k: float, ratio: float, largest: float) -> float:
+    """Integrate P d(delta) along the effective path, a = t^4 to soften the branch point at 0."""
+    s = float(envelopes.adhesion_strength(k, M))
+
+    def work(pull: float, first: Any, last: float) -> float:
+        def integrand(t: float) -> float:
+            slope = 2 * t**4 / (1 + k) - 0.5 * (1 - k) * pull * t ** (-2 * (1 + k))
+            return 1.5 * math.pi * float(envelopes.load(k, M, t**4, pull)) * slope * 4 * t**3
+
+        return float(quad(integrand, float(first) ** 0.25, last**0.25, epsabs=0.0, epsrel=1e-12)[0])
+
+    up, down = s * (1 - ratio), s * (1 + ratio)
+    top, bottom = envelopes.indentation(k, largest, np.array([up, down]))
+    line = quad(lambda d: 1.5 * math.pi * float(effective.early_unloading_load(k, M, largest, d)), bottom, top)[0]
+    start, end = effective.jump_in_radius(k, s, ratio * s), effective.jump_out_radius(k, s, ratio * s)
+    return work(up, start, largest) - float(line) - work(down, end, largest)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.2, 0.53, 0.9, 1.0])
+@pytest.mark.parametrize("ratio", [0.03, 0.7])
+def test_energy_is_the_loop_integral(k: float, ratio: float) -> None:
+    amplitude, s = amplitude_of(k, M, ratio), float(envelopes.adhesion_strength(k, M))
+    start = float(effective.jump_in_radius(k, s, ratio * s))
+    first = effective.first_part(k, M, 0.01, amplitude)
+    assert first == pytest.approx(loop(k, ratio, start), rel=1e-10)
+    # (5.42) as it must be
+    per_area = amplitude * math.gamma((1 + k) / 2) * math.sqrt(2 ** (3 - k) * math.pi ** (2 - k) * 0.01 ** (1 + k) * M)
+    for largest in (1.3 * start, 4.0 * start):
+        total = effective.dissipated_energy(k, M, 0.01, amplitude, largest)
+        assert total == pytest.approx(loop(k, ratio, largest), rel=1e-10)
+        assert total - first == pytest.approx(per_area * (largest**2 - start**2), rel=1e-12)
+
+
+def test_coefficients_of_the_paper() -> None:
+    k = [0.0, 0.2, 0.5, 0.9]
+    np.testing.assert_allclose(effective.smooth_coefficient(k), [7.092, 8.863, 11.317, 14.188], atol=5e-4)
+    np.testing.assert_allclose(effective.waviness_coefficient(k), [29.629, 25.241, 19.465, 13.692], atol=5e-4)
+    k = np.linspace(0.0, 1.0, 101)
+    first = effective.fitted_smooth_coefficient(k) / effective.smooth_coefficient(k) - 1
+    second = effective.fitted_waviness_coefficient(k) / effective.waviness_coefficient(k) - 1
+    assert 0.0032 < np.abs(first).max() < 0.0034
+    assert 0.0052 < np.abs(second).max() < 0.0054
+
+
+@pytest.mark.parametrize("k", [0.0, 0.2, 0.5, 0.9, 1.0])
+def test_coefficients_are_the_expansion_of_the_first_part(k: float) -> None:
+    length, step = M ** (-1 / (3 + k)), amplitude_of(k, M, 1e-4)
+    none, one, two = effective.first_part(k, M, 0.01, [0.0, step, 2 * step])
+    assert none == pytest.approx(effective.smooth_coefficient(k) * length**2, rel=40 * EPS)
+    slope = (4 * one - two - 3 * none) / (2 * step)  # second-order forward difference
+    expected = effective.waviness_coefficient(k) * 0.01 ** (0.5 * (1 + k)) * length ** (0.5 * (1 - k))
+    assert slope == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.5, 0.9])
+@pytest.mark.parametrize(("ratio", "low", "high"), [(0.01, 0.0, 0.002), (0.1, 0.009, 0.015), (0.5, 0.14, 0.2)])
+def test_fitted_energy_is_good_for_weak_waviness(k: float, ratio: float, low: float, high: float) -> None:
+    amplitude, s = amplitude_of(k, 90.0, ratio), float(envelopes.adhesion_strength(k, 90.0))
+    largest = 2 * effective.jump_in_radius(k, s, ratio * s)
+    fitted = effective.fitted_energy(k, 90.0, 0.01, amplitude, largest)
+    assert low < abs(fitted / effective.dissipated_energy(k, 90.0, 0.01, amplitude, largest) - 1) < high
+
+
+# ---- the end of folds
+
+
+@pytest.mark.parametrize(
+    ("k", "wavelength", "error"), [(0.0, 0.01, 0.003), (0.2, 0.01, 0.006), (0.5, 0.01, 0.017), (0.2, 0.001, 0.0008)]
+)
+def test_last_fold(k: float, wavelength: float, error: float) -> None:
+    end = float(short_waves.end_of_folds(k, wavelength, SCENE["A"]))
+    a = np.arange(0.8 * end, 1.2 * end, wavelength / 100)
+    stable = jkr.fold_number(k, stiffness(k, 0.3, 300.0, 0.01), a, wavelength, SCENE["A"]) > 0.5 * (1 - k)
+    last = a[np.flatnonzero(stable[1:] != stable[:-1])[-1]]
+    assert 0.0 < last / end - 1 < error
+
+
+@pytest.mark.parametrize("u", [0.0, 0.03, 0.4, 0.95])
+def test_share_of_a_sampled_wave(u: float) -> None:
+    theta = np.linspace(0.0, 40 * math.pi, 400_001)
+    curve = np.sin(theta) + u * theta
+    distance = np.maximum.accumulate(curve) - np.minimum.accumulate(curve[::-1])[::-1]
+    # one wave from the middle; 10,000 steps of h a quarter wave: h^2
+    assert short_waves.share(u) == pytest.approx(distance[200_000:220_000].mean() / 2, abs=1e-6)
+    assert (1 - short_waves.share(1e-7)) / 1e-7 == pytest.approx(math.pi, rel=1e-3)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.2, 0.5])
+def test_energy_of_short_waves(k: float) -> None:
+    # the error falls as the wavelength, and more slowly where waves end near the jump-in
+    wavelength, material = 5e-4 if k == 0.0 else 1e-4, stiffness(k, 0.3, 300.0, 0.01)  # 350,000 to 30,000 waves
+    end = float(short_waves.end_of_folds(k, wavelength, SCENE["A"]))
+    largest = np.array([0.5, 0.8, 1.3, math.inf]) * end
+    exact = solve({"k": k, "lambda_over_R": wavelength, "a_max_over_R": largest} | SCENE)["dissipated_energy"]
+    found = short_waves.dissipated_energy(k, material, wavelength, SCENE["A"], largest)
+    np.testing.assert_allclose(found, exact, rtol=3e-3)
+    assert found[2] == pytest.approx(found[3], rel=1e-14)  # it saturates, where the printed one does not
+    printed = effective.dissipated_energy(k, material, wavelength, SCENE["A"], largest[:3])
+    assert printed[2] > 2 * printed[0] > 2 * found[2]
+    # of an unbounded punch: a_2 is 1/250 of a_e at most, and W is 1 there
+    ratio = envelopes.waviness_strength(k, wavelength, SCENE["A"]) / envelopes.adhesion_strength(k, material)
+    first = effective.first_part(k, material, wavelength, SCENE["A"])
+    whole = first + 4 * math.pi * ratio * end**2 * short_waves.saturated_share(k)
+    assert k == 0.5 or whole == pytest.approx(exact[3], rel=1e-3)  # a_2 is nearer to a_e there
+    assert short_waves.dissipated_energy(k, material, 0.01, 0.0, math.inf) == effective.first_part(
+        k, material, 0.01, 0.0
+    )
+    # int W d(u^(2/n)) over 2001 points of u = t^2, Simpson
+    t, power = np.linspace(0.0, 1.0, 2001), 8 / (1 + k)
+    values = power * t ** (power - 1) * short_waves.share(t * t)
+    expected = (values[0] + values[-1] + 4 * values[1::2].sum() + 2 * values[2:-1:2].sum()) / 6000
+    assert short_waves.saturated_share(k) == pytest.approx(expected, abs=1e-9)

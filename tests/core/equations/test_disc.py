@@ -1,0 +1,222 @@
+"""Contact over a disc against the integrals that define it, the printed sums, and 24 scenes solved to 30 digits."""
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import mpmath
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.optimize import minimize_scalar
+
+from gradhesion.core import solve
+from gradhesion.core.equations import general, hertz, jkr, quadrature
+from gradhesion.core.problem.material import stiffness
+
+EPS = float(np.finfo(float).eps)
+M, WAVELENGTH = 71.3, 0.37
+SCENES = json.loads((Path(__file__).parents[2] / "reference" / "general.json").read_text())["scenes"]
+ONE, SERIES = ([-0.023], []), ([-0.021, 0.004, 0.0], [0.003, 0.0, -0.002])
+
+
+def slope_of(s: Any, waves: tuple[list[float], list[float]], m: float, lib: Any) -> Any:
+    """f' with the functions of a library."""
+    total = s ** (m - 1)
+    for n, a_n, b_n in general.harmonics(*waves):
+        y = 2 * lib.pi * n * s / WAVELENGTH
+        total = total + 2 * lib.pi * n * (b_n * lib.cos(y) - a_n * lib.sin(y))
+    return total
+
+
+@pytest.mark.parametrize("k", [0.0, 0.37, 1.0])
+@pytest.mark.parametrize("x", [0.0, 1.3e-4, 0.21, 1.7, 9.3])
+def test_integrals(k: float, x: float) -> None:
+    found, tolerance = (*hertz.sine_integrals(k, x)[:2], *hertz.cosine_integrals(k, x)), 20 * EPS * (1 + 6 * x)
+    with mpmath.workdps(18):
+        z, nodes = 2 * mpmath.pi * mpmath.mpf(x), mpmath.linspace(0, mpmath.pi / 2, 3 + math.ceil(2 * x))
+        for value, (wave, j) in zip(found, [(w, j) for w in (mpmath.sin, mpmath.cos) for j in (0, 1)], strict=True):
+            # t = sin u takes the singular end away
+            defined = mpmath.quad(
+                lambda u, wave=wave, j=j: mpmath.cos(u) ** (k + 2 * j) * wave(z * mpmath.sin(u)), nodes
+            )
+            assert value == pytest.approx(float(defined), abs=tolerance)
+
+
+def test_a_value_of_the_integrals_does_not_depend_on_its_company() -> None:
+    exponents, points = np.array([0.3, 0.7, 0.3, 0.0]), np.array([0.4, 2.0, 9.0, 0.0])
+    together = hertz.sine_integrals(exponents, points)
+    for i in range(4):
+        assert np.array_equal(together[:, i], hertz.sine_integrals(exponents[i], points[i]))
+
+
+@pytest.mark.parametrize("k", [0.0, 0.37, 1.0])
+def test_far_waves_are_sines(k: float) -> None:
+    # (B5)-(B7): H_nu ~ Y_nu + (z/2)^(nu-1)/(sqrt(pi) Gamma(nu+1/2)), and Y, J ~ sqrt(2/(pi z)) sin, cos of
+    # z - nu pi/2 - pi/4; so S0 = sqrt(pi)/2 Gamma(n) (z/2)^(1/2-n) H and the mean height 1/z are (B8)'s
+    n = 0.5 * (1.0 + k)
+    for x in (200.25, 2000.6):
+        z, phase = 2.0 * math.pi * x, 2.0 * math.pi * (x % 1.0) - 0.25 * math.pi * (1.0 + k)
+        size = 0.5 * math.sqrt(math.pi) * math.gamma(n) * (0.5 * z) ** (0.5 - n) * math.sqrt(2.0 / (math.pi * z))
+        # the next terms of Y and J are 1/z of the first, that of the mean height (1-k) 1/z^3
+        s0, c0 = float(hertz.sine_integrals(k, x)[0]), float(hertz.cosine_integrals(k, x)[0])
+        assert s0 == pytest.approx(size * math.sin(phase) + 1.0 / z, abs=0.2 * size / z + 1.0 / z**3)
+        assert c0 == pytest.approx(size * math.cos(phase), abs=0.2 * size / z)
+
+
+@pytest.mark.parametrize(("k", "a"), [(0.0, 0.29), (0.31, 0.017), (0.31, 1.3), (0.9, 0.29), (1.0, 0.29)])
+@pytest.mark.parametrize("m", [1.0, 2.0, 3.7])
+@pytest.mark.parametrize("waves", [ONE, SERIES])
+def test_depth_and_load(k: float, a: float, m: float, waves: tuple[list[float], list[float]]) -> None:
+    with mpmath.workdps(20):
+        nodes = mpmath.linspace(0, mpmath.pi / 2, 3 + math.ceil(6 * a / WAVELENGTH))
+
+        def integral(power: float) -> Any:  # of f' (a^2-s^2)^((power-1)/2), s = a sin u
+            quad = mpmath.quad(lambda u: slope_of(a * mpmath.sin(u), waves, m, mpmath) * mpmath.cos(u) ** power, nodes)
+            return mpmath.mpf(a) ** power * quad
+
+        moment, depth = integral(k + 2), mpmath.mpf(a) ** (1 - k) * integral(k)
+        load = float(2 ** (1 - mpmath.mpf(k)) * M / (1 + k) * (mpmath.mpf(a) ** (1 + k) * depth - moment))
+        smooth = [mpmath.beta(mpmath.mpf(m) / 2, (1 + mpmath.mpf(k)) / 2 + j) / 2 for j in (0, 1)]
+    assert hertz.power_indentation(k, a, m) == pytest.approx(float(smooth[0]) * a**m, rel=20 * EPS)
+    assert hertz.power_moment(k, a, m) == pytest.approx(float(smooth[1]) * a ** (1 + k + m), rel=20 * EPS)
+    size = a**m + 0.2 * a
+    stiff = size * 2 * M * a ** (1 + k)
+    found = general.hertz_indentation(k, a, WAVELENGTH, *waves, m)
+    assert found == pytest.approx(float(depth), abs=20 * EPS * size)
+    found = general.hertz_load(k, M, a, WAVELENGTH, *waves, m)
+    assert 1.5 * math.pi * found == pytest.approx(load, abs=40 * EPS * stiff)
+    by_quadrature = (lambda s: slope_of(s, waves, m, np)), WAVELENGTH / 3
+    assert quadrature.hertz_indentation(k, a, *by_quadrature) == pytest.approx(float(depth), abs=1e-13 * size)
+    found = quadrature.hertz_load(k, M, a, *by_quadrature)
+    assert 1.5 * math.pi * found == pytest.approx(load, abs=1e-13 * stiff)
+    if waves is ONE:
+        one = (WAVELENGTH, 0.023)
+        assert hertz.indentation(k, a, *one, m) == pytest.approx(float(depth), abs=20 * EPS * size)
+        assert 1.5 * math.pi * hertz.load(k, M, a, *one, m) == pytest.approx(load, abs=40 * EPS * stiff)
+        assert hertz.wave_indentation(k, a, *one) == pytest.approx(float(depth - smooth[0] * a**m), abs=20 * EPS * size)
+        rest = float(moment - smooth[1] * a ** (1 + k + m))
+        assert hertz.wave_moment(k, a, *one) == pytest.approx(rest, abs=20 * EPS * size * a ** (1 + k))
+
+
+@pytest.mark.parametrize("k", [0.0, 0.43, 0.9])
+def test_the_printed_sums(k: float) -> None:
+    # (5.8)-(5.11) with (B1)-(B4), R = dgamma = 1: Struve's functions of the cosines, Bessel's of the sines
+    a, length, stiff = mpmath.mpf("0.21"), mpmath.mpf("0.13"), mpmath.mpf(M)
+    k_, n, pi = mpmath.mpf(k), (1 + mpmath.mpf(k)) / 2, mpmath.pi
+    sums = [mpmath.mpf(0), mpmath.mpf(0)]
+    for j in (0, 1):
+        for h, a_h, b_h in general.harmonics(*SERIES):
+            y, order = 2 * h * pi * a / length, k_ / 2 + j
+            sums[j] += h ** (1 - order) * (-a_h * mpmath.struveh(order, y) + b_h * mpmath.besselj(order, y))
+    depth = a**2 / (1 + k_) - mpmath.sqrt(2 ** (1 + k_) * pi * a ** (1 - k_) / stiff)
+    depth += a ** (1 - k_ / 2) * mpmath.gamma(n) * pi ** ((3 - k_) / 2) * length ** (k_ / 2) * sums[0]
+    assert general.indentation(k, M, 0.21, 0.13, *SERIES) == pytest.approx(float(depth), rel=1e-12)
+    load = a**2 * mpmath.gamma(n) * pi ** ((3 - k_) / 2) * (length * a) ** (k_ / 2) * sums[0]
+    load -= mpmath.gamma(n + 1) * pi ** ((1 - k_) / 2) * (length * a) ** (1 + k_ / 2) * sums[1]
+    load *= 2 ** (1 - k_) * stiff / (1 + k_)
+    load += 2 ** (2 - k_) * stiff * a ** (3 + k_) / ((1 + k_) ** 2 * (3 + k_))
+    load -= mpmath.sqrt(2 ** (3 - k_) * pi * stiff * a ** (3 + k_)) / (1 + k_)
+    assert 1.5 * math.pi * general.load(k, M, 0.21, 0.13, *SERIES) == pytest.approx(float(load), rel=1e-11)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.31, 0.9])
+def test_the_inversion_of_the_generalised_abel_equation(k: float) -> None:
+    # (3.8), (A1)-(A5): the depth gives the profile back, f(a) = (2/pi) cos(k pi/2) int_0^a s^k delta (a^2-s^2)^-n ds
+    a, n = mpmath.mpf("0.7"), (1 + mpmath.mpf(k)) / 2
+
+    def depth(s: mpmath.mpf) -> float:
+        return float(quadrature.hertz_indentation(k, float(s), np.sinh))
+
+    def integrand(v: mpmath.mpf) -> mpmath.mpf:  # a^2 - s^2 = a^2 v^(1/(1-n))
+        s = a * mpmath.sqrt(1 - v ** (1 / (1 - n)))
+        return s ** (k - 1) * depth(s)
+
+    with mpmath.workdps(15):
+        total = mpmath.quad(integrand, [*mpmath.linspace(0, 0.9, 4), 0.99, 0.999, 1], maxdegree=5)
+        found = mpmath.cos(mpmath.pi * k / 2) / mpmath.pi * total * a ** (2 - 2 * n) / (1 - n)
+        # (A4): int (T^2-a^2)^((1+k)/2) f' da = (1+k) int s^k delta ds
+        moment = mpmath.quad(lambda s: s**k * depth(s), [0, 0.01, 0.1, a], maxdegree=5)
+        slope = mpmath.quad(lambda s: (a * a - s * s) ** n * mpmath.sinh(s), [0, a / 2, a])
+    assert float(found) == pytest.approx(math.cosh(0.7) - 1.0, rel=1e-8)
+    assert float((1 + k) * moment / slope) == pytest.approx(1.0, rel=1e-9)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.37, 1.0])
+def test_slopes(k: float) -> None:
+    # central differences leave step^2/6 of the third derivative, and rounding eps/step
+    a, step, wave, stiff = np.linspace(0.02, 0.8, 300), 1e-6, (0.13, 0.017), 3.0 * M
+
+    def rate(function: Any) -> Any:
+        return (function(a + step) - function(a - step)) / (2 * step)
+
+    number, stretch = jkr.fold_number(k, stiff, a, *wave), jkr.adhesive_depth(k, stiff, a)
+    disc = hertz.disc_stiffness(k, stiff, a)
+    for function, level, scale in ((jkr.indentation, 0.5 * (1 - k), 1.0), (jkr.load, 0.5 * (3 + k), disc)):
+        # d/da = scale Delta/a (q - level)
+        found = rate(lambda x, function=function: function(k, stiff, x, *wave)) / scale
+        np.testing.assert_allclose(found, stretch / a * (number - level), atol=2e-5)
+        assert ((number > level)[:-1] != (number > level)[1:]).any()
+    series = (0.13, *SERIES, 2.3)
+    depth = rate(lambda x: general.hertz_indentation(k, x, *series))
+    np.testing.assert_allclose(quadrature.indentation_slope(k, a, *series), depth, atol=1e-7)
+    np.testing.assert_allclose(rate(lambda x: general.hertz_load(k, stiff, x, *series)), disc * depth, atol=1e-5)
+    expected = rate(lambda x: hertz.sine_integrals(k, x)[:2]) / (2 * math.pi)
+    np.testing.assert_allclose(hertz.sine_integrals(k, a)[2:], expected, atol=1e-8)
+    expected = rate(lambda r: general.height(r, *wave, 3.3))
+    np.testing.assert_allclose(general.slope(a, *wave, 3.3), expected, atol=1e-7)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.43, 1.0])
+@pytest.mark.parametrize("a", [0.06, 0.31])
+def test_energy_release_rate_is_what_the_elastic_energy_loses(k: float, a: float) -> None:
+    # U(a, delta) = U(a, delta_H) + int P d(delta), and U(a, delta_H) does not depend on a to first order: at fixed
+    # delta, dU/da = int_{delta_H}^{delta} dP/da d(delta) = 2 pi a G
+    wave, step = (0.13, 0.017), 1e-5 * a
+    top = float(hertz.indentation(k, a, *wave))
+    depth = top - 0.7 * float(jkr.adhesive_depth(k, M, a))
+
+    def load_rate(d: float) -> float:
+        ahead, behind = (float(jkr.load_at_depth(k, M, a + h, d, *wave)) for h in (step, -step))
+        return 1.5 * math.pi * (ahead - behind) / (2 * step)
+
+    # the central difference: (step/wave)^2 relative
+    rate = quad(load_rate, top, depth)[0] / (2 * math.pi * a)
+    assert jkr.energy_release_rate(k, M, a, depth, *wave) == pytest.approx(rate, rel=1e-6)
+    assert general.energy_release_rate(k, M, a, depth, 0.13, [-0.017]) == pytest.approx(0.49, rel=1e-12)
+
+
+@pytest.mark.parametrize("scene", SCENES, ids=[str(i) for i in range(len(SCENES))])
+def test_pull_off_of_general_scenes(scene: dict[str, Any]) -> None:
+    p, expected = scene["parameters"], scene["expected"]
+    cosines, sines = np.zeros((2, max(h["n"] for h in p["harmonics"])))
+    for h in p["harmonics"]:
+        cosines[h["n"] - 1], sines[h["n"] - 1] = -p["A"] * h["cos"], p["A"] * h["sin"]
+    wave = (p["lambda_over_R"], cosines, sines, p["exponent"])
+    at_pull_off = -general.load(p["k"], expected["M"], expected["pull_off_radius"], *wave)
+    assert at_pull_off == pytest.approx(expected["pull_off_force"], rel=20 * EPS)
+    everywhere = general.load(p["k"], expected["M"], np.linspace(1e-4, p["a_max_over_R"], 4001), *wave)
+    assert -everywhere.min() <= at_pull_off * (1 + 20 * EPS)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.53, 0.9])
+def test_lowest_load_is_the_force_of_the_solver(k: float) -> None:
+    names = {
+        "k": k,
+        "nu": 0.27,
+        "modulus": 400.0,
+        "c0_over_R": 0.2,
+        "lambda_over_R": 0.09,
+        "A": 0.02,
+        "a_max_over_R": 0.8,
+    }
+    for A in (0.0, 0.02):
+        material, a = float(stiffness(k, 0.27, 400.0, 0.2)), np.linspace(1e-3, 0.8, 20001)
+        i = int(np.argmin(jkr.load(k, material, a, 0.09, A)))
+        low = minimize_scalar(
+            lambda x: float(jkr.load(k, material, x, 0.09, A)),  # noqa: B023
+            bounds=(a[i - 1], a[i + 1]),
+            options={"xatol": 1e-11},
+        )
+        assert -low.fun == pytest.approx(float(solve(names | {"A": A})["pull_off_force"]), rel=1e-11)

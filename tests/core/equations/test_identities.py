@@ -1,0 +1,176 @@
+"""Closed forms of others that the equations must be equal to: a row each, of what is found, what is known, and how well."""
+
+import math
+from typing import Any, Final
+
+import mpmath
+import numpy as np
+import pytest
+from scipy.special import struve
+
+from gradhesion.core.equations import envelopes, general, hertz, jkr, quadrature
+
+EPS: Final = float(np.finfo(float).eps)
+M: Final = 210.0
+PI: Final = math.pi
+A, R = np.linspace(0.05, 0.8, 9), np.linspace(0.0, 0.31, 9)
+LOAD: Final = 1.5 * PI
+COSINES, SINES = [-0.021, 0.004, 0.0], [0.003, 0.0, -0.002]
+H0, H1 = (struve(order, 2 * PI * A / 0.13) for order in (0, 1))
+LOG: Final = np.log((1 + A) / (1 - A))
+XI: Final = np.linspace(-1.0, 2.0, 61)
+
+
+def sphere(r: Any) -> Any:
+    """The slope of a sphere."""
+    return r / np.sqrt((1 - r) * (1 + r))
+
+
+def gap_of_flat(k: float) -> Any:
+    """The gap just outside an adhesive edge at k = 0, over 2 Delta/pi sqrt(2 (r-a)/a)."""
+    depth, stretch = jkr.indentation(k, 300.0, 0.2, 0.1, 0.01), jkr.adhesive_depth(k, 300.0, 0.2)
+    return quadrature.gap(k, 0.2 + 1e-9, 0.2, depth, 0.1, 0.01) / (2 / PI * stretch * math.sqrt(1e-8))
+
+
+IDENTITIES: dict[str, tuple[Any, Any, float]] = {
+    # name: found, known, absolute error over the largest known value
+    "Hertz, depth": (hertz.indentation(0.0, A, 1.0, 0.0), A**2, 8 * EPS),
+    "Hertz, load": (LOAD * hertz.load(0.0, M, A, 1.0, 0.0), 4 * M * A**3 / 3, 8 * EPS),
+    "Hertz, pressure": (quadrature.hertz_pressure(0.0, M, R, 0.31, 1.0, []), 2 * M * np.sqrt(0.31**2 - R**2) / PI, 2e-14),
+    "Hertz, surface": (
+        quadrature.surface(0.0, 0.31 * (1 + A), 0.31, 0.31**2, 1.0, 0.0),
+        0.31**2 * ((2 - (1 + A) ** 2) * np.arcsin(1 / (1 + A)) + np.sqrt((1 + A) ** 2 - 1)) / PI,
+        2e-13,
+    ),
+    "Sneddon's cone, depth": (hertz.indentation(0.0, A, 1.0, 0.0, 1.0), PI * A / 2, 8 * EPS),
+    "Sneddon's cone, load": (LOAD * hertz.load(0.0, M, A, 1.0, 0.0, 1.0), PI * M * A**2 / 2, 8 * EPS),
+    "Sneddon's cone, pressure": (
+        quadrature.hertz_pressure(0.0, M, R[1:], 0.31, 1.0, [], exponent=1.0), M / 2 * np.arccosh(0.31 / R[1:]), 1e-13,
+    ),
+    # Sneddon (1965): delta = a/2 ln((1+a)/(1-a)), P = E* [(1+a^2)/2 ln((1+a)/(1-a)) - a]
+    "a sphere, depth": (quadrature.hertz_indentation(0.0, A, sphere), A / 2 * LOG, 1e-13),
+    "a sphere, load": (LOAD * quadrature.hertz_load(0.0, M, A, sphere), M * ((1 + A**2) / 2 * LOG - A), 1e-12),
+    "a sphere, adhesive load": (
+        LOAD * quadrature.load(0.0, M, A, sphere), M * ((1 + A**2) / 2 * LOG - A) - np.sqrt(8 * PI * M * A**3), 1e-12,
+    ),
+    "a sphere, adhesive depth": (quadrature.indentation(0.0, M, A, sphere), A / 2 * LOG - np.sqrt(2 * PI * A / M), 1e-13),
+    # Guduru (2007), homogeneous, H0 and H1 of 2 pi a/lambda
+    "Guduru, depth": (
+        jkr.indentation(0.0, M, A, 0.13, 0.017), A**2 + PI**2 * 0.017 * A * H0 - np.sqrt(2 * PI * A / M), 1e-14,
+    ),
+    "Guduru, load": (
+        LOAD * jkr.load(0.0, M, A, 0.13, 0.017),
+        4 * M * A**3 / 3 + PI * M * 0.017 * A * (2 * PI * A * H0 - 0.13 * H1) - np.sqrt(8 * PI * M * A**3),
+        1e-12,
+    ),
+    # Kesari & Lew (2011), homogeneous: the swing of depth is pi A sqrt(lambda a), of load 2 E* a times that
+    "Kesari & Lew, depth": (
+        envelopes.indentation(
+            0.0, A, envelopes.adhesion_strength(0.0, M) - envelopes.waviness_strength(0.0, 0.003, 0.03)
+        ),
+        A**2 - np.sqrt(2 * PI * A / M) + PI * 0.03 * np.sqrt(0.003 * A),
+        1e-14,
+    ),
+    "Kesari & Lew, load": (
+        LOAD * envelopes.load(0.0, M, A, envelopes.adhesion_strength(0.0, M) + envelopes.waviness_strength(0.0, 0.003, 0.03)),
+        4 * M * A**3 / 3 - np.sqrt(8 * PI * M * A**3) - 2 * M * A * PI * 0.03 * np.sqrt(0.003 * A),
+        1e-13,
+    ),
+    "the least load of a smooth punch": (jkr.load(0.6, M, (1.6 * 3.6 / 4 * math.sqrt(2**1.6 * PI / M)) ** (2 / 3.6), 1.0, 0.0), -1.2, 1e-14),
+    "pull at its equilibrium": (
+        jkr.load(0.37, M, A, 0.13, 0.017),
+        jkr.load_at_depth(0.37, M, A, jkr.indentation(0.37, M, A, 0.13, 0.017), 0.13, 0.017),
+        1e-12,
+    ),
+    # at k = 1 every point is a spring
+    "springs, depth": (hertz.indentation(1.0, A, 0.37, 0.023), general.height(A, 0.37, 0.023), 40 * EPS),
+    "springs, pressure": (
+        quadrature.pressure(1.0, M, R, 0.31, 0.02, 0.13, [-0.02]), M / (2 * PI) * (0.02 - general.height(R, 0.13, 0.02)), 1e-12,
+    ),
+    "springs, gap": (quadrature.gap(1.0, 0.2 + A, 0.2, 0.01, 0.1, 0.03), general.height(0.2 + A, 0.1, 0.03) - 0.01, 1e-14),
+    "springs, gap at the edge": (quadrature.gap(1.0, 0.2, 0.2, 0.01, 0.1, 0.03), general.height(0.2, 0.1, 0.03) - 0.01, 1e-14),
+    "nearly springs, gap": (
+        quadrature.gap(1 - 1e-7, 0.2 + A, 0.2, 0.01, 0.1, 0.03), general.height(0.2 + A, 0.1, 0.03) - 0.01, 1e-5,
+    ),
+    "a gap that adhesion opens": (gap_of_flat(0.0), 1.0, 1e-4),
+    "a height": (general.height(A, 0.13, 0.021, 3.3), A**3.3 / 3.3 + 0.13 * 0.021 * (1 - np.cos(2 * PI * A / 0.13)), 1e-14),
+    "a height as a series": (general.height(A, 0.13, 0.021) - A**2 / 2, 0.13 * general.waviness(A / 0.13, [-0.021]), 1e-13),
+    "waviness": (
+        general.waviness(XI, COSINES, SINES),
+        sum(a * (np.cos(2 * PI * n * XI) - 1) + b * np.sin(2 * PI * n * XI) for n, a, b in general.harmonics(COSINES, SINES)),
+        1e-13,
+    ),
+    "a harmonic is a shorter wave": (
+        general.load(0.4, 90.0, A, 0.3, [0.0, 0.0, -0.02], [0.0, 0.0, 0.01]), general.load(0.4, 90.0, A, 0.1, [-0.06], [0.03]), 1e-12,
+    ),
+    "the deepest sinc": (general.DEEPEST_SINC, -mpmath.cos(mpmath.findroot(lambda y: mpmath.tan(y) - y, 4.4934)), 2 * EPS),
+    "the unit of pressure": (quadrature.pressure_unit(2e-6, 0.05), 25_000.0, EPS),
+    # a triangle of height 1: a_n = -4/(pi n)^2 for odd n
+    "a triangle": (
+        general.coefficients(lambda xi: 2 * np.minimum(xi % 1, 1 - xi % 1), 3)[0], [-4 / PI**2, 0.0, -4 / (9 * PI**2)], 1e-10,
+    ),
+    "a series gives its coefficients": (
+        general.coefficients(lambda xi: general.waviness(xi, COSINES, SINES), 3), (COSINES, SINES), 1e-14,
+    ),
+    "as few samples as there may be": (
+        general.sampled_coefficients(7.0 + general.waviness(np.arange(7) / 7, COSINES, SINES), 3), (COSINES, SINES), 1e-12,
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", IDENTITIES)
+def test_identity(name: str) -> None:
+    found, known, error = IDENTITIES[name]
+    known = np.asarray(known, dtype=float)
+    np.testing.assert_allclose(found, known, rtol=0.0, atol=error * np.abs(known).max())
+
+
+@pytest.mark.parametrize("k", [0.0, 0.43, 0.9, 1.0])
+def test_flat_and_parabolic_pressures_on_a_graded_half_space(k: float) -> None:
+    # Boussinesq's form, of the mean pressure: p = (1+k)/2 P/(pi a^2) (1 - r^2/a^2)^((k-1)/2)
+    r, a = np.linspace(0.001, 0.3, 7), 0.31
+    load = 1.5 * PI * float(hertz.disc_stiffness(k, M, a)) * 0.02
+    expected = 0.5 * (1 + k) * load / (PI * a * a) * (1 - (r / a) ** 2) ** (0.5 * (k - 1))
+    np.testing.assert_allclose(quadrature.flat_pressure(k, M, r, a, 0.02), expected, rtol=1e-14)
+    parabolic = 2.0 ** (1.0 - k) * M / PI / (1.0 + k) ** 2 * (a * a - r * r) ** (0.5 * (1.0 + k))
+    np.testing.assert_allclose(quadrature.hertz_pressure(k, M, r, a, 1.0, []), parabolic, rtol=2e-14)
+
+
+def test_largest_amplitude_of_a_rising_profile() -> None:
+    for wavelength in (0.013, 0.2, 1.7):
+        limit = float(general.largest_monotonic_amplitude(wavelength))
+        r = np.linspace(0.0, 3 * wavelength, 30001)
+        assert (
+            general.slope(r, wavelength, limit * (1 - 1e-6)).min()
+            >= 0.0
+            > general.slope(r, wavelength, limit * (1 + 1e-5)).min()
+        )
+        assert general.is_monotonic(wavelength, limit)
+        assert not general.is_monotonic(wavelength, np.nextafter(limit, 1.0))
+
+
+def test_coefficients_are_the_integrals() -> None:
+    cosines, sines = general.coefficients(lambda xi: np.exp(np.sin(2 * PI * xi)) * np.cos(2 * PI * xi), 5)
+    with mpmath.workdps(20):
+        for n in range(1, 6):
+            for found, wave in ((cosines, mpmath.cos), (sines, mpmath.sin)):
+                exact = mpmath.quad(
+                    lambda x, n=n, wave=wave: mpmath.exp(mpmath.sin(x)) * mpmath.cos(x) * wave(n * x),
+                    mpmath.linspace(-mpmath.pi, mpmath.pi, 9),
+                )
+                assert found[n - 1] == pytest.approx(float(exact / mpmath.pi), abs=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: general.sampled_coefficients(np.zeros(8), 5), "terms = 5: 8 samples hold 1 to 3"),
+        (lambda: general.sampled_coefficients([0.0, math.nan, 0.0], 1), "finite"),
+        (lambda: general.sampled_coefficients(np.zeros((2, 8)), 1), "one dimension"),
+        (lambda: general.coefficients(np.sin, 0), "terms = 0"),
+        (lambda: general.coefficients(lambda xi: np.where(xi % 1 < 0.3, 1.0, 0.0), 2), "not resolved"),
+    ],
+)
+def test_no_coefficients(call: Any, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        call()
