@@ -160,19 +160,14 @@ def _peaks_that_count(heights: Floats) -> tuple[Integers, ...]:
 
     A peak is assumed to rise above its highest point by no more than that is above its neighbours.
     """
-    steps = np.zeros_like(heights)
-    finite = np.where(np.isfinite(heights), heights, np.nan)
-    for axis in range(heights.ndim - 1):
-        apart = np.abs(np.diff(finite, axis=axis))
-        apart = np.where(np.isnan(apart), np.inf, apart)  # next to infeasible points there is no bound
-        none = np.zeros_like(heights.take([0], axis))
-        steps += np.maximum(np.concatenate([none, apart], axis), np.concatenate([apart, none], axis))
+    steps = _steps(heights, np.inf)  # next to infeasible points there is no bound
     best = heights.reshape(-1, heights.shape[-1]).max(axis=0)
     with np.errstate(invalid="ignore"):  # where nothing is feasible
         found = np.nonzero(_peaks(heights) & (steps >= best - heights))
-    order = np.lexsort((-heights[found], found[-1]))
+    numbers = np.arange(found[-1].size)
+    order = np.lexsort((-numbers, -heights[found], found[-1]))  # of a plateau the last
     cells = found[-1][order]
-    kept = order[np.arange(order.size) - np.searchsorted(cells, cells) < _MOST_PEAKS]
+    kept = np.sort(order[numbers - np.searchsorted(cells, cells) < _MOST_PEAKS])
     return tuple(index[kept] for index in found)
 
 
@@ -214,12 +209,22 @@ def _promised(heights: Floats) -> Floats:
 
     It rises above both ends by no more than the merit changes between these, or between one of them and the next.
     """
+    steps = _steps(heights, 0.0)
     with np.errstate(invalid="ignore"):
-        steps = np.abs(np.diff(heights, axis=0))
-    steps[~np.isfinite(steps)] = 0.0
-    steepest = maximum_filter(steps, size=(3, 1), mode="nearest")
-    lowest = np.minimum(heights[:-1], heights[1:])
-    return np.where(np.isfinite(lowest), np.maximum(heights[:-1], heights[1:]) + steepest, -np.inf)
+        promised = np.maximum(heights[:-1], heights[1:]) + np.maximum(steps[:-1], steps[1:])
+    return np.where(np.isfinite(heights[:-1]) & np.isfinite(heights[1:]), promised, -np.inf)
+
+
+def _steps(heights: Floats, unknown: float) -> Floats:
+    """Return how far heights (*places, cells) are from those beside them, the sum of all axes; unknown by infinity."""
+    total = np.zeros_like(heights)
+    for axis in range(heights.ndim - 1):
+        with np.errstate(invalid="ignore"):
+            apart = np.abs(np.diff(heights, axis=axis))
+        apart = np.where(np.isfinite(apart), apart, unknown)
+        none = np.zeros_like(heights.take([0], axis))
+        total += np.maximum(np.concatenate([none, apart], axis), np.concatenate([apart, none], axis))
+    return total
 
 
 def _refined(merit: Merit, starts: Floats, cells: Integers, spacing: float) -> tuple[Floats, Floats]:
@@ -239,7 +244,7 @@ def _is_as_high(merit: Merit, places: Floats, others: Floats, cells: Integers) -
     """Report where places (inputs, n) are feasible and no lower than others but for rounding."""
     own, other = merit.values(places, cells), merit.values(others, cells)
     with np.errstate(invalid="ignore"):
-        return np.isfinite(own) & (own >= other - 4.0 * _ROUNDING * np.abs(other))
+        return np.isfinite(own) & (own >= other - 64.0 * _ROUNDING * np.abs(other))
 
 
 def _stationary(merit: Merit, starts: Floats, cells: Integers, reach: float) -> tuple[Floats, Truths]:

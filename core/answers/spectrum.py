@@ -29,12 +29,7 @@ class Spectrum:
     realisations
         How many profiles are drawn, 1 or more.
     seed
-        Seed of the random phases, 0 or more.
-
-    Raises
-    ------
-    ValueError
-        For a number out of range.
+        Seed of the random phases, 0 or more. Numbers out of range raise ValueError.
 
     Examples
     --------
@@ -77,20 +72,9 @@ class Spectrum:
 
 
 def random_profile(spectrum: Spectrum, number: int, exponent: float = 2.0) -> Profile:
-    """Return one realisation of a spectrum.
+    """Return one realisation of a spectrum, the same for the same seed and number, bit by bit.
 
-    Parameters
-    ----------
-    spectrum
-        Of the roughness.
-    number
-        Which realisation, from 0; those beyond `spectrum.realisations` can be drawn as well.
-    exponent
-        m of the punch without waves, >= 1.
-
-    Returns
-    -------
-    The profile; the same for the same seed and number, bit by bit.
+    `number` counts from 0, and may be beyond `spectrum.realisations`; `exponent` is m of the punch without waves, >= 1.
 
     Examples
     --------
@@ -104,10 +88,7 @@ def random_profile(spectrum: Spectrum, number: int, exponent: float = 2.0) -> Pr
     numbers = range(spectrum.first, spectrum.last + 1)
     sizes = [n ** -(spectrum.hurst + 0.5) for n in numbers]
     unit = math.sqrt(2.0 / math.fsum(size * size for size in sizes))
-    waves = (
-        Harmonic(
-            n=n, cos=unit * size * math.cos(2.0 * math.pi * turn), sin=unit * size * math.sin(2.0 * math.pi * turn)
-        )
-        for n, size, turn in zip(numbers, sizes, turns.tolist(), strict=True)
-    )
+    waves = []
+    for n, size, phase in zip(numbers, sizes, (2.0 * math.pi * turns).tolist(), strict=True):
+        waves.append(Harmonic(n=n, cos=unit * size * math.cos(phase), sin=unit * size * math.sin(phase)))
     return Profile(exponent=exponent, harmonics=tuple(waves))

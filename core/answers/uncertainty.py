@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from scipy.special import ndtr, ndtri
 from scipy.stats import qmc
 
-from gradhesion.core.types import Floats, Integers, Truths
+from gradhesion.core.types import Floats, Truths
 
 QUANTILES: Final = {"p05": 0.05, "p50": 0.5, "p95": 0.95}
 """The quantiles of the samples, by their names."""
@@ -93,18 +93,9 @@ class Spread:
 def drawn_shares(inputs: int, count: int, seed: int) -> Floats:
     """Return quasi-random shares 0 .. 1, a scrambled sequence of Sobol's, of shape (inputs, count).
 
-    Parameters
-    ----------
-    inputs
-        Their number, 1 or more.
-    count
-        Of samples, a power of two.
-    seed
-        Seed of the scrambling.
-
     Examples
     --------
-    Each of 2^m equal parts of every input has one sample:
+    `count` is a power of two, and each of so many equal parts of every input has one sample:
 
     >>> shares = drawn_shares(3, 8, seed=1)
     >>> np.sort(np.floor(8 * shares), axis=1).astype(int).tolist()[2]
@@ -150,21 +141,15 @@ def statistics_of(samples: Floats) -> Mapping[str, Floats]:
     """
     there = ~np.isnan(samples)
     counts = there.sum(-1)
+    last = np.maximum(counts - 1, 0)
+    ordered = np.sort(samples, -1)  # NaN last
     with np.errstate(all="ignore"):  # without samples there is no mean, and infinite ones have no deviation
         mean = np.sum(samples, -1, where=there) / counts
         apart = samples - mean[..., None]
         found = {"mean": mean, "std": np.sqrt(np.sum(apart * apart, -1, where=there) / counts)}
-        ordered = np.sort(samples, -1)  # NaN last
         for name, share in QUANTILES.items():
-            found[name] = _quantile(ordered, counts, share)
+            low = np.floor(share * last).astype(np.int64)
+            ends = np.stack([low, np.minimum(low + 1, last)], -1)
+            below, above = np.moveaxis(np.take_along_axis(ordered, ends, -1), -1, 0)
+            found[name] = np.where(above > below, below + (share * last - low) * (above - below), below)
     return found
-
-
-def _quantile(ordered: Floats, counts: Integers, share: float) -> Floats:
-    """Return a quantile along the last axis of sorted samples, of which the first `counts` have values."""
-    last = np.maximum(counts - 1, 0)
-    place = share * last
-    low = np.floor(place).astype(np.int64)
-    ends = np.stack([low, np.minimum(low + 1, last)], -1)
-    below, above = np.moveaxis(np.take_along_axis(ordered, ends, -1), -1, 0)
-    return np.where(above > below, below + (place - low) * (above - below), below)
