@@ -20,30 +20,21 @@ from gradhesion.core.types import Floats, Integers, Truths
 
 SCENES: Final = 2**18
 """Number of scenes evaluated at a time in a sweep."""
-_CLOSE: Final = 1e-9
-"""Relative difference by which a merit is better than another."""
-_ROUNDING: Final = 2.0**-50
-"""Relative difference of merits that is none."""
-_WIDTH: Final = 2.0**-48
-"""Distance from the best place below which none is tried."""
-_MOST_PEAKS: Final = 12
-"""Number of peaks of a sweep that are refined in a cell: the highest."""
-_BETWEEN: Final = 7
-"""Points tried between two of a sweep, where there may be a peak that is higher than the best."""
-_NEWTON: Final = 8
-"""Steps of Newton's method at most; from within its reach, four suffice."""
+_CLOSE: Final = 1e-9  # relative difference by which a merit is better than another
+_ALIKE: Final = 2.0**-44  # relative difference by which it may be no better: rounding of a merit
+_ROUNDING: Final = 2.0**-50  # relative difference of merits next to the best below which there is no more to gain
+_WIDTH: Final = 2.0**-48  # distance from the best place below which none is tried
+_MOST_PEAKS: Final = 12  # number of peaks of a sweep that are refined in a cell: the highest
+_BETWEEN: Final = 7  # points tried between two of a sweep, where there may be a peak that is higher than the best
+_NEWTON: Final = 8  # steps of Newton's method at most; from within its reach, four suffice
 _NEAR: Final = 2.0**-16
 """Where slopes beside a place are taken for their change, and within which a peak at an end of the range is there."""
 _LINE: Final = np.array([[-1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0]])
 """Points tried about the best one of one input, in parts of a range; the next is a spacing of these."""
-_TRIED: Final = 16
-"""Points tried about the best one of several inputs in a round; this and the next from experiment."""
-_CHOSEN: Final = 4
-"""Those of them next to which the next points are tried."""
-_KEPT: Final = 3
-"""Rounds whose choice is kept."""
-_ROUNDS: Final = 200
-"""Rounds at most."""
+_TRIED: Final = 16  # points tried about the best one of several inputs in a round; this and the next from experiment
+_CHOSEN: Final = 4  # those of them next to which the next points are tried
+_KEPT: Final = 3  # rounds whose choice is kept
+_ROUNDS: Final = 200  # rounds at most
 _WIDER: Final = (1.3 / (_KEPT * _CHOSEN)) ** 0.5
 """Weights of sums of steps: by the root of 1.3 wider than these are apart."""
 
@@ -110,12 +101,16 @@ def optima_of(merit: Merit, merits: Floats) -> Optima:
     inputs, cells = merits.ndim - 1, merits.shape[-1]
     heights, spacing = _finite(merits), 1.0 / (merits.shape[0] - 1)
     *indices, own = _peaks_that_count(heights)
-    places, found = _refined(merit, spacing * np.array(indices, dtype=float), own, spacing)
-    best, where = np.full(cells, -np.inf), np.full((inputs, cells), np.nan)
-    order = np.argsort(found, kind="stable")  # the best of a cell last
-    best[own[order]], where[:, own[order]] = found[order], places[:, order]
+    starts = spacing * np.array(indices, dtype=float)
+    places, found = _refined(merit, starts, own, spacing)
+    best, where, first = np.full(cells, -np.inf), *np.full((2, inputs, cells), np.nan)
+    np.maximum.at(best, own, found)
+    last = found >= best[own] - _ALIKE * np.abs(best[own])  # of those alike, as on a plateau, the last
+    best[own[last]], where[:, own[last]], first[:, own[last]] = found[last], places[:, last], starts[:, last]
     too_coarse = _is_new(heights, where)
     if inputs == 1:
+        way = merit.values(first + (where - first) * np.array([[[0.0], [0.25], [0.5], [0.75]]]), np.arange(cells))
+        too_coarse |= (way < way[0] - _ALIKE * np.abs(way[0])).any(axis=0)  # a valley lies between, so another peak
         starts, own = _between(merit, heights, best, where[0])
         places, found = _refined(merit, starts, own, spacing / (_BETWEEN + 1))
         for cell, place, height in zip(own, places[0], found, strict=True):
@@ -244,7 +239,7 @@ def _is_as_high(merit: Merit, places: Floats, others: Floats, cells: Integers) -
     """Report where places (inputs, n) are feasible and no lower than others but for rounding."""
     own, other = merit.values(places, cells), merit.values(others, cells)
     with np.errstate(invalid="ignore"):
-        return np.isfinite(own) & (own >= other - 64.0 * _ROUNDING * np.abs(other))
+        return np.isfinite(own) & (own >= other - _ALIKE * np.abs(other))
 
 
 def _stationary(merit: Merit, starts: Floats, cells: Integers, reach: float) -> tuple[Floats, Truths]:

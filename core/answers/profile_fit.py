@@ -23,24 +23,15 @@ from threadpoolctl import threadpool_limits
 from gradhesion.core.problem.profile import MOST_HARMONICS, Harmonic, Profile
 from gradhesion.core.types import Floats, Truths
 
-_FEWEST: Final = 8
-"""Points that are fitted, at least."""
-_TAPER: Final = 0.1
-"""The part of the radius over which the weight falls at the edge."""
-_EXPONENTS: Final = (1.05, 10.0)
-"""Range in which the exponent is searched: at 1 the radius has no effect."""
-_SEARCHED: Final = 3000
-"""Most points used in the search; its result is refined on all."""
-_PADDING: Final = 8
-"""Samples of the spectrum for one wave over the radius."""
-_CANDIDATES: Final = 40
-"""Peaks of the sum over harmonics that are tried."""
-_REFINED: Final = 10
-"""Of these those that are refined."""
-_AS_GOOD: Final = 4.0
-"""Standard deviations of a sum of squares within which two periods fit as well."""
-_ROUNDING: Final = 64.0 * 2.0**-52
-"""Residual, in parts of the range of heights, below which it is rounding."""
+_FEWEST: Final = 8  # points that are fitted, at least
+_TAPER: Final = 0.1  # the part of the radius over which the weight falls at the edge
+_EXPONENTS: Final = (1.05, 10.0)  # range in which the exponent is searched: at 1 the radius has no effect
+_SEARCHED: Final = 3000  # most points used in the search; its result is refined on all
+_PADDING: Final = 8  # samples of the spectrum for one wave over the radius
+_CANDIDATES: Final = 40  # peaks of the sum over harmonics that are tried
+_REFINED: Final = 10  # of these those that are refined
+_AS_GOOD: Final = 4.0  # standard deviations of a sum of squares within which two periods fit as well
+_ROUNDING: Final = 64.0 * 2.0**-52  # residual, in parts of the range of heights, below which it is rounding
 _WRONG_WAY: Final = (
     "the height does not grow with the distance from the centre; it is to grow away from the half-space, "
     "so reverse its sign, or name another part of the profile with up_to"

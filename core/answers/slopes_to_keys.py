@@ -23,8 +23,7 @@ PLAIN: Final = ("k", "nu")
 """Parameters whose sensitivities are to themselves, not to their logarithms: they may be 0."""
 _STEP: Final = 2.0**-6
 """Step of a logarithm: the error is 4 eps/step of rounding, and step^4/30 of the fifth derivative if no power."""
-_PLAIN_STEP: Final = 2.0**-9
-"""Step of k and nu."""
+_PLAIN_STEP: Final = 2.0**-9  # step of k and nu
 _CENTRED: Final = {-2: 1.0 / 12.0, -1: -2.0 / 3.0, 1: 2.0 / 3.0, 2: -1.0 / 12.0}
 _FORWARD: Final = {0: -25.0 / 12.0, 1: 4.0, 2: -3.0, 3: 4.0 / 3.0, 4: -0.25}
 
@@ -40,14 +39,10 @@ def relative_slopes(
 
     Parameters
     ----------
-    given
-        The keys of the scenes, as arguments of `parameters_from`; all broadcast to the scenes.
-    keys
-        The keys of the derivatives.
-    parameters
-        The parameters of `sensitivity`, in order.
-    sensitivity
-        d ln(value)/d ln(parameter), for k and nu d ln(value)/d(parameter); shape (*scenes, parameters).
+    given, keys
+        The keys of the scenes, as arguments of `parameters_from` that broadcast to the scenes; those of the slopes.
+    parameters, sensitivity
+        d ln(value)/d ln(parameter), for k and nu d ln(value)/d(parameter), of shape (*scenes, parameters); their order.
     powers
         Of the keys in the unit of the value: one of `POWERS` for a value in SI units, else none.
 
