@@ -26,10 +26,13 @@ class Spectrum:
         H, 0 to 1.
     first, last
         The longest and the shortest wave, in waves per wavelength: 1 <= first <= last <= 10,000, 64 of them at most.
-    realisations
-        How many profiles are drawn, 1 or more.
-    seed
-        Seed of the random phases, 0 or more. Numbers out of range raise ValueError.
+    realisations, seed
+        How many profiles are drawn, 1 or more; seed of the random phases, 0 or more.
+
+    Raises
+    ------
+    ValueError
+        For a number out of range.
 
     Examples
     --------
@@ -47,10 +50,8 @@ class Spectrum:
         if not 0.0 <= self.hurst <= 1.0:
             raise ValueError(f"hurst = {self.hurst}: the Hurst exponent is from 0 to 1")
         if not 1 <= self.first <= self.last <= HIGHEST or self.terms > MOST_HARMONICS:
-            raise ValueError(
-                f"first = {self.first}, last = {self.last}: 1 <= first <= last <= {HIGHEST:,}, and {MOST_HARMONICS} "
-                "waves at most"
-            )
+            limits = f"1 <= first <= last <= {HIGHEST:,}, and {MOST_HARMONICS} waves at most"
+            raise ValueError(f"first = {self.first}, last = {self.last}: {limits}")
         if self.realisations < 1 or self.seed < 0:
             raise ValueError(f"realisations = {self.realisations} and seed = {self.seed}: 1 or more, and 0 or more")
 
