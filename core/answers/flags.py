@@ -1,4 +1,4 @@
-"""Flags of results of several scenes, in addition to those of one scene (status.py)."""
+"""Flags of results of several scenes, in addition to those of one scene (problem/status.py)."""
 
 from typing import Final
 
@@ -19,6 +19,5 @@ ANSWER_FLAGS: Final = {
     "nothing_feasible": NOTHING_FEASIBLE,
 }
 """Name of every flag of answers, with its bit."""
-
 FLAGS: Final = dict(sorted((OF_SCENES | ANSWER_FLAGS).items(), key=lambda flag: flag[1]))
 """Name of every flag of a dataset, with its bit, in the order of the bits."""

@@ -2,23 +2,36 @@
 
     h(r) = h0 + rho^m/(m R^(m-1)) + sum_n [c_n (1 - cos 2 pi n x) + s_n sin 2 pi n x],   rho = |r - r0|, x = rho/lambda
 
-The numbers that are not linear, m, lambda and r0, are searched by profile_search.py.
+Three numbers are searched: the waves over the radius, m, and the place of the axis. For each choice of them the height,
+the factor of the power and the coefficients are those of linear least squares (variable projection, Golub & Pereyra
+1973). Where the period may lie follows from the spectrum of the residual of a power: the sum of its density over the
+harmonics of a period. Every multiple of a period contains the same series, so that the shortest of those that fit
+equally well is chosen.
+
+A weight that falls to 0 over the last tenth keeps the edge, where the profile is cut, from ringing through the series.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.optimize import least_squares, minimize_scalar
 from threadpoolctl import threadpool_limits
 
-from gradhesion.core.answers.profile_search import Search
 from gradhesion.core.problem.profile import MOST_HARMONICS, Harmonic, Profile
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Truths
 
-_FEWEST: Final = 8
-"""Points that are fitted, at least."""
+_FEWEST: Final = 8  # points that are fitted, at least
+_TAPER: Final = 0.1  # the part of the radius over which the weight falls at the edge
+_EXPONENTS: Final = (1.05, 10.0)  # range in which the exponent is searched: at 1 the radius has no effect
+_SEARCHED: Final = 3000  # most points used in the search; its result is refined on all
+_PADDING: Final = 8  # samples of the spectrum for one wave over the radius
+_CANDIDATES: Final = 40  # peaks of the sum over harmonics that are tried
+_REFINED: Final = 10  # of these those that are refined
+_AS_GOOD: Final = 4.0  # standard deviations of a sum of squares within which two periods fit as well
+_ROUNDING: Final = 64.0 * 2.0**-52  # residual, in parts of the range of heights, below which it is rounding
 _WRONG_WAY: Final = (
     "the height does not grow with the distance from the centre; it is to grow away from the half-space, "
     "so reverse its sign, or name another part of the profile with up_to"
@@ -142,27 +155,36 @@ def fit_profile(
     vertex = _vertex(places, heights) if places.size >= _FEWEST else 0.0
     if vertex is None and places[0] < 0.0:
         raise ValueError(_WRONG_WAY)
-    both = vertex is not None and (
-        bool(places[0] < 0.0) or (places[0] < vertex < places[-1] and _is_lowest_inside(heights))
-    )
+    flanks = places[0] < 0.0 or (vertex is not None and places[0] < vertex < places[-1] and _is_lowest_inside(heights))
+    both = vertex is not None and bool(flanks)
     centre = vertex if vertex is not None and both else 0.0
     reach = float(np.max(np.abs(places - centre))) if up_to is None else float(up_to)
     inside = np.abs(places - centre) <= reach * (1.0 + 0.05 * both)  # the centre moves by less
     places, heights = places[inside], heights[inside]
-    unknown = 2 + 2 * terms + 1 + (exponent is None) + both
-    if places.size < max(_FEWEST, 2 * unknown):
+    needed = 2 * (2 + 2 * terms + 1 + (exponent is None) + both)
+    if places.size < max(_FEWEST, needed):
         raise ValueError(
             f"{places.size:,} points within {reach:g} of the centre are too few for {terms} terms, which take "
-            f"{2 * unknown}; use fewer terms or a larger up_to"
+            f"{needed}; use fewer terms or a larger up_to"
         )
     if not both and places[0] > 0.5 * reach:
         raise ValueError(
             f"no heights within {places[0]:g} of the axis, which is at r = 0; shift r, so that it is the distance from "
             "the axis"
         )
-    search = Search(places, heights, reach, terms, exponent, centre if both else None)
+    # flanks are no finer together than one of them
+    spacing = (1.0 + both) / max(1, np.unique(np.abs(places / reach - centre / reach)).size - 1)
+    lowest, unit = float(heights.min()), float(np.ptp(heights)) or 1.0
+    points = _Points(
+        x=places / reach,
+        y=(heights - lowest) / unit,
+        terms=terms,
+        spacing=spacing,
+        free=np.array([True, exponent is None, both]),
+    )
     with threadpool_limits(1):  # matrices of a few columns: threads only wait for each other
-        return _described(search, search.best())
+        numbers = points.best(exponent, centre / reach)
+        return _described(points, numbers, reach, lowest, unit)
 
 
 def _in_order(places: Floats, heights: Floats) -> tuple[Floats, Floats]:
@@ -198,37 +220,134 @@ def _vertex(places: Floats, heights: Floats) -> float | None:
     return float(middle + half * np.clip(-0.5 * slope / bend, -1.0, 1.0)) if bend > 0.0 else None
 
 
-def _described(search: Search, vector: Floats) -> FittedProfile:
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Points:
+    """Points in parts of the radius and of the range of their heights, and the search for what is not linear.
+
+    The numbers that are searched are the waves over the radius, m, and the centre, if they are `free`.
+    """
+
+    x: Floats
+    y: Floats
+    terms: int
+    spacing: float
+    free: Truths
+
+    def design(self, numbers: Floats) -> tuple[Floats, Floats]:
+        """Return the columns of the linear part, of shape (n, 2 + waves), and the roots of the weights."""
+        waves, m, centre = numbers
+        rho = np.abs(self.x - centre)
+        count = max(1, min(self.terms, int(0.5 / (self.spacing * waves))))
+        turns = 2.0 * math.pi * waves * np.multiply.outer(rho, np.arange(1, count + 1))
+        columns = np.column_stack([np.ones_like(rho), rho**m, 1.0 - np.cos(turns), np.sin(turns)])
+        return columns, np.sin(0.5 * math.pi * np.clip((1.0 - rho) / _TAPER, 0.0, 1.0))
+
+    def projected(self, numbers: Floats) -> Floats:
+        """Return the weighted residual of the best linear part."""
+        columns, roots = self.design(numbers)
+        q, _ = np.linalg.qr(columns * roots[:, None])
+        weighted = self.y * roots
+        return np.asarray(weighted - q @ (q.T @ weighted))
+
+    def best(self, exponent: float | None, centre: float) -> Floats:
+        """Return the numbers that fit best, with the shortest of periods that fit as well."""
+        step = -(-self.x.size // _SEARCHED)
+        few = replace(self, x=self.x[::step], y=self.y[::step])
+        rho = np.abs(few.x - centre)
+        m = exponent or _exponent_of_power(rho, few.y)
+        starts = [np.array([waves, m, centre]) for waves in few.periods(rho, _left_of_power(m, rho, few.y))]
+        sizes = [float(np.sum(few.projected(start) ** 2)) for start in starts]
+        found = [few.refined(starts[i]) for i in np.argsort(sizes)[:_REFINED]]
+        floor = _ROUNDING**2 * self.x.size
+        as_good = min(size for size, _ in found) * (1.0 + _AS_GOOD * math.sqrt(2.0 / few.x.size)) + floor
+        shortest = max(numbers[0] for size, numbers in found if size <= as_good)
+        _, numbers = min((one for one in found if abs(one[1][0] - shortest) < 0.5), key=lambda one: one[0])
+        return self.refined(numbers)[1] if step > 1 else numbers
+
+    def periods(self, rho: Floats, left: Floats) -> Floats:
+        """Return waves over the radius at which the harmonics of the residual of a power, (n,), are largest."""
+        order = np.argsort(rho)
+        count = 1 << max(6, math.ceil(math.log2(1.0 / self.spacing)))
+        even = np.interp(np.arange(count) / count, rho[order], left[order])
+        density = np.abs(np.fft.rfft(even * np.hanning(count), count * _PADDING)) ** 2
+        most = 0.25 / self.spacing  # four points a wave
+        waves = np.arange(1.0, most, 1.0 / (_PADDING * self.terms))
+        total = np.zeros_like(waves)
+        for n in range(1, self.terms + 1):
+            at = np.rint(n * waves * _PADDING).astype(int)
+            total += np.where(n * waves <= 2.0 * most, density[np.minimum(at, density.size - 1)], 0.0)
+        peaks = np.flatnonzero((total[1:-1] >= total[:-2]) & (total[1:-1] > total[2:])) + 1
+        best = peaks[np.argsort(-total[peaks])][:_CANDIDATES]
+        return np.unique(np.concatenate([[1.0], waves[best]]))
+
+    def refined(self, start: Floats) -> tuple[float, Floats]:
+        """Return the least sum of squares near a start, and the numbers there."""
+        numbers, fewest = start.copy(), max(1.0, float(start[0]) - 0.5)
+        low = np.array([fewest, _EXPONENTS[0], start[2] - 0.2])[self.free]
+        high = np.array([fewest + 1.0, _EXPONENTS[1], start[2] + 0.2])[self.free]
+
+        def residual(searched: Floats) -> Floats:
+            numbers[self.free] = searched
+            return self.projected(numbers)
+
+        done = least_squares(
+            residual,
+            np.clip(start[self.free], low + 1e-9 * (high - low), high - 1e-9 * (high - low)),
+            bounds=(low, high),
+            x_scale=np.array([0.1 / self.terms, 0.1, 0.01])[self.free],
+            xtol=1e-12,
+            ftol=1e-12,
+            gtol=1e-15,
+            max_nfev=40,
+        )
+        numbers[self.free] = done.x
+        return 2.0 * float(done.cost), numbers
+
+
+def _left_of_power(m: float, rho: Floats, y: Floats) -> Floats:
+    """Return the residual of a power alone at points (n,)."""
+    columns = np.column_stack([np.ones_like(rho), rho**m])
+    return np.asarray(y - columns @ np.linalg.lstsq(columns, y, rcond=None)[0])
+
+
+def _exponent_of_power(rho: Floats, y: Floats) -> float:
+    """Return the exponent of the power alone that fits points (n,) best."""
+
+    def size(m: float) -> float:
+        return float(np.sum(_left_of_power(m, rho, y) ** 2))
+
+    return float(minimize_scalar(size, bounds=_EXPONENTS, method="bounded").x)
+
+
+def _described(points: _Points, numbers: Floats, reach: float, lowest: float, unit: float) -> FittedProfile:
     """Describe a fit in the units of the measurement, with the errors that its residual implies."""
-    m, waves, centre = search.split(vector)
-    reach, unit, names = search.reach, search.unit, search.names
-    columns, roots = search.design(vector, search.x)
-    found = np.linalg.lstsq(columns * roots[:, None], search.y * roots, rcond=None)[0]
-    linear = np.asarray(found, dtype=np.float64)
+    waves, m, centre = numbers.tolist()
+    columns, roots = points.design(numbers)
+    linear = np.asarray(np.linalg.lstsq(columns * roots[:, None], points.y * roots, rcond=None)[0])
     if not linear[1] > 0.0:
         raise ValueError(_WRONG_WAY)
-    count = (columns.shape[1] - 2) // 2
-    rho, left = np.abs(search.x - centre), (search.y - columns @ linear) * unit
+    count = (linear.size - 2) // 2
+    rho, left = np.abs(points.x - centre), (points.y - columns @ linear) * unit
     order = np.argsort(rho)
     inside = order[rho[order] <= 1.0]
-    jacobian = np.column_stack([columns, _moving(search, linear, vector)]) * roots[:, None]
-    degrees = max(1.0, float(np.sum(roots**2)) - jacobian.shape[1])
-    variance = float(np.sum((left * roots) ** 2)) / degrees / unit**2
-    rows = np.linalg.pinv(jacobian) * roots
-    spread = np.sqrt(variance * np.sum(rows**2, axis=1))
-    searched = {"exponent": 0.0, "centre": 0.0} | dict(zip(names, spread[2 + 2 * count :].tolist(), strict=True))
-    factor = linear[1] * unit / reach**m  # 1/(m R^(m-1))
-    radius = float((m * factor) ** (-1.0 / (m - 1.0)))
-    # R = (m g)^(-1/(m-1)) moves with g, whose relative error is that of its column, and with m
-    gradient, moved = [-1.0 / ((m - 1.0) * linear[1])], [1]
-    if "exponent" in names:
-        gradient.append(math.log(m * factor) / (m - 1.0) ** 2 - (1.0 / m - math.log(reach)) / (m - 1.0))
-        moved.append(2 + 2 * count + names.index("exponent"))
-    covariance = variance * rows[moved] @ rows[moved].T
+    moving = []  # derivatives of the heights by the numbers, 0 for those that are not free
+    for step in np.diag(1e-6 * np.maximum(1.0, np.abs(numbers)) * points.free):
+        ahead, behind = (points.design(numbers + way * step)[0] @ linear for way in (1.0, -1.0))
+        moving.append((ahead - behind) / (2.0 * step.max() or 1.0))
+    rows = np.linalg.pinv(np.column_stack([columns, *moving]) * roots[:, None]) * roots
+    rows[-3:] *= points.free[:, None]  # 0, where it was so to rounding
+    degrees = max(1.0, float(np.sum(roots**2)) - linear.size - np.count_nonzero(points.free))
+    deviation = math.sqrt(float(np.sum((left * roots) ** 2)) / degrees) / unit
+    spread = deviation * np.sqrt(np.sum(rows**2, axis=1))
+    # R = (m g)^(-1/(m-1)) moves with g = 1/(m R^(m-1)), whose relative error is that of its column, and with m
+    g = linear[1] * unit / reach**m
+    radius = float((m * g) ** (-1.0 / (m - 1.0)))
+    by_m = math.log(m * g) / (m - 1.0) ** 2 - (1.0 / m - math.log(reach)) / (m - 1.0)
+    radius_moves = by_m * rows[-2] - rows[1] / ((m - 1.0) * linear[1])
 
     def lengths(coefficients: Floats) -> Floats:
         """Return the coefficients of all harmonics, those left out as 0, in the unit of heights."""
-        return np.pad(coefficients, (0, search.terms - count)) * unit
+        return np.pad(coefficients, (0, points.terms - count)) * unit
 
     return FittedProfile(
         exponent=m,
@@ -238,26 +357,16 @@ def _described(search: Search, vector: Floats) -> FittedProfile:
         cosines=lengths(linear[2 : 2 + count]),
         sines=lengths(linear[2 + count :]),
         centre=centre * reach,
-        height=float(linear[0]) * unit + search.lowest,
+        height=float(linear[0]) * unit + lowest,
         errors={
-            "exponent": searched["exponent"],
-            "radius": radius * math.sqrt(np.array(gradient) @ covariance @ np.array(gradient)),
-            "wavelength": searched["waves"] * reach / waves**2,
+            "exponent": float(spread[-2]),
+            "radius": radius * deviation * float(np.linalg.norm(radius_moves)),
+            "wavelength": float(spread[-3]) * reach / waves**2,
             "cosines": lengths(spread[2 : 2 + count]),
             "sines": lengths(spread[2 + count : 2 + 2 * count]),
-            "centre": searched["centre"] * reach,
-            "height": spread[0] * unit,
+            "centre": float(spread[-1]) * reach,
+            "height": float(spread[0]) * unit,
         },
         distance=rho[inside] * reach,
         residual=left[inside],
     )
-
-
-def _moving(search: Search, linear: Floats, vector: Floats) -> Floats:
-    """Return the derivatives of the heights by the searched numbers, by central differences; (points, numbers)."""
-    steps = np.diag(1e-6 * np.maximum(1.0, np.abs(vector)))
-    columns = []
-    for step in steps:
-        ahead, behind = (search.design(vector + way * step, search.x)[0] @ linear for way in (1.0, -1.0))
-        columns.append((ahead - behind) / (2.0 * step.max()))
-    return np.column_stack(columns)

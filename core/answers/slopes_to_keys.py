@@ -1,7 +1,8 @@
 """Slopes of a value to the keys by which its scene is given: parameters, reduced variables, quantities with units.
 
-Sensitivities (sensitivity.py) are to the parameters of `solve`. How each of these depends on the given keys
-(reduced.py) is found by differences of fourth order, of logarithms, which are exact for powers.
+The sensitivities of `solve` are to its parameters. How each of these depends on the given keys (closed/reduced.py) is
+found by differences of fourth order, of logarithms, which are exact for powers. A value in SI units is that of the
+theory times powers of R and of the work of adhesion.
 """
 
 from collections.abc import Mapping, Sequence
@@ -13,14 +14,63 @@ from numpy.typing import ArrayLike
 from gradhesion.core.closed.reduced import WAYS, parameters_from
 from gradhesion.core.types import Floats
 
+POWERS: Final = {
+    "pull_off_force_sensitivity": {"R": 1.0, "work_of_adhesion": 1.0},
+    "dissipated_energy_sensitivity": {"R": 2.0, "work_of_adhesion": 1.0},
+}
+"""The powers of the quantities in the unit of each value: 1.5 pi R dgamma and R^2 dgamma."""
 PLAIN: Final = ("k", "nu")
 """Parameters whose sensitivities are to themselves, not to their logarithms: they may be 0."""
 _STEP: Final = 2.0**-6
 """Step of a logarithm: the error is 4 eps/step of rounding, and step^4/30 of the fifth derivative if no power."""
-_PLAIN_STEP: Final = 2.0**-9
-"""Step of k and nu."""
+_PLAIN_STEP: Final = 2.0**-9  # step of k and nu
 _CENTRED: Final = {-2: 1.0 / 12.0, -1: -2.0 / 3.0, 1: 2.0 / 3.0, 2: -1.0 / 12.0}
 _FORWARD: Final = {0: -25.0 / 12.0, 1: 4.0, 2: -3.0, 3: 4.0 / 3.0, 4: -0.25}
+
+
+def relative_slopes(
+    given: Mapping[str, ArrayLike],
+    keys: Sequence[str],
+    parameters: Sequence[str],
+    sensitivity: Floats,
+    powers: Mapping[str, float],
+) -> dict[str, Floats]:
+    """Return d ln(value)/d ln(key) for keys out of `given`; for k and nu d ln(value)/d(key).
+
+    Parameters
+    ----------
+    given, keys
+        The keys of the scenes, as arguments of `parameters_from` that broadcast to the scenes; those of the slopes.
+    parameters, sensitivity
+        d ln(value)/d ln(parameter), for k and nu d ln(value)/d(parameter), of shape (*scenes, parameters); their order.
+    powers
+        Of the keys in the unit of the value: one of `POWERS` for a value in SI units, else none.
+
+    Returns
+    -------
+    An array of shape `scenes` for each key; NaN where a sensitivity that counts is missing, as all are of a value that
+    is not positive.
+
+    Examples
+    --------
+    Whatever the modulus, the pull-off force of a smooth unbounded punch is 1.5 pi R dgamma at k = 0:
+
+    >>> ball = dict(k=0.0, nu=0.3, R=1e-6, work_of_adhesion=0.05, E_star=1e9, c0=1e-6, wavelength=1e-7, A=0.0,
+    ...             a_max_over_R=np.inf)
+    >>> names = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
+    >>> powers = POWERS["pull_off_force_sensitivity"]
+    >>> found = relative_slopes(ball, ("R", "work_of_adhesion", "E_star"), names, np.zeros(7), powers)
+    >>> [float(one) for one in found.values()]
+    [1.0, 1.0, 0.0]
+    """
+    arrays, found = {name: np.asarray(one, dtype=float) for name, one in given.items()}, {}
+    for key in keys:
+        total = powers.get(key, 0.0) + 0.0 * sensitivity[..., parameters.index("modulus")]
+        for name, influence in _influences(arrays, key, parameters).items():
+            part = sensitivity[..., parameters.index(name)] * influence
+            total = total + np.where(influence == 0.0, 0.0, part)
+        found[key] = total
+    return found
 
 
 def slopes_to_keys(
@@ -29,28 +79,9 @@ def slopes_to_keys(
     parameters: Sequence[str],
     value: ArrayLike,
     sensitivity: Floats,
-    powers: Mapping[str, float] | None = None,
+    powers: Mapping[str, float],
 ) -> dict[str, Floats]:
-    """Return d(value)/d(key) for keys out of `given`.
-
-    Parameters
-    ----------
-    given
-        The keys of the scenes, as arguments of `parameters_from`; all broadcast to the scenes.
-    keys
-        The keys of the derivatives.
-    parameters
-        The parameters of `sensitivity`, in order.
-    value
-        The value, of shape `scenes`.
-    sensitivity
-        d ln(value)/d ln(parameter), for k and nu d ln(value)/d(parameter); shape (*scenes, parameters).
-    powers
-        Of the keys in the unit of the value: those of R and of the work of adhesion for a value in SI units.
-
-    Returns
-    -------
-    An array of shape `scenes` for each key; NaN where the key is 0, or the sensitivity missing.
+    """Return d(value)/d(key), NaN where the key is 0, of a value of shape `scenes`; all else as `relative_slopes`.
 
     Examples
     --------
@@ -59,20 +90,15 @@ def slopes_to_keys(
     >>> names = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
     >>> ball = dict(k=0.0, nu=0.3, R=2e-6, work_of_adhesion=0.05, E_star=1e9, c0=1e-6, wavelength=6e-6, A=0.01,
     ...             a_max_over_R=np.inf)
-    >>> slopes = slopes_to_keys(ball, ["wavelength"], names, 9.0, np.array([0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0]))
+    >>> slopes = slopes_to_keys(ball, ["wavelength"], names, 9.0, np.array([0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0]), {})
     >>> round(float(slopes["wavelength"]), 3)  # d 9 (w/6e-6)^2/dw = 18/6e-6
     3000000.0
     """
-    arrays = {name: np.asarray(one, dtype=float) for name, one in given.items()}
-    values, found = np.asarray(value, dtype=float), {}
-    for key in keys:
-        total = np.full(values.shape, (powers or {}).get(key, 0.0))
-        for name, influence in _influences(arrays, key, parameters).items():
-            part = sensitivity[..., parameters.index(name)] * influence
-            total = total + np.where(influence == 0.0, 0.0, part)
-        with np.errstate(all="ignore"):
-            unit = 1.0 if key in PLAIN else np.where(arrays[key] == 0.0, np.nan, arrays[key])
-            found[key] = values * (total / unit)
+    found = {}
+    for key, relative in relative_slopes(given, keys, parameters, sensitivity, powers).items():
+        place = np.asarray(given[key], dtype=float)
+        unit = 1.0 if key in PLAIN else np.where(place == 0.0, np.nan, place)
+        found[key] = np.asarray(value, dtype=float) * (relative / unit)
     return found
 
 
@@ -83,22 +109,19 @@ def _influences(given: Mapping[str, Floats], key: str, parameters: Sequence[str]
         return {key: np.ones(())}
     if key in PLAIN:
         # inwards at the ends of the range, where nothing is on the other side
-        sides = np.where(given[key] > 0.25, -1.0, 1.0) if key == "k" else np.where(given[key] > 0.0, -1.0, 1.0)
-        points = [(weight, given[key] + i * sides * _PLAIN_STEP) for i, weight in _FORWARD.items()]
-        step = sides * _PLAIN_STEP
+        step = np.where(given[key] > (0.25 if key == "k" else 0.0), -_PLAIN_STEP, _PLAIN_STEP)
+        points = [(weight, given[key] + i * step) for i, weight in _FORWARD.items()]
     else:
-        points = [(weight, given[key] * np.exp(i * _STEP)) for i, weight in _CENTRED.items()]
         step = np.asarray(_STEP)
-    found: dict[str, Floats] = {}
-    for weight, moved in points:
-        made = parameters_from({**given, key: moved})
-        for name in parameters:
-            with np.errstate(all="ignore"):  # a key that is 0 or infinite has no logarithm, and no effect
+        points = [(weight, given[key] * np.exp(i * _STEP)) for i, weight in _CENTRED.items()]
+    totals = dict.fromkeys(parameters, np.zeros(()))
+    with np.errstate(all="ignore"):  # a key that is 0 or infinite has no logarithm, and no effect
+        for weight, moved in points:
+            made = parameters_from({**given, key: moved})
+            for name in parameters:
                 one = made[name] if name in PLAIN else np.log(np.abs(made[name]))
-                found[name] = found.get(name, np.zeros(())) + weight * one
-    influences = {}
-    for name, total in found.items():
-        with np.errstate(all="ignore"):
-            change = total / step
-        influences[name] = np.where(np.isfinite(change) & (np.abs(change) > 1e-9), change, 0.0)
-    return influences
+                totals[name] = totals[name] + weight * one
+        changes = {name: total / step for name, total in totals.items()}
+    return {
+        name: np.where(np.isfinite(change) & (np.abs(change) > 1e-9), change, 0.0) for name, change in changes.items()
+    }

@@ -26,10 +26,8 @@ class Spectrum:
         H, 0 to 1.
     first, last
         The longest and the shortest wave, in waves per wavelength: 1 <= first <= last <= 10,000, 64 of them at most.
-    realisations
-        How many profiles are drawn, 1 or more.
-    seed
-        Seed of the random phases, 0 or more.
+    realisations, seed
+        How many profiles are drawn, 1 or more; seed of the random phases, 0 or more.
 
     Raises
     ------
@@ -52,10 +50,8 @@ class Spectrum:
         if not 0.0 <= self.hurst <= 1.0:
             raise ValueError(f"hurst = {self.hurst}: the Hurst exponent is from 0 to 1")
         if not 1 <= self.first <= self.last <= HIGHEST or self.terms > MOST_HARMONICS:
-            raise ValueError(
-                f"first = {self.first}, last = {self.last}: 1 <= first <= last <= {HIGHEST:,}, and {MOST_HARMONICS} "
-                "waves at most"
-            )
+            limits = f"1 <= first <= last <= {HIGHEST:,}, and {MOST_HARMONICS} waves at most"
+            raise ValueError(f"first = {self.first}, last = {self.last}: {limits}")
         if self.realisations < 1 or self.seed < 0:
             raise ValueError(f"realisations = {self.realisations} and seed = {self.seed}: 1 or more, and 0 or more")
 
@@ -77,20 +73,9 @@ class Spectrum:
 
 
 def random_profile(spectrum: Spectrum, number: int, exponent: float = 2.0) -> Profile:
-    """Return one realisation of a spectrum.
+    """Return one realisation of a spectrum, the same for the same seed and number, bit by bit.
 
-    Parameters
-    ----------
-    spectrum
-        Of the roughness.
-    number
-        Which realisation, from 0; those beyond `spectrum.realisations` can be drawn as well.
-    exponent
-        m of the punch without waves, >= 1.
-
-    Returns
-    -------
-    The profile; the same for the same seed and number, bit by bit.
+    `number` counts from 0, and may be beyond `spectrum.realisations`; `exponent` is m of the punch without waves, >= 1.
 
     Examples
     --------
@@ -104,10 +89,7 @@ def random_profile(spectrum: Spectrum, number: int, exponent: float = 2.0) -> Pr
     numbers = range(spectrum.first, spectrum.last + 1)
     sizes = [n ** -(spectrum.hurst + 0.5) for n in numbers]
     unit = math.sqrt(2.0 / math.fsum(size * size for size in sizes))
-    waves = (
-        Harmonic(
-            n=n, cos=unit * size * math.cos(2.0 * math.pi * turn), sin=unit * size * math.sin(2.0 * math.pi * turn)
-        )
-        for n, size, turn in zip(numbers, sizes, turns.tolist(), strict=True)
-    )
+    waves = []
+    for n, size, phase in zip(numbers, sizes, (2.0 * math.pi * turns).tolist(), strict=True):
+        waves.append(Harmonic(n=n, cos=unit * size * math.cos(phase), sin=unit * size * math.sin(phase)))
     return Profile(exponent=exponent, harmonics=tuple(waves))

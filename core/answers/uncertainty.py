@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from scipy.special import ndtr, ndtri
 from scipy.stats import qmc
 
-from gradhesion.core.types import Floats, Integers, Truths
+from gradhesion.core.types import Floats, Truths
 
 QUANTILES: Final = {"p05": 0.05, "p50": 0.5, "p95": 0.95}
 """The quantiles of the samples, by their names."""
@@ -28,8 +28,7 @@ FEW: Final = 32
 that pass are right to 3 %, but for three that are off by 8 to 10 %; 8 samples miss some that are off by half."""
 AT_FEW: Final = 0.02
 """Relative difference allowed between deviations of these samples."""
-_LEAST_SHARE: Final = 2.0**-54
-"""Samples are strictly between the bounds: a modulus of 0 has no value."""
+_LEAST_SHARE: Final = 2.0**-54  # samples are strictly between the bounds: a modulus of 0 has no value
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,15 +37,12 @@ class Spread:
 
     Parameters
     ----------
-    deviation
-        The standard deviation of a normal distribution, > 0; without meaning if it is `uniform`.
-    relative
-        Whether that is a share of the value of the scene.
+    deviation, relative
+        The standard deviation of a normal distribution, > 0, and whether it is a share of the value of the scene.
     low, high
-        Where the normal distribution is truncated, or between which the input is `uniform`, whatever the scene; `high`
-        may be an array that broadcasts with the values.
+        Where the normal distribution is truncated; `high` may be an array that broadcasts with the values.
     uniform
-        Whether all values between `low` and `high` are equally likely.
+        Whether all values between `low` and `high` are equally likely instead, whatever the scene.
 
     Examples
     --------
@@ -93,47 +89,20 @@ class Spread:
 def drawn_shares(inputs: int, count: int, seed: int) -> Floats:
     """Return quasi-random shares 0 .. 1, a scrambled sequence of Sobol's, of shape (inputs, count).
 
-    Parameters
-    ----------
-    inputs
-        Their number, 1 or more.
-    count
-        Of samples, a power of two.
-    seed
-        Seed of the scrambling.
-
-    Examples
-    --------
-    Each of 2^m equal parts of every input has one sample:
-
-    >>> shares = drawn_shares(3, 8, seed=1)
-    >>> np.sort(np.floor(8 * shares), axis=1).astype(int).tolist()[2]
-    [0, 1, 2, 3, 4, 5, 6, 7]
+    `count` is a power of two: each of so many equal parts of every input has one sample.
     """
     sequence = qmc.Sobol(inputs, scramble=True, rng=np.random.default_rng(seed))
     return np.ascontiguousarray(sequence.random(count).T)
 
 
 def linear_deviation(slopes: Sequence[ArrayLike], deviations: Sequence[ArrayLike]) -> Floats:
-    """Return the standard deviation of values of any shape by their slopes to independent inputs.
-
-    Examples
-    --------
-    >>> float(linear_deviation([3.0, 4.0], [1.0, 1.0]))
-    5.0
-    """
+    """Return the standard deviation of values of any shape by their slopes to independent inputs."""
     parts = [np.asarray(slope, dtype=float) * deviation for slope, deviation in zip(slopes, deviations, strict=True)]
-    return np.sqrt(np.sum([part * part for part in parts], axis=0))
+    return np.sqrt(np.sum(np.square(parts), axis=0))
 
 
 def differ(one: ArrayLike, other: ArrayLike, share: float = TENTH) -> Truths:
-    """Return where deviations, of any shape, differ by more than a share of the larger, or one of them is missing.
-
-    Examples
-    --------
-    >>> differ([1.0, 1.0, 0.0, np.nan], [1.05, 1.2, 0.0, 1.0]).tolist()
-    [False, True, False, True]
-    """
+    """Return where deviations, of any shape, differ by more than a share of the larger, or one of them is missing."""
     first, second = np.asarray(one, dtype=float), np.asarray(other, dtype=float)
     close: Truths = np.abs(first - second) <= share * np.maximum(first, second)
     return ~close
@@ -150,21 +119,15 @@ def statistics_of(samples: Floats) -> Mapping[str, Floats]:
     """
     there = ~np.isnan(samples)
     counts = there.sum(-1)
+    last = np.maximum(counts - 1, 0)
+    ordered = np.sort(samples, -1)  # NaN last
     with np.errstate(all="ignore"):  # without samples there is no mean, and infinite ones have no deviation
         mean = np.sum(samples, -1, where=there) / counts
         apart = samples - mean[..., None]
         found = {"mean": mean, "std": np.sqrt(np.sum(apart * apart, -1, where=there) / counts)}
-        ordered = np.sort(samples, -1)  # NaN last
         for name, share in QUANTILES.items():
-            found[name] = _quantile(ordered, counts, share)
+            low = np.floor(share * last).astype(np.int64)
+            ends = np.stack([low, np.minimum(low + 1, last)], -1)
+            below, above = np.moveaxis(np.take_along_axis(ordered, ends, -1), -1, 0)
+            found[name] = np.where(above > below, below + (share * last - low) * (above - below), below)
     return found
-
-
-def _quantile(ordered: Floats, counts: Integers, share: float) -> Floats:
-    """Return a quantile along the last axis of sorted samples, of which the first `counts` have values."""
-    last = np.maximum(counts - 1, 0)
-    place = share * last
-    low = np.floor(place).astype(np.int64)
-    ends = np.stack([low, np.minimum(low + 1, last)], -1)
-    below, above = np.moveaxis(np.take_along_axis(ordered, ends, -1), -1, 0)
-    return np.where(above > below, below + (place - low) * (above - below), below)

@@ -70,19 +70,16 @@ def physical_of(
     study: Study, given: Mapping[str, NDArray[np.float64]], found: Mapping[str, NDArray[Any]]
 ) -> dict[str, NDArray[np.float64]]:
     """Give the sensitivities to quantities with units, from those that are found."""
-    from gradhesion.core.answers.physical import physical_sensitivities  # noqa: PLC0415 (300 ms for SciPy)
+    from gradhesion.core.answers.slopes_to_keys import POWERS, relative_slopes  # noqa: PLC0415 (300 ms for SciPy)
 
     plain = {name: values for name, values in given.items() if name != RANGE and INPUTS[name].gives != RANGE}
     if study.spectrum is not None:  # the last dimension of the scenes
         plain = {name: np.asarray(values)[..., None] for name, values in plain.items()}
-    labels = study.labels
-    return {
-        name + OF_PHYSICAL: physical_sensitivities(
-            plain, labels[PHYSICAL_PARAMETER], labels[PARAMETER], name, found[name]
-        )
-        for name in study.outputs
-        if name in SENSITIVITIES
-    }
+    quantities, parameters, more = study.labels[PHYSICAL_PARAMETER], study.labels[PARAMETER], {}
+    for name in (one for one in study.outputs if one in SENSITIVITIES):
+        slopes = relative_slopes(plain, quantities, parameters, found[name], POWERS[name])
+        more[name + OF_PHYSICAL] = np.stack([*slopes.values()], axis=-1)
+    return more
 
 
 def scales_of(study: Study, block: Block) -> dict[str, NDArray[np.float64]]:

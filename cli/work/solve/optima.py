@@ -14,10 +14,8 @@ from gradhesion.cli.study.study import Method, Study
 from gradhesion.cli.study.tiling import Block, shape_of
 from gradhesion.cli.work.solve.given import solve_given
 from gradhesion.core.answers.flags import NOTHING_FEASIBLE, RESOLUTION_TOO_COARSE
-from gradhesion.core.answers.optimum import Optima, axis_of, optima_of, sweep
-from gradhesion.core.answers.optimum_front import front
-from gradhesion.core.answers.physical import POWERS
-from gradhesion.core.answers.slopes_to_keys import slopes_to_keys
+from gradhesion.core.answers.optimum import Optima, axis_of, front, optima_of, sweep
+from gradhesion.core.answers.slopes_to_keys import POWERS, slopes_to_keys
 from gradhesion.core.problem.status import LOADING_NOT_ONE_DISC, NO_VALUE
 
 Arrays = dict[str, NDArray[Any]]
@@ -65,21 +63,21 @@ class _Cells:
         plain = replace(study or self.plain, outputs=outputs)
         return solve_given(plain, given, (), self.block, self.threads, watch=watch)
 
-    def values(
-        self, places: NDArray[np.float64], cells: NDArray[np.int64]
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return merits and margins, as `gradhesion.core.answers.optimum_merit.Merit` says."""
+    def all_values(self, places: NDArray[np.float64], cells: NDArray[np.int64]) -> NDArray[np.float64]:
+        """Return the merits by all goals, along a first axis; each as `gradhesion.core.answers.optimum.Merit` says."""
         search = self.study.search
         found = self.solve(self.at(places, cells), search.solved)
-        shape = np.broadcast_shapes(places.shape[1:], np.shape(cells))
-        merits = np.broadcast_to(search.signs[self.goal] * found[search.goals[self.goal]], shape)
-        margins = np.full(shape, np.inf)
+        meets = np.ones(np.broadcast_shapes(places.shape[1:], np.shape(cells)), bool)
         for name, low, high in search.limits:
-            margins = np.minimum(margins, np.where(np.isnan(found[name]), -np.inf, found[name] - low))
-            margins = np.minimum(margins, np.where(np.isnan(found[name]), -np.inf, high - found[name]))
+            meets &= (found[name] >= low) & (found[name] <= high)
         if search.one_disc:
-            margins = np.where((found["status"] & LOADING_NOT_ONE_DISC) != 0, -1.0, margins)
-        return merits, np.minimum(margins, 1.0 if search.one_disc else np.finfo(float).max)
+            meets &= (found["status"] & LOADING_NOT_ONE_DISC) == 0
+        goals = [sign * found[goal] for sign, goal in zip(search.signs, search.goals, strict=True)]
+        return np.array([np.where(meets | np.isnan(goal), goal, -np.inf) for goal in goals])
+
+    def values(self, places: NDArray[np.float64], cells: NDArray[np.int64]) -> NDArray[np.float64]:
+        """Return the merits by one goal."""
+        return np.asarray(self.all_values(places, cells)[self.goal])
 
     def slopes(self, places: NDArray[np.float64], cells: NDArray[np.int64]) -> NDArray[np.float64] | None:
         """Return the slopes of merits to the places, where they are known."""
@@ -90,7 +88,7 @@ class _Cells:
         given = self.at(places, cells)
         found = self.solve(given, (goal.removesuffix(SI), name))
         labels = replace(self.plain, outputs=(name,)).labels[PARAMETER]
-        powers = POWERS[name] if goal.endswith(SI) else None
+        powers = POWERS[name] if goal.endswith(SI) else {}
         keys = [one.name for one in study.search.inputs]
         slopes = slopes_to_keys(given, keys, labels, found[goal], found[name], powers)
         along = []
@@ -105,8 +103,8 @@ def best_of_block(study: Study, block: Block, threads: int | None) -> Arrays:
     cells = _Cells(study=study, block=block, threads=threads)
     shape = shape_of(block)
     count = int(np.prod(shape))
-    merits, margins = sweep(cells, len(study.search.inputs), count, study.search.resolution)
-    found = optima_of(cells, merits, margins)
+    merits = sweep(cells.values, len(study.search.inputs), count, study.search.resolution)
+    found = optima_of(cells, merits)
     places = found.places
     values = _reported(cells, places, np.arange(count))
     status = _status_of(values, found, merits)
@@ -121,26 +119,22 @@ def fronts_of_block(study: Study, block: Block, threads: int | None) -> Arrays:
     shape, search = shape_of(block), study.search
     count, inputs = int(np.prod(shape)), len(search.inputs)
     axis = axis_of(search.resolution)
-    swept = [sweep(one, inputs, count, search.resolution) for one in cells]
-    ends = [optima_of(one, *both) for one, both in zip(cells, swept, strict=True)]
-    heights = [np.where(margins >= 0.0, merits, np.nan).reshape(-1, count) for merits, margins in swept]
-    grid = axis[np.array(np.unravel_index(np.arange(axis.size**inputs), (axis.size,) * inputs))]
+    swept = sweep(cells[0].all_values, inputs, count, search.resolution)
+    ends = [optima_of(one, merits) for one, merits in zip(cells, swept, strict=True)]
+    grid = axis[np.indices((axis.size,) * inputs).reshape(inputs, -1)]
     fronts = []
     for cell in range(count):
-        places = np.concatenate([grid, *(end.places[:, cell : cell + 1] for end in ends)], axis=1)
-        last = [one.values(places[:, -2:], np.array(cell)) for one in cells]
-        values = [
-            np.concatenate([height[:, cell], np.where(margins >= 0.0, merits, np.nan)])
-            for height, (merits, margins) in zip(heights, last, strict=True)
-        ]
-        fronts.append(places[:, front(values)])
+        best = np.stack([end.places[:, cell] for end in ends], axis=1)
+        places = np.concatenate([grid, best], axis=1)
+        merits = np.concatenate([swept[..., cell].reshape(2, -1), cells[0].all_values(best, np.array(cell))], axis=1)
+        fronts.append(places.take(front(np.where(np.isneginf(merits), np.nan, merits)), axis=1))
     longest = max(1, *(places.shape[1] for places in fronts))
     padded = np.full((inputs, count, longest), np.nan)
     for cell, places in enumerate(fronts):
         padded[:, cell, : places.shape[1]] = places
     found = _reported(cells[0], padded, np.arange(count)[:, None])
-    first = _status_of({"status": np.bitwise_or.reduce(_known(found), axis=-1)}, ends[0], swept[0][0])
-    second = _status_of({"status": np.zeros(count, np.int16)}, ends[1], swept[1][0])
+    first = _status_of({"status": np.bitwise_or.reduce(_known(found), axis=-1)}, ends[0], swept[0])
+    second = _status_of({"status": np.zeros(count, np.int16)}, ends[1], swept[1])
     shaped = {name: own.reshape((*shape, longest)) for name, own in found.items() if name in study.variables}
     if study.watches_slope:
         shaped[STEEP] = found[STEEP].max(axis=-1).reshape(shape)

@@ -15,8 +15,7 @@ from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, shape_of
 from gradhesion.cli.work.solve.given import solve_given
 from gradhesion.core.answers.flags import LINEAR_DEVIATION_OFF
-from gradhesion.core.answers.physical import POWERS
-from gradhesion.core.answers.slopes_to_keys import slopes_to_keys
+from gradhesion.core.answers.slopes_to_keys import POWERS, slopes_to_keys
 from gradhesion.core.answers.uncertainty import (
     AT_FEW,
     FEW,

@@ -1,4 +1,4 @@
-"""Optima of merits whose peaks are known: smooth, kinks, at ends, at edges of what is feasible, hidden; and of forces."""
+"""Optima of merits whose peaks are known: smooth, kinks, at ends, at edges of what is feasible, hidden; and fronts."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gradhesion.core.answers.optimum import Optima, axis_of, optima_of, sweep
+from gradhesion.core.answers.optimum import Optima, axis_of, front, optima_of, sweep
 
 Array = NDArray[np.float64]
 PEAKS = np.array([0.0, 0.137, 0.5, 0.73141592, 1.0])
@@ -17,24 +17,19 @@ PEAKS = np.array([0.0, 0.137, 0.5, 0.73141592, 1.0])
 
 @dataclass
 class Known:
-    """A merit by formula."""
+    """A merit by formula; called, it finds the optimum of each cell from a sweep at a resolution."""
 
     height: Callable[..., Any]
     slope: Callable[..., Any] | None = None
-    margin: Callable[..., Any] | None = None
 
-    def values(self, places: Array, cells: NDArray[np.int64]) -> tuple[Array, Array]:
-        merits = np.asarray(self.height(*places, cells)) + 0.0 * places[0] + 0.0 * cells
-        margins = np.zeros(merits.shape) if self.margin is None else self.margin(*places) + 0.0 * merits
-        return merits, margins
+    def values(self, places: Array, cells: NDArray[np.int64]) -> Array:
+        return np.asarray(self.height(*places, cells)) + 0.0 * places[0] + 0.0 * cells
 
     def slopes(self, places: Array, cells: NDArray[np.int64]) -> Array | None:
         return None if self.slope is None else np.array(np.broadcast_arrays(*self.slope(*places, cells)))
 
-
-def optima(merit: Known, inputs: int, cells: int, resolution: int) -> Optima:
-    """The optimum of each cell, from a sweep at a resolution."""
-    return optima_of(merit, *sweep(merit, inputs, cells, resolution))
+    def __call__(self, inputs: int, cells: int, resolution: int) -> Optima:
+        return optima_of(self, sweep(self.values, inputs, cells, resolution))
 
 
 def _ripple(x: Array, cells: NDArray[np.int64]) -> Array:
@@ -46,17 +41,22 @@ def _slope_of_ripple(x: Array, cells: NDArray[np.int64]) -> tuple[Array]:
 
 
 def test_a_smooth_peak_among_others() -> None:
-    """Values alone give the place to the root of rounding, slopes to rounding."""
+    """Values alone give the place to the root of rounding, slopes to rounding; at an end of the range it is exact."""
     for slope, error in ((None, 3e-9), (_slope_of_ripple, 1e-15)):
-        found = optima(Known(_ripple, slope), 1, PEAKS.size, 100)
+        found = Known(_ripple, slope)(1, PEAKS.size, 100)
         np.testing.assert_allclose(found.places[0], PEAKS, rtol=0.0, atol=error)
+        assert found.places[0, [0, -1]].tolist() == [0.0, 1.0]
         np.testing.assert_allclose(found.merits, 1.02, rtol=4e-16)
         assert not found.too_coarse.any()
 
 
-def test_a_peak_that_is_a_kink() -> None:
-    found = optima(Known(lambda x, cells: -np.abs(x - PEAKS[cells]) - 0.3 * (x - PEAKS[cells])), 1, PEAKS.size, 20)
-    np.testing.assert_allclose(found.places[0], PEAKS, rtol=0.0, atol=2e-12)
+@pytest.mark.parametrize("steep", [1.3, 1e3])
+def test_a_peak_that_is_a_kink(steep: float) -> None:
+    """With slopes or without: there is no place where they are zero."""
+    height = lambda x, cells: np.where(x < PEAKS[cells], -steep, -0.7) * np.abs(x - PEAKS[cells])  # noqa: E731
+    slope = lambda x, cells: (np.where(x < PEAKS[cells], steep, -0.7),)  # noqa: E731
+    for merit in (Known(height), Known(height, slope)):
+        np.testing.assert_allclose(merit(1, PEAKS.size, 20).places[0], PEAKS, rtol=0.0, atol=2e-12)
 
 
 def test_a_basin_that_only_the_finer_sweep_shows() -> None:
@@ -65,7 +65,7 @@ def test_a_basin_that_only_the_finer_sweep_shows() -> None:
     hidden = Known(
         lambda x, cells: -np.abs(x - 0.9) + np.where(cells == 1, 2.0, 0.0) * np.exp(-(((x - at) / 0.01) ** 2))
     )
-    found = optima(hidden, 1, 2, 20)
+    found = hidden(1, 2, 20)
     assert found.too_coarse.tolist() == [False, True]
     assert found.places[0] == pytest.approx([0.9, at], abs=1e-3)
 
@@ -76,69 +76,113 @@ def test_a_peak_between_two_points_beside_which_nothing_rises_towards_it() -> No
     heights = np.concatenate([own, np.full(axis.size - own.size, -10.0)])
     middle, width = axis[3:5].mean(), 0.3 * axis[1]
     hidden = Known(lambda x, _: np.maximum(np.interp(x, axis, heights), 0.3 - 10.0 * np.abs(x - middle) / width))
-    found = optima(hidden, 1, 1, 20)
+    found = hidden(1, 1, 20)
     assert found.places[0, 0] == pytest.approx(middle, abs=2e-12)
     assert found.merits[0] == pytest.approx(0.3, rel=1e-9)
     assert found.too_coarse.all()
 
 
 @pytest.mark.parametrize("edge", [0.777, 0.25])
-def test_an_optimum_at_the_edge_of_what_is_feasible(edge: float) -> None:
-    """Told by a margin that only says yes or no; the peak is beyond it, or within."""
-    found = optima(Known(_ripple, margin=lambda x: np.where(x <= edge, 1.0, -1.0)), 1, PEAKS.size, 100)
-    for peak, place, merit in zip(PEAKS, found.places[0], found.merits, strict=True):
+@pytest.mark.parametrize("slope", [None, _slope_of_ripple])
+def test_an_optimum_at_the_edge_of_what_is_feasible(edge: float, slope: Any) -> None:
+    """The peak is beyond it, or within."""
+    found = Known(lambda x, cells: np.where(x <= edge, _ripple(x, cells), -np.inf), slope)(1, PEAKS.size, 100)
+    for number, (place, merit) in enumerate(zip(found.places[0], found.merits, strict=True)):
         assert place <= edge
-        fine = np.linspace(0.0, edge, 400_001)
-        best = _ripple(fine, np.array(PEAKS.tolist().index(peak))).max()
-        assert merit >= best - 1e-14
-        if peak <= edge:
-            assert place == pytest.approx(peak, abs=3e-9)
+        assert merit >= _ripple(np.linspace(0.0, edge, 400_001), np.array(number)).max() - 1e-14
+        if PEAKS[number] <= edge:
+            assert place == pytest.approx(PEAKS[number], abs=3e-9)
 
 
 def test_nothing_that_is_feasible_and_nothing_that_has_a_value() -> None:
-    nothing = optima(Known(_ripple, margin=lambda x: x - 2.0), 1, 2, 5)
+    nothing = Known(lambda x, _: np.where(x < 2.0, -np.inf, x))(1, 2, 5)
     assert np.isnan(nothing.places).all()
     assert np.isnan(nothing.merits).all()
-    gaps = optima(Known(lambda x, cells: np.where(x < 0.4, np.nan, -x) + 0.0 * cells), 1, 1, 21)
+    assert not nothing.too_coarse.any()
+    gaps = Known(lambda x, _: np.where(x < 0.4, np.nan, -x))(1, 1, 21)
     assert gaps.places[0, 0] == pytest.approx(0.4, abs=2e-12)
 
 
+DISC = 2.0 + 0.3 * np.sqrt(10.0)
+SEVERAL: dict[str, tuple[Any, list[float], float, float]] = {
+    "ridge": (lambda x, y, _: -np.abs(x + 2.0 * y - 1.1) - 0.1 * (x - 0.41) ** 2, [0.41, 0.345], 0.0, 1e-7),
+    "bent ridge": (lambda x, y, _: -np.abs(y - x * x) - 0.1 * (x - 0.61) ** 2, [0.61, 0.3721], 0.0, 1e-3),
+    "corner": (lambda x, y, _: -np.abs(x - 0.31) - np.abs(y - x - 0.2), [0.31, 0.51], 0.0, 1e-9),
+    "end": (lambda x, y, _: np.cos(x - 0.3) + y - x, [0.0, 1.0], 1.0 + np.cos(0.3), 0.0),
+    "plane over a disc": (
+        lambda x, y, _: np.where((x - 0.5) ** 2 + (y - 0.5) ** 2 <= 0.09, 3.0 * x + y, -np.inf),
+        [0.5 + 0.9 / np.sqrt(10.0), 0.5 + 0.3 / np.sqrt(10.0)],
+        DISC,
+        1e-6,
+    ),
+    "step": (
+        lambda x, y, _: 3.0 * x + y - 5.0 * ((x - 0.5) ** 2 + (y - 0.5) ** 2 > 0.09),
+        [0.5 + 0.9 / np.sqrt(10.0), 0.5 + 0.3 / np.sqrt(10.0)],
+        DISC,
+        1e-6,
+    ),
+    "three": (
+        lambda x, y, z, _: -np.abs(x + 2.0 * y - z - 0.7) - np.abs(x - y + 0.01) - 0.1 * (x - 0.41) ** 2,
+        [0.41, 0.42, 0.55],
+        0.0,
+        1e-7,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SEVERAL)
+def test_several_inputs_without_slopes(name: str) -> None:
+    height, place, merit, error = SEVERAL[name]
+    found = Known(height)(len(place), 1, 40 if len(place) == 2 else 15)
+    np.testing.assert_allclose(found.places[:, 0], place, rtol=0.0, atol=error)
+    assert found.merits[0] == pytest.approx(merit, rel=1e-12, abs=1e-8 if name == "bent ridge" else 1e-12)
+
+
 def test_two_inputs_with_a_smooth_peak() -> None:
-    """A narrow bent valley (Rosenbrock's), turned over; and one whose peak is at an end of one input."""
+    """A narrow bent valley (Rosenbrock's), turned over, by slopes; and a peak at an end of one input alone."""
 
-    def height(x: Array, y: Array, _cells: Any) -> Array:
-        return -((0.4 - x) ** 2) - 100.0 * (y - x * x) ** 2
+    def height(x: Array, y: Array, cells: Any) -> Array:
+        return np.where(cells == 0, -((0.4 - x) ** 2) - 100.0 * (y - x * x) ** 2, np.cos(x - 0.3) + y * x)
 
-    def slope(x: Array, y: Array, _cells: Any) -> tuple[Array, Array]:
+    def slope(x: Array, y: Array, cells: Any) -> tuple[Array, Array]:
         inner = y - x * x
-        return 2.0 * (0.4 - x) + 400.0 * x * inner, -200.0 * inner
+        along = np.where(cells == 0, 2.0 * (0.4 - x) + 400.0 * x * inner, y - np.sin(x - 0.3))
+        return along, np.where(cells == 0, -200.0 * inner, x)
 
-    found = optima(Known(height, slope), 2, 1, 12)
-    np.testing.assert_allclose(found.places[:, 0], [0.4, 0.16], rtol=0.0, atol=1e-13)
-    end = optima(Known(lambda x, y, _cells: np.cos(x - 0.3) + y * x), 2, 1, 12)
-    assert end.places[1, 0] == 1.0
-    np.testing.assert_allclose(
-        end.merits[0], np.max(np.cos(x := np.linspace(0, 1, 10**6 + 1) - 0.3) + x + 0.3), rtol=1e-12
-    )
-
-
-def test_two_inputs_with_a_ridge_of_kinks() -> None:
-    found = optima(Known(lambda x, y, _cells: -np.abs(x + 2.0 * y - 1.1) - 0.1 * (x - 0.41) ** 2), 2, 1, 15)
-    assert found.merits[0] == pytest.approx(0.0, abs=1e-10)
-    corner = optima(Known(lambda x, y, _cells: -np.abs(x - 0.31) - np.abs(y - x - 0.2)), 2, 1, 15)
-    np.testing.assert_allclose(corner.places[:, 0], [0.31, 0.51], rtol=0.0, atol=1e-9)
+    found = Known(height, slope)(2, 2, 12)
+    np.testing.assert_allclose(found.places, [[0.4, 1.0], [0.16, 1.0]], rtol=0.0, atol=1e-13)
+    half = Known(lambda x, y, _: y - (x - 0.3) ** 2, lambda x, y, _: (0.6 - 2.0 * x, 1.0 + 0.0 * y))(2, 1, 12)
+    np.testing.assert_allclose(half.places[:, 0], [0.3, 1.0], rtol=0.0, atol=1e-13)
+    assert half.places[1, 0] == 1.0
 
 
-def test_two_inputs_at_the_edge_of_what_is_feasible() -> None:
-    """The highest point of a plane over a disc."""
-    plane = Known(lambda x, y, _cells: 3.0 * x + y, margin=lambda x, y: 0.09 - (x - 0.5) ** 2 - (y - 0.5) ** 2)
-    found = optima(plane, 2, 1, 25)
-    highest = 2.0 + 0.3 * np.sqrt(10.0)
-    assert highest * (1.0 - 1e-6) < found.merits[0] <= highest * (1.0 + 1e-15)
+def test_what_is_found_of_a_cell_does_not_depend_on_the_others() -> None:
+    shifts = np.linspace(0.0, 0.2, 5)
+    height = lambda x, y, cells: -np.abs(x + 2.0 * y - 1.1 - shifts[cells]) - 0.1 * (x - 0.41) ** 2  # noqa: E731
+    together = Known(height)(2, 5, 10)
+    for cell in range(5):
+        alone = Known(lambda x, y, _, cell=cell: height(x, y, cell))(2, 1, 10)
+        np.testing.assert_array_equal(alone.places[:, 0], together.places[:, cell])
 
 
-def test_a_sweep_has_every_place() -> None:
-    merits, margins = sweep(Known(lambda x, y, cells: 100.0 * x + 10.0 * y + cells), 2, 3, 3)
+def test_a_sweep_has_every_place_also_in_pieces(monkeypatch: pytest.MonkeyPatch) -> None:
     axis = axis_of(3)
-    np.testing.assert_array_equal(merits, 100.0 * axis[:, None, None] + 10.0 * axis[:, None] + np.arange(3))
-    assert merits.shape == margins.shape == (5, 5, 3)
+    exact = 100.0 * axis[:, None, None] + 10.0 * axis[:, None] + np.arange(3)
+    for scenes in (2**18, 7):
+        monkeypatch.setattr("gradhesion.core.answers.optimum.SCENES", scenes)
+        merits = sweep(Known(lambda x, y, cells: 100.0 * x + 10.0 * y + cells).values, 2, 3, 3)
+        np.testing.assert_array_equal(merits, exact)
+        both = sweep(lambda places, cells: np.stack([places[0] + 0.0 * cells, places[1] + cells]), 2, 3, 3)
+        np.testing.assert_array_equal(both[1], axis[:, None] + np.arange(3) + np.zeros((5, 1, 1)))
+
+
+def test_no_point_of_a_front_is_excelled_and_every_other_is() -> None:
+    first, second = np.random.default_rng(4).normal(size=(2, 300)).round(1)
+    second[7] = np.nan
+    chosen = front([first, second])
+    for i in range(300):
+        excelled = np.any((first >= first[i]) & (second >= second[i]) & ((first > first[i]) | (second > second[i])))
+        alike = np.any((first[chosen] == first[i]) & (second[chosen] == second[i]))
+        assert not excelled if i in chosen else excelled or alike or i == 7
+    assert np.all(np.diff(first[chosen]) < 0.0)
+    assert np.all(np.diff(second[chosen]) > 0.0)

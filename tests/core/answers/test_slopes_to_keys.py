@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core import PARAMETERS, SENSITIVITIES, solve
-from gradhesion.core.answers.physical import POWERS
-from gradhesion.core.answers.slopes_to_keys import slopes_to_keys
+from gradhesion.core.answers.slopes_to_keys import POWERS, slopes_to_keys
 from gradhesion.core.closed.reduced import parameters_from, scales_in_si
 
 PLAIN: dict[str, Any] = dict(zip(PARAMETERS, (0.31, 0.27, 430.0, 0.013, 0.31, 0.023, 0.7), strict=True))
@@ -45,7 +44,7 @@ def test_against_differences(given: dict[str, Any], output: str) -> None:
         return found * scales_in_si(scene["R"], scene["work_of_adhesion"])["N" if value == "pull_off_force" else "J"]
 
     slopes_of = solve(parameters_from(given), [output])[output]
-    powers = POWERS[output] if "R" in given else None
+    powers = POWERS[output] if "R" in given else {}
     slopes = slopes_to_keys(given, [*given], PARAMETERS, values(given), slopes_of, powers)
     for key, centre in given.items():
         step = 1e-4 * centre
@@ -58,7 +57,7 @@ def test_against_differences(given: dict[str, Any], output: str) -> None:
 def test_what_is_zero_has_no_slope_and_what_has_no_influence_none() -> None:
     ball = PLAIN | {"k": 0.0, "A": 0.0, "a_max_over_R": np.inf}
     found = solve(ball, SENSITIVITIES[:1])[SENSITIVITIES[0]]
-    slopes = slopes_to_keys(ball, ["A", "c0_over_R", "a_max_over_R"], PARAMETERS, 1.0, found)
+    slopes = slopes_to_keys(ball, ["A", "c0_over_R", "a_max_over_R"], PARAMETERS, 1.0, found, {})
     assert np.isnan(slopes["A"])
     assert slopes["c0_over_R"] == 0.0
     assert slopes["a_max_over_R"] == 0.0
@@ -70,7 +69,7 @@ def test_at_the_ends_of_k_slopes_are_inwards() -> None:
         scene = REDUCED | {"k": k, "nu": nu}
         sensitivity = solve(parameters_from(scene), SENSITIVITIES[:1])[SENSITIVITIES[0]]
         force = solve(parameters_from(scene), ["pull_off_force"])["pull_off_force"]
-        slope = slopes_to_keys(scene, ["k"], PARAMETERS, force, sensitivity)["k"]
+        slope = slopes_to_keys(scene, ["k"], PARAMETERS, force, sensitivity, {})["k"]
         side, step = (1.0 if k == 0.0 else -1.0), 1e-3
         ahead = [
             float(solve(parameters_from(scene | {"k": k + side * i * step}), ["pull_off_force"])["pull_off_force"])
