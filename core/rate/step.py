@@ -203,15 +203,22 @@ def stride(edge: Edge, way: Way, x: float, lag: float, h: float, area: float, ro
 
 
 @kernel
-def goal(edge: Edge, y: float, lag: float, slow: float, target: float) -> float:
-    """Return what is 0 where a step is to end: in closing the depth less a target, in opening that of a trough.
+def load_at(edge: Edge, y: float, lag: float, slow: float) -> tuple[float, float, float]:
+    """Return the load in opening, its slope by ln y, and what falls from 1 to -1 as y does, through 0 in a trough.
 
-    The latter, positive while the load falls, is by y dP/dy = T Delta [force - ((3+k)/2 - level) rho].
+    y dP/dy = T Delta [force - ((3+k)/2 - level) rho]
     """
     place, rho = place_at(edge, y), edge.root + edge.sense * lag
-    if edge.sense < 0.0:
-        return state_of(place, rho)[0] - target
-    return math.log(place.drag * slow / ((0.5 * (3.0 + edge.curve.table.k) - place.level) * rho))
+    need, force = (0.5 * (3.0 + edge.curve.table.k) - place.level) * rho, place.drag * slow
+    return state_of(place, rho)[1], place.front * place.adhesion * (force - need), (force - need) / (force + need)
+
+
+@kernel
+def goal(edge: Edge, y: float, lag: float, slow: float, target: float) -> float:
+    """Return what is 0 where a step is to end: a trough of the load in opening, the depth `target` in closing."""
+    if edge.sense > 0.0:
+        return load_at(edge, y, lag, slow)[2]
+    return state_of(place_at(edge, y), edge.root - lag)[0] - target
 
 
 @kernel

@@ -9,7 +9,7 @@ from typing import Final
 from gradhesion.core.jit import kernel
 from gradhesion.core.rate import step as steps
 from gradhesion.core.rate.edge import Edge, lag_of, place_at, state_of
-from gradhesion.core.rate.step import Room, Way, end_of_step, goal, note, pulls_at, step_until, stride
+from gradhesion.core.rate.step import Room, Way, end_of_step, goal, load_at, note, pulls_at, step_until, stride
 from gradhesion.core.types import Floats
 
 _ENDS: Final = 1e-12
@@ -17,16 +17,6 @@ _ENDS: Final = 1e-12
 over the shortest of wave, rim and the length of a smooth contact."""
 _LEFT: Final = 1e-13
 """Remaining ln y that is left to the leading term where closing comes to rest."""
-_MOST: Final = 700.0
-"""What `goal` is at most: a logarithm of numbers."""
-
-
-@kernel
-def _load_at(edge: Edge, y: float, lag: float, slow: float) -> tuple[float, float]:
-    """Return the load where opening is, and its slope by ln y."""
-    place, rho = place_at(edge, y), 1.0 + lag
-    need, force = (0.5 * (3.0 + edge.curve.table.k) - place.level) * rho, place.drag * slow
-    return state_of(place, rho)[1], place.front * place.adhesion * (force - need)
 
 
 @kernel
@@ -39,7 +29,7 @@ def open_edge(edge: Edge, start: float, room: Room, out: Floats) -> None:
     place, nodes, k, n = place_at(edge, start), room.nodes, edge.curve.table.k, edge.power
     way = Way(start, 2.0 ** (1.0 / n) / ((1.0 + 1.0 / n) * place.drag), 1.0 + 1.0 / n, 1.0)
     h = 0.1 * min(0.1, lag_of(edge, (1.0 + abs(place.push - place.level)) / place.drag))
-    x, y, lag, slow, work, low, before = 0.0, start, 0.0, math.inf, 0.0, math.inf, _MOST
+    x, y, lag, slow, work, low, before = 0.0, start, 0.0, math.inf, 0.0, math.inf, 1.0
     note(edge, y, lag, room.track)
     while y > _ENDS * start:
         length, h = stride(edge, way, x, lag, h, start * start, room)
@@ -49,18 +39,16 @@ def open_edge(edge: Edge, start: float, room: Room, out: Floats) -> None:
         for i in range(steps.STAGES):
             radius, own, slow = nodes[steps.RADIUS, i], nodes[steps.LAG, i], nodes[steps.SLOW, i]
             note(edge, radius, own, room.track)
-            turning, end = goal(edge, radius, own, slow, 0.0), length * steps.NODES[i]
-            if before > 0.0 >= turning:
-                load, slope = _load_at(edge, radius, own, slow)
-                bound = load + slope * math.log(y / radius)  # the trough is above, by the tangent there
-                if bound < floor:
-                    floor, ends, values = bound, (begin, end), (before, turning)
-            before, begin, y = turning, end, radius
+            (load, slope, falls), end = load_at(edge, radius, own, slow), length * steps.NODES[i]
+            bound = load + slope * math.log(y / radius)  # a trough between is above, by the tangent
+            if before > 0.0 >= falls and bound < floor:
+                floor, ends, values = bound, (begin, end), (before, falls)
+            before, begin, y = falls, end, radius
         _, next_lag, slow, part = end_of_step(length, room)
         if floor < low:
             step_until(edge, way, x, lag, ends, values, 0.0, room)
             radius, own, slow_there, _ = end_of_step(length, room)
-            load = _load_at(edge, radius, own, slow_there)[0]
+            load = load_at(edge, radius, own, slow_there)[0]
             if load < low:
                 low = out[0] = load
                 out[1], out[2] = radius, 1.0 / slow_there
