@@ -14,6 +14,7 @@ from tests.core.draw.printed import chord_error, curve_of, material_of, strength
 
 TWO = Profile(exponent=3.0, harmonics=(Harmonic(n=1, cos=1.0), Harmonic(n=3, cos=0.1, sin=-0.2)))
 ROUGH = Profile(exponent=2.5, harmonics=(Harmonic(n=1, cos=1.0), Harmonic(n=3, cos=0.2, sin=-0.3)))
+UNEVEN = Profile(harmonics=(Harmonic(n=1, cos=1.0), Harmonic(n=2, cos=0.3, sin=-0.2)))  # its crests are no troughs
 CONTRACT = 2e-4
 
 
@@ -186,10 +187,12 @@ def test_for_r_beyond_s_contact_grows_from_a_point(k: float, nu: float, scene: d
 
 
 def test_a_rim_within_a_2_is_reached_by_the_jump_in(scene: dict[str, float]) -> None:
-    path, height = _effective(scene | {"a_max_over_R": 0.05}), _height(scene)
+    path, height, k = _effective(scene | {"a_max_over_R": 0.05}), _height(scene), scene["k"]
     assert path["contact_radius"][:4].tolist() == [0.0, 0.0, 0.05, 0.05]
     assert path["jump"][:4].tolist() == [0, 0, 1, 0]
     assert path["indentation"][:3].tolist() == pytest.approx([0.0, height, height])
+    front = 4 * math.pi / ((1 + k) * strengths_of(scene)[0] ** 2) / (1.5 * math.pi)
+    assert path["load"][2] == pytest.approx(-front * 0.05 ** (3 + k) / (3 + k), rel=1e-11)  # flat, at the mean depth
 
 
 @pytest.mark.parametrize("wavelength", [4e-3, 1e-3])
@@ -202,7 +205,9 @@ def test_short_waves_follow_it(wavelength: float, scene: dict[str, float]) -> No
     assert abs(exact.min() - effective.min()) <= wavelength**2
 
 
-@pytest.mark.parametrize("profile", [None, ROUGH, Profile(exponent=1.0, harmonics=ROUGH.harmonics), TWO], ids=range(4))
+@pytest.mark.parametrize(
+    "profile", [None, ROUGH, Profile(exponent=1.0, harmonics=ROUGH.harmonics), UNEVEN], ids=range(4)
+)
 @pytest.mark.parametrize("rim", [0.4, math.inf])
 def test_the_effective_path_is_that_of_the_solver(scene: dict[str, float], profile: Profile | None, rim: float) -> None:
     """Radii, lowest load and loop integral are those of `solver = "envelope"`, whose rim is where the path turns."""
