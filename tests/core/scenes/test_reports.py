@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import REPORTS, Loading, solve
+from gradhesion.core import REPORTS, Harmonic, Loading, Profile, solve
 from gradhesion.core.equations.jkr import indentation
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.status import NO_VALUE
@@ -38,18 +38,20 @@ def test_gains_are_those_over_the_smooth_punch_of_the_same_kind(more: dict[str, 
         assert np.all(smooth[gain] == 1.0)
 
 
+def test_the_roughness_parameter_of_a_homogeneous_half_space() -> None:
+    """chi = r/s; at k = 0, M = E*, s = sqrt(2 pi dgamma/M) and r = pi A lambda^(1/2)."""
+    found = solve(SCENE | {"k": 0.0}, ("roughness_parameter",))["roughness_parameter"]
+    r = math.pi * SCENE["A"] * math.sqrt(SCENE["lambda_over_R"])
+    assert math.isclose(found, r / math.sqrt(2 * math.pi / SCENE["modulus"]), rel_tol=1e-14)
+
+
 @pytest.mark.parametrize("k", [0.0, 0.3, 0.8])
-def test_roughness_parameter(k: float) -> None:
-    """chi = r/s; at k = 0, M = E*, s = sqrt(2 pi dgamma/M) and r = pi A lambda^(1/2). Waves that are short have a gain
-    of (1 + chi)^2.
-    """
-    found = solve(SCENE | {"k": k}, ("roughness_parameter",))["roughness_parameter"]
-    if k == 0.0:
-        r = math.pi * SCENE["A"] * math.sqrt(SCENE["lambda_over_R"])
-        assert math.isclose(found, r / math.sqrt(2 * math.pi / SCENE["modulus"]), rel_tol=1e-14)
+@pytest.mark.parametrize("waves", [(Harmonic(n=1),), (Harmonic(n=1), Harmonic(n=2, cos=0.3, sin=-0.2))])
+def test_waves_that_are_short_gain_what_their_roughness_says(k: float, waves: tuple[Harmonic, ...]) -> None:
+    """(1 + chi)^2, whether or not their crests are as sharp as their troughs."""
     short = SCENE | {"k": k, "lambda_over_R": 1e-5, "A": 3.0, "a_max_over_R": np.inf}
-    chi = solve(short, ("roughness_parameter", "adhesion_gain"))
-    assert math.isclose(chi["adhesion_gain"], (1 + chi["roughness_parameter"]) ** 2, rel_tol=1e-4)
+    found = solve(short, ("roughness_parameter", "adhesion_gain"), profile=Profile(harmonics=waves))
+    assert math.isclose(found["adhesion_gain"], (1 + found["roughness_parameter"]) ** 2, rel_tol=1e-4)
 
 
 @pytest.mark.parametrize("k", [0.0, 0.3, 0.8, 0.97])
