@@ -27,7 +27,7 @@ from gradhesion.core.sweep import solve
 
 KNOWN: Final = (*(name for name in OUTPUTS if not name.endswith("_jumps")), *EDGE, *RATE)
 """Results of such a cycle."""
-_OF_CLOSING: Final = ("loading_energy", "front_energy", "snap_in_force", "pinned_depth", "delta_max", "turning_radius")
+_OF_CLOSING: Final = {"loading_energy", "front_energy", "snap_in_force", "pinned_depth", "delta_max", "turning_radius"}
 _WITHOUT_CONTACT: Final = dict.fromkeys(("pull_off_radius", "delta_jump_out", "snap_in_force", RATE[0]), math.nan)
 """Results without a value where there is no contact; all others but delta_max are 0 then."""
 _KEPT: Final = NO_VALUE | flags.TOO_MANY_WAVES | NO_CONTACT | flags.LOADING_NOT_ONE_DISC | flags.CLOSE_TO_A_JUMP
@@ -41,18 +41,17 @@ def _cycles(scenes: Results, quiet: Results, rate: Rate, known: Mapping[str, Any
     if rate.closing == "same":
         found = move(scenes, rate, known, opens=False)
         area = math.pi * found["turning_radius"] ** 2
-        found["loading_energy"], found["front_energy"] = ratio * area - found["closing_energy"], (1.0 - ratio) * area
+        found |= {"loading_energy": ratio * area - found["closing_energy"], "front_energy": (1.0 - ratio) * area}
         found["snap_in_force"] = np.full_like(area, math.nan)
     radius, bits = found["turning_radius"], found["status"].astype(np.int16) & _KEPT
     away = (bits & NO_CONTACT) != 0
     opened = move(scenes | {"a_max_over_R": np.where(away, 1.0, radius)}, rate, known, opens=True)
-    found |= opened | {"status": bits | np.where(away, 0, opened["status"])}
-    found["unloading_energy"] = found["opening_energy"] - math.pi * radius * radius
+    found |= opened | {"unloading_energy": opened["opening_energy"] - math.pi * radius * radius}
     found["dissipated_energy"] = found["loading_energy"] + found["unloading_energy"] + found["front_energy"]
-    for name in {*found} - {"delta_max", "status"}:
+    status = bits | np.where(away, 0, opened["status"])
+    for name in {*found} - {"delta_max"}:
         found[name] = np.where(away, _WITHOUT_CONTACT.get(name, 0.0), found[name])
-    none = (found["status"] & NO_VALUE) != 0
-    return {name: values if name == "status" else np.where(none, math.nan, values) for name, values in found.items()}
+    return {name: np.where(status & NO_VALUE, math.nan, found[name]) for name in found} | {"status": status}
 
 
 def _rate_coefficient(parameters: Mapping[str, Any], rate: Rate, slow: Results) -> NDArray[np.float64]:
@@ -79,34 +78,33 @@ def solve_at_speed(
     radius of the punch or a turn is needed: without either there is no value. snap_in_force is NaN where the contact
     closes by the same law, which has no jump; a turn at a load is refused there (ValueError).
     """
-    given: dict[str, Any] = {CLOSING: 1.0} | {
-        name: np.asarray(value, dtype=float) for name, value in parameters.items()
-    }
-    speed, held = given.pop(SPEED), rate.closing == "quasi-static"
+    given: dict[str, Any] = {CLOSING: 1.0} | {name: np.asarray(value, float) for name, value in parameters.items()}
+    held = rate.closing == "quasi-static"
     if not held and TURNS[1] in given:
         raise ValueError(
             f"a contact that closes at a speed turns at a depth: give {TURNS[0]} in the place of {TURNS[1]}"
         )
-    shape = np.broadcast_shapes(*(np.shape(value) for value in (speed, *given.values())))
-    moves = np.broadcast_to(speed != 0.0, shape)
-    wanted = set() if moves.all() else {name for name in outputs if name not in RATE}
-    wanted |= ({*PULL_OFF} if RATE[1] in outputs else set()) | ({*_OF_CLOSING} if held else set())
-    quiet: Results = {"status": np.zeros(())}
-    if wanted:
-        quiet = solve(given, [name for name in KNOWN if name in wanted], **{**known, "rate": None})
+    shape = np.broadcast_shapes(*(np.shape(value) for value in given.values()))
+    scenes = {name: np.broadcast_to(value, shape) for name, value in given.items()}
+    moves = scenes[SPEED] != 0.0
+    at_rest = {name: value for name, value in given.items() if name != SPEED}
+    wanted = (set() if moves.all() else {*outputs} - {*RATE}) | (_OF_CLOSING if held else set())
+    wanted |= {*PULL_OFF} if RATE[1] in outputs else set()
+    quiet: Results = (
+        solve(at_rest, sorted(wanted), **{**known, "rate": None}) if wanted else {"status": np.zeros(shape)}
+    )
     quiet = {name: np.broadcast_to(values, shape) for name, values in quiet.items()}
     found: Results = {name: np.array(quiet.get(name, np.full(shape, math.nan))) for name in outputs}
     found["status"] = quiet["status"].astype(np.int16)
     if RATE[0] in outputs:
         found[RATE[0]] = np.where(found["status"] & (NO_VALUE | NO_CONTACT), math.nan, 0.0)
     if moves.any():
-        scenes = {name: np.broadcast_to(value, shape)[moves] for name, value in (given | {SPEED: speed}).items()}
-        closed = {name: values[moves] for name, values in quiet.items()}
-        cycles = _cycles(scenes, closed, rate, known)
+        closed, moving = ({name: values[moves] for name, values in of.items()} for of in (quiet, scenes))
+        cycles = _cycles(moving, closed, rate, known)
         for name in {*outputs, "status"} - {RATE[1]}:
             found[name][moves] = cycles[name]
     if RATE[1] in outputs:
-        found[RATE[1]] = np.broadcast_to(_rate_coefficient(given, rate, quiet), shape)
+        found[RATE[1]] = np.broadcast_to(_rate_coefficient(at_rest, rate, quiet), shape)
     if not {*outputs} & {*PULL_OFF, RATE[0]}:
         found["status"] &= ~PULL_OFF_AT_RIM
     return found

@@ -16,18 +16,15 @@ rho <= 0 it is 0: the edge follows at once. Units are those of tables (table/lay
 import math
 from typing import NamedTuple
 
-from gradhesion.core.curve.values import place_of
+from gradhesion.core.curve.values import Curve, place_of
 from gradhesion.core.jit import kernel
-from gradhesion.core.table.layout import HALF, PU, PU1, N, Table, Y
+from gradhesion.core.table.layout import HALF, PU, PU1, N, Y
 
 
 class Edge(NamedTuple):
     """The edge of one contact."""
 
-    table: Table
-    B: float  # size of the power, B y^m
-    g: float  # size of the waves, g U
-    by_load: float  # weight of the load in what moves at the speed V, that of the depth being 1
+    curve: Curve  # what moves at the speed V is the depth, and the load by its weight
     shortest: float  # the shortest wave, inf of a smooth punch
     speed: float  # eps = V/v* in the unit of depth over that of length
     power: float  # n of the law
@@ -36,7 +33,7 @@ class Edge(NamedTuple):
 
 
 class Place(NamedTuple):
-    """What there is at a radius, and slopes by ln y that a step needs."""
+    """What there is at a radius."""
 
     depth: float  # depth_H
     load: float  # load_H
@@ -45,43 +42,36 @@ class Place(NamedTuple):
     push: float
     level: float
     drag: float
-    push_slope: float
-    level_slope: float
-    drag_slope: float  # of ln drag
 
 
 @kernel
 def place_at(edge: Edge, y: float) -> Place:
     """Return what there is at a radius y > 0 within the table; below it, U and U1 are straight."""
-    table, k, m = edge.table, edge.table.k, edge.table.exponent
+    table, B, g, _, by_load = edge.curve
+    k, m = table.k, table.exponent
     stretch = y ** (-0.5 * (1.0 + k))
     adhesion, front = y * stretch, 1.0 / (stretch * stretch)
-    power = edge.B * (y * y if m == 2.0 else y**m)
-    waves = waves1 = slope = bend = 0.0
-    if edge.g != 0.0:
+    power = B * (y * y if m == 2.0 else y**m)
+    waves = waves1 = slope = 0.0
+    if g != 0.0:
         first = table.nodes[Y, 0]
         inner = max(y, first)
         i, t = place_of(table, inner)
         for n in range(N - 1, -1, -1):
-            bend = bend * t + slope
             slope = slope * t + waves
             waves = waves * t + table.polys[i, PU, n]
             waves1 = waves1 * t + table.polys[i, PU1, n]
-        part, steep = edge.g * min(1.0, y / first), inner / table.nodes[HALF, i]
-        waves, waves1, slope, bend = part * waves, part * waves1, part * steep * slope, part * 2.0 * steep**2 * bend
-    tau = edge.by_load * front
-    share, push = tau / (1.0 + tau), (m * power + slope) / adhesion
+        part = g * min(1.0, y / first)
+        waves, waves1, slope = part * waves, part * waves1, part * slope * inner / table.nodes[HALF, i]
+    tau = by_load * front
     return Place(
         depth=power + waves,
         load=front * ((1.0 - table.share) * power + waves - waves1),
         adhesion=adhesion,
         front=front,
-        push=push,
-        level=0.5 * (1.0 - k) + (1.0 + k) * share,
+        push=(m * power + slope) / adhesion,
+        level=0.5 * (1.0 - k) + (1.0 + k) * tau / (1.0 + tau),
         drag=edge.speed * y / ((1.0 + tau) * adhesion),
-        push_slope=(m * m * power + slope + bend) / adhesion - 0.5 * (1.0 - k) * push,
-        level_slope=(1.0 + k) ** 2 * share * (1.0 - share),
-        drag_slope=0.5 * (1.0 + k) - (1.0 + k) * share,
     )
 
 
@@ -93,16 +83,12 @@ def state_of(place: Place, rho: float) -> tuple[float, float]:
 
 @kernel
 def slowness(edge: Edge, lag: float) -> tuple[float, float]:
-    """Return u^(-1/n) at a lag > 0, and its slope over it, which is negative."""
-    n, root = edge.power, edge.root
-    if edge.sense > 0.0:
-        u = lag * (2.0 + lag)
-        return u ** (-1.0 / n), -2.0 * (1.0 + lag) / (n * u)
-    rho = root - lag
+    """Return u^(-1/n) at a lag > 0, and its slope over it, which is negative; 1 + u goes as rho^2, or as 1/rho^2."""
+    rho = edge.root + edge.sense * lag
     if rho <= 0.0:
         return 0.0, 0.0
-    u = lag * (root + rho) / (rho * rho)
-    return u ** (-1.0 / n), -2.0 * root * root / (n * u * rho * rho * rho)
+    u = lag * (edge.root + rho) / min(edge.root, rho) ** 2
+    return u ** (-1.0 / edge.power), -2.0 * (1.0 + u) / (edge.power * u * rho)
 
 
 @kernel

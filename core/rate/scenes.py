@@ -8,6 +8,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gradhesion.core.curve.values import Curve
 from gradhesion.core.jit import kernel
 from gradhesion.core.problem.names import SPEED, TURNS
 from gradhesion.core.problem.rate import MOST_WAVES, Rate
@@ -33,25 +34,6 @@ _AT_RIM: Final = 1.0 - 1e-9
 
 
 @kernel
-def _move(edge: Edge, opens: bool, rim: float, target: float, track: Floats, out: Floats) -> int:
-    """Let one edge open from a rim, or close up to it or to a depth; store the results, and return the status."""
-    room = Room(np.empty((6, STAGES)), np.empty((2 * STAGES, 2 * STAGES + 1)), track)
-    furthest = MOST_WAVES * edge.shortest
-    if not edge.root > 0.0 or not (rim < math.inf or (target < math.inf and not opens)):
-        return NO_VALUE
-    if furthest < rim < math.inf and (opens or target == math.inf):
-        return NO_VALUE | TOO_MANY_WAVES
-    if opens:
-        open_edge(edge, rim, room, out)
-        return NO_VALUE if math.isnan(out[0] + out[4]) else PULL_OFF_AT_RIM if out[1] >= _AT_RIM * rim else 0
-    if target < 0.0:
-        out[0], out[1], out[2], out[3] = 0.0, target, 0.0, 0.0
-        return NO_CONTACT
-    reached = close_edge(edge, rim, target, furthest, room, out)
-    return 0 if not math.isnan(out[3]) else NO_VALUE | TOO_MANY_WAVES if reached > furthest else NO_VALUE
-
-
-@kernel
 def move_edges(
     punch: rows.Punch, table: Table, scenes: Floats, reduced: Floats, n: float, opens: bool, track: Floats, out: Floats
 ) -> None:
@@ -60,27 +42,32 @@ def move_edges(
     `scenes` and `reduced` are those of scenes/reduced.py, the first with a last row of V/v*. `out` has a row a result,
     NaN where nothing is stored, and a last one of status. `track` takes where the edge of the last scene has been.
     """
-    shortest = 2.0 * math.pi / np.max(punch.waves[:, 0])
+    room = Room(np.empty((9, STAGES)), np.empty((STAGES, STAGES + 1)), track)
     for i in range(scenes.shape[1]):
-        speed, units = scenes[-1, i], reduced[:, i].copy()
-        if not reduced[rows.VALID, i] or not 0.0 < speed < math.inf:
-            out[-1, i] = NO_VALUE
-            continue
-        edge = Edge(
-            table=table,
-            B=units[rows.BY_POWER],
-            g=units[rows.BY_WAVES],
-            by_load=units[rows.BY_LOAD],
-            shortest=shortest if units[rows.BY_WAVES] > 0.0 else math.inf,
-            speed=speed * units[rows.LENGTH] / units[rows.DEPTH],
-            power=n,
-            root=1.0 if opens else math.sqrt(scenes[rows.RATIO, i]),
-            sense=1.0 if opens else -1.0,
-        )
+        speed, units, found = scenes[-1, i], reduced[:, i].copy(), out[:, i]
+        root, rim = 1.0 if opens else math.sqrt(scenes[rows.RATIO, i]), units[rows.RIM_Y]
         target = math.inf if punch.turn == rows.AT_RIM else units[rows.TARGET_VALUE]
-        status = _move(edge, opens, units[rows.RIM_Y], target, track, out[:, i])
+        if not (units[rows.VALID] and 0.0 < speed < math.inf and root > 0.0 and min(rim, target) < math.inf):
+            continue
+        shortest = 2.0 * math.pi / np.max(punch.waves[:, 0]) if units[rows.BY_WAVES] > 0.0 else math.inf
+        curve, furthest = (
+            Curve(table, units[rows.BY_POWER], units[rows.BY_WAVES], 1.0, units[rows.BY_LOAD]),
+            MOST_WAVES * shortest,
+        )
+        edge = Edge(curve, shortest, speed * units[rows.LENGTH] / units[rows.DEPTH], n, root, 1.0 if opens else -1.0)
+        if target == math.inf and rim > furthest:
+            status = NO_VALUE | TOO_MANY_WAVES
+        elif opens:
+            open_edge(edge, rim, room, found)
+            moved = PULL_OFF_AT_RIM if found[1] >= _AT_RIM * rim else 0
+            status = NO_VALUE if math.isnan(found[0] + found[4]) else moved
+        elif target < 0.0:
+            found[0], found[1], found[2], found[3], status = 0.0, target, 0.0, 0.0, NO_CONTACT
+        else:
+            reached = close_edge(edge, rim, target, furthest, room, found)
+            status = 0 if not math.isnan(found[3]) else NO_VALUE | (TOO_MANY_WAVES if reached > furthest else 0)
         too_slow = speed**n < _SLOWEST and not status & (NO_VALUE | NO_CONTACT)
-        out[-1, i] = status | (TOLERANCE_NOT_MET if too_slow else 0)
+        found[-1] = status | (TOLERANCE_NOT_MET if too_slow else 0)
 
 
 def move(
@@ -88,20 +75,14 @@ def move(
 ) -> dict[str, NDArray[Any]]:
     """Return the results of contacts that open, or close by the same law G = w_c/[1 + (v/v*)^n], at a speed.
 
-    Opening goes from the radius at which rho = 1 to separation; closing starts from zero contact at Y = 0. Y is what
-    moves at the speed V: the depth, or the far end of the spring. Where the machine turns, at the depth
-    indentation_max_over_R, the edge goes on closing until G = w_c or the rim is met; a punch whose rim is met first
-    stays there. At rho <= 0 the edge follows at once.
-
     `parameters` are those of `solve` of core/sweep.py, arrays (scenes,), and speed_over_reference V/v* > 0;
     a_max_over_R is where opening starts. `known` has profile, loading and threads as of `solve`. `points` is the length
-    of the track of the last scene, 0 if there is more than one.
+    of the track of the last scene, 0 if there is more than one. See ways.py for how an edge moves.
 
-    Returns arrays (scenes,) by the names of `OPENED` or `CLOSED`: those of results of cycles, opening_energy and
-    closing_energy int 2 pi a G da in R^2 dgamma, and pinned_depth how far the far end moves from where the edge rests
-    to where it opens. `status` (int16): pull_off_at_rim (the edge has moved by less than 1e-9), tolerance_not_met
-    ((V/v*)^n below 1e-15), no_contact, no_value (all values are NaN), and too_many_waves with it. `track`, (3, .):
-    radii and depths in R, loads in 1.5 pi R dgamma, step by step.
+    Returns arrays (scenes,) by the names of `OPENED` or `CLOSED`: those of results of cycles, and opening_energy and
+    closing_energy, int 2 pi a G da in R^2 dgamma. `status` (int16): pull_off_at_rim (the edge has moved by less than
+    1e-9), tolerance_not_met ((V/v*)^n below 1e-15), no_contact, no_value (all values are NaN), and too_many_waves with
+    it. `track`, (3, .): radii and depths in R, loads in 1.5 pi R dgamma, step by step.
     """
     turn = TURNS[0] if TURNS[0] in parameters and not opens else None
     request, shape = request_of(parameters, turn, known["profile"], known["loading"], None)

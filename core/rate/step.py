@@ -1,16 +1,16 @@
-"""Steps of an edge along the arc of its curve (s, lag), s = |ln y/y_0|, by Radau's collocation of order 11.
+"""Steps of an edge, by Radau's collocation of order 11 for its lag over the radius.
 
-    ds/dx = w,  d lag/dx = w [drive force - need],  1/w = sqrt(1 + need^2) + force
-    need = push - level rho,   force = drag u^(-1/n)
+    d lag/ds = drive force - need,   s = |ln y/y_0|,   need = push - level rho,   force = drag u^(-1/n)
 
 for rho = root + sense lag see edge.py. Opening goes inwards and closing outwards, with drive 1; after the machine has
-turned drive is -1. Along x nothing is steep at lag = 0, where s changes as lag^(1 + 1/n). Newton's method is for s and
-the lag at the nodes of a step; a lag is changed by way of its u^(-1/n) where that stays positive: slowly moving edges
-have a known slowness, that of the equilibrium curve, and quickly moving ones a known lag.
+turned drive is -1. Where an edge starts at lag = 0, the lag goes as s^(n/(1+n)): steps are along x, s = pace x^grade,
+over which nothing is steep there. Radii are known beforehand, so that Newton's method is for the lag at the nodes of a
+step alone. It is changed by way of its u^(-1/n) where that stays positive: slowly moving edges have a known slowness,
+that of the equilibrium curve, and quickly moving ones a known lag.
 """
 
 import math
-from typing import Final, NamedTuple
+from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -19,19 +19,21 @@ from gradhesion.core.jit import kernel
 from gradhesion.core.rate.edge import Edge, lag_of, place_at, slowness, state_of
 from gradhesion.core.types import Floats
 
+Pair: TypeAlias = tuple[float, float]
 STAGES: Final = 6
 _t: Final = np.append(np.sort(legendre.legroots([0.0] * (STAGES - 1) + [-1.0, 1.0]).real)[:-1], 1.0)
 _to_series: Final = np.linalg.inv(legendre.legvander(_t, STAGES - 1))
+_integral: Final = 0.5 * legendre.legval(_t, legendre.legint(np.eye(STAGES), lbnd=-1)).T @ _to_series
 NODES: Final = 0.5 + 0.5 * _t
 """Parts of a step at which its values are, the last one its end (Hairer & Wanner, Solving ODEs II, IV.5)."""
-_A: Final = np.ascontiguousarray(0.5 * legendre.legval(_t, legendre.legint(np.eye(STAGES), lbnd=-1)).T @ _to_series)
-"""The value at node i is that at the start and h sum_j _A[i, j] f_j; (STAGES, STAGES)."""
-_SLOPES: Final = np.ascontiguousarray(np.linalg.inv(_A))
-"""The other way round: from changes of the value to h f_j."""
+_WEIGHTS: Final = np.ascontiguousarray(_integral[-1])
+"""The integral over a step of length h is h sum_j _WEIGHTS[j] f_j."""
+_SLOPES: Final = np.linalg.inv(_integral)
+"""Slopes at the nodes of the polynomial through them and 0 at the start are sum_j _SLOPES[i, j] f_j/h."""
 _TAIL: Final = np.ascontiguousarray(_to_series[-2:])
 """Of values at the nodes, the last two coefficients of the Legendre series through them; (2, STAGES)."""
 _TOLERANCE: Final = 1e-13
-"""Error of ln y, of rho, and of the energy over that of a contact of the largest radius, in a step."""
+"""Error of rho, and of the energy over that of a contact of the largest radius, in a step."""
 _LOST, _KINK = 0.01, 8.0
 """Parts of the last coefficients that a step loses where the edge relaxes in it (order reduction), and at the kinks of
 the law, lag = 0 and rho = 0. From experiment: without, 1e-11 and 3e-9 of the force."""
@@ -39,18 +41,25 @@ _CLOSE, _ROUNDING = 1e-7, 2.0**-50
 """A change whose square is below rounding, and rounding."""
 _LONGEST, _PART = 2.0, 0.25
 """Longest step in ln y, and in parts of the shortest wave: a slow edge follows the curve, and could miss a fold."""
-RADIUS, DEPTH, RHO, TROUGH = range(4)
-"""What a step can be ended at: ln y; a depth; rho; a trough of the load."""
-AWAY, LAG, SLOW, BY_AWAY, BY_LAG, WORK = range(6)
-"""Rows of nodes: s from the start of the step; lag; u^(-1/n); ds/dx; d lag/dx; y^2 rho^2 ds/dx."""
+RADIUS, PACE, PUSH, LEVEL, DRAG, LAG, SLOW, BY_LAG, WORK = range(9)
+"""Rows of nodes: y; ds/dx; push, level and drag there; lag; u^(-1/n); d lag/dx; y^2 rho^2 ds/dx."""
 
 
 class Room(NamedTuple):
     """Numbers of a step, and the track of an edge."""
 
-    nodes: Floats  # (6, STAGES)
-    matrix: Floats  # equations of Newton's method, (2 STAGES, 2 STAGES + 1)
+    nodes: Floats  # (9, STAGES)
+    matrix: Floats  # equations of Newton's method, (STAGES, STAGES + 1)
     track: Floats  # radii, depths and loads, (3, .), their number in [0, 0]; (3, 0) where nobody asks
+
+
+class Way(NamedTuple):
+    """How an edge is followed: s = pace x^grade away from where it starts."""
+
+    start: float  # y there
+    pace: float
+    grade: float
+    drive: float  # 1, or -1 where the machine has turned
 
 
 @kernel
@@ -61,6 +70,20 @@ def note(edge: Edge, y: float, lag: float, track: Floats) -> None:
         number = int(track[0, 0])
         track[0, number] = y
         track[1, number], track[2, number] = state_of(place_at(edge, y), edge.root + edge.sense * lag)
+
+
+@kernel
+def _along(edge: Edge, way: Way, x: float) -> tuple[float, float]:
+    """Return y, and ds/dx."""
+    away = way.pace * x**way.grade
+    return way.start * math.exp(-edge.sense * away), way.grade * (away / x if x > 0.0 else 1.0)
+
+
+@kernel
+def pulls_at(edge: Edge, y: float, lag: float) -> tuple[float, float]:
+    """Return need and force at a radius with a lag > 0."""
+    place = place_at(edge, y)
+    return place.push - place.level * (edge.root + edge.sense * lag), place.drag * slowness(edge, lag)[0]
 
 
 @kernel
@@ -79,94 +102,68 @@ def _solve(matrix: Floats) -> None:
 
 
 @kernel
-def rates(edge: Edge, drive: float, y: float, lag: float) -> tuple[float, float]:
-    """Return ds/dx and d lag/dx in a state."""
-    if lag == 0.0:
-        return 0.0, drive
-    place = place_at(edge, y)
-    need = place.push - place.level * (edge.root + edge.sense * lag)
-    force = place.drag * slowness(edge, lag)[0]
-    w = 1.0 / (math.sqrt(1.0 + need * need) + force)
-    return w, w * (drive * force - need)
-
-
-@kernel
-def _set_equations(edge: Edge, drive: float, y: float, lag: float, h: float, room: Room) -> float:
-    """Set the equations of a step of Newton's method for the nodes; return how much the lag relaxes in the step."""
-    nodes, matrix, relaxed, n = room.nodes, room.matrix, 0.0, STAGES
-    for i in range(2 * n):
-        for j in range(2 * n):
-            matrix[i, j] = 1.0 if i == j else 0.0
-        matrix[i, 2 * n] = -nodes[AWAY, i] if i < n else lag - nodes[LAG, i - n]
-    for j in range(n):
-        own = nodes[LAG, j]
-        place, rho = place_at(edge, y * math.exp(-edge.sense * nodes[AWAY, j])), edge.root + edge.sense * own
-        nodes[SLOW, j], slope = slowness(edge, own)
-        need, force = place.push - place.level * rho, place.drag * nodes[SLOW, j]
-        size = math.sqrt(1.0 + need * need)
-        w = 1.0 / (size + force)
-        pull = drive * force - need
-        for i in range(n):
-            matrix[i, 2 * n] += h * _A[i, j] * w
-            matrix[i + n, 2 * n] += h * _A[i, j] * w * pull
-        for by_lag in range(2):  # slopes by s, and by the lag
-            of_need = -edge.sense * (place.level if by_lag else place.push_slope - place.level_slope * rho)
-            of_force = force * (slope if by_lag else -edge.sense * place.drag_slope)
-            of_w = -w * w * (need / size * of_need + of_force)
-            of_change = of_w * pull + w * (drive * of_force - of_need)
-            for i in range(n):
-                matrix[i, j + by_lag * n] -= h * _A[i, j] * of_w
-                matrix[i + n, j + by_lag * n] -= h * _A[i, j] * of_change
-            relaxed = max(relaxed, -h * of_change) if by_lag else relaxed
+def _set_equations(edge: Edge, drive: float, lag: float, h: float, room: Room) -> float:
+    """Set the equations of a step of Newton's method for the lags; return how much the lag relaxes in the step."""
+    nodes, matrix, relaxed = room.nodes, room.matrix, 0.0
+    for i in range(STAGES):
+        change = 0.0
+        for j in range(STAGES):
+            matrix[i, j] = _SLOPES[i, j] / h
+            change += matrix[i, j] * (nodes[LAG, j] - lag)
+        (slow, by_lag), pace = slowness(edge, nodes[LAG, i]), nodes[PACE, i]
+        rho = edge.root + edge.sense * nodes[LAG, i]
+        force, need = nodes[DRAG, i] * slow, nodes[PUSH, i] - nodes[LEVEL, i] * rho
+        slope = pace * (drive * force * by_lag + edge.sense * nodes[LEVEL, i])
+        matrix[i, i] -= slope
+        matrix[i, STAGES] = pace * (drive * force - need) - change
+        nodes[SLOW, i], nodes[BY_LAG, i], nodes[WORK, i] = slow, change, pace * (nodes[RADIUS, i] * rho) ** 2
+        relaxed = max(relaxed, -h * slope)
     return relaxed
 
 
 @kernel
-def advance(edge: Edge, drive: float, y: float, lag: float, h: float, room: Room) -> float:
-    """Make a step of length h from the state (y, lag); `room` then has its nodes.
+def advance(edge: Edge, way: Way, x: float, lag: float, h: float, room: Room) -> float:
+    """Make a step of length h from the state (x, lag); `room` then has its nodes.
 
     Return how much the lag relaxes in the step, NaN if Newton's method did not converge.
     """
-    nodes, (w, change) = room.nodes, rates(edge, drive, y, lag)
+    nodes, change, done = room.nodes, way.drive, False
+    if lag > 0.0:
+        y, pace = _along(edge, way, x)
+        need, force = pulls_at(edge, y, lag)
+        change = pace * (way.drive * force - need)
     for i in range(STAGES):
-        nodes[AWAY, i], nodes[LAG, i] = w * h * NODES[i], max(lag + change * h * NODES[i], 0.5 * lag)
-    for _ in range(16):
-        relaxed, done = _set_equations(edge, drive, y, lag, h, room), True
+        nodes[RADIUS, i], nodes[PACE, i] = _along(edge, way, x + h * NODES[i])
+        place = place_at(edge, nodes[RADIUS, i])
+        nodes[PUSH, i], nodes[LEVEL, i], nodes[DRAG, i] = place.push, place.level, place.drag
+        nodes[LAG, i] = max(lag + change * h * NODES[i], 0.5 * lag)
+    for _ in range(17):
+        relaxed = _set_equations(edge, way.drive, lag, h, room)
+        if done:
+            return relaxed
         _solve(room.matrix)
+        done = True
         for i in range(STAGES):
-            away, change, old = room.matrix[i, 2 * STAGES], room.matrix[i + STAGES, 2 * STAGES], nodes[LAG, i]
-            if not abs(away) + abs(change) < math.inf:
+            change, old = room.matrix[i, STAGES], nodes[LAG, i]
+            if not abs(change) < math.inf:
                 return math.nan
             part = slowness(edge, old)[1] * change  # of the slowness
-            nodes[AWAY, i] += away
             if nodes[SLOW, i] > 0.0 and part > -0.9:
                 nodes[LAG, i] = lag_of(edge, nodes[SLOW, i] * (1.0 + part))
             else:
                 nodes[LAG, i] = max(old + change, 0.5 * old)
-            close = max(abs(part), abs(change)) < _CLOSE or abs(change) * (1.0 + relaxed) < _ROUNDING * (1.0 + old)
-            done = done and close and abs(away) <= _CLOSE * abs(nodes[AWAY, i])
-        if done:
-            for i in range(STAGES):  # slopes of the polynomials through the nodes
-                nodes[BY_AWAY, i] = nodes[BY_LAG, i] = 0.0
-                for j in range(STAGES):
-                    nodes[BY_AWAY, i] += _SLOPES[i, j] * nodes[AWAY, j] / h
-                    nodes[BY_LAG, i] += _SLOPES[i, j] * (nodes[LAG, j] - lag) / h
-                radius, rho = y * math.exp(-edge.sense * nodes[AWAY, i]), edge.root + edge.sense * nodes[LAG, i]
-                nodes[SLOW, i], nodes[WORK, i] = (
-                    slowness(edge, nodes[LAG, i])[0],
-                    nodes[BY_AWAY, i] * (radius * rho) ** 2,
-                )
-            return relaxed
+            settled = abs(change) * (1.0 + relaxed) < _ROUNDING * (1.0 + old)
+            done = done and (settled or max(abs(part), abs(change)) < _CLOSE)
     return math.nan
 
 
 @kernel
-def end_of_step(edge: Edge, y: float, h: float, room: Room) -> tuple[float, float, float, float]:
+def end_of_step(h: float, room: Room) -> tuple[float, float, float, float]:
     """Return radius, lag and slowness at the end of a step of length h, and its work, int y rho^2 dy."""
     work = 0.0
     for j in range(STAGES):
-        work += h * _A[STAGES - 1, j] * room.nodes[WORK, j]
-    return y * math.exp(-edge.sense * room.nodes[AWAY, -1]), room.nodes[LAG, -1], room.nodes[SLOW, -1], work
+        work += h * _WEIGHTS[j] * room.nodes[WORK, j]
+    return room.nodes[RADIUS, -1], room.nodes[LAG, -1], room.nodes[SLOW, -1], work
 
 
 @kernel
@@ -184,74 +181,66 @@ def _spared(values: Floats, loss: float) -> float:
 
 
 @kernel
-def stride(edge: Edge, drive: float, y: float, lag: float, h: float, area: float, room: Room) -> tuple[float, float]:
-    """Make a step as long as its error allows, h at first, from the state (y, lag); `area` is the largest y^2.
+def stride(edge: Edge, way: Way, x: float, lag: float, h: float, area: float, room: Room) -> tuple[float, float]:
+    """Make a step as long as its error allows, at most h, from the state (x, lag); `area` is the largest y^2.
 
     Return its length (NaN if none is possible), and one to try after it.
     """
-    nodes, longest = room.nodes, min(_LONGEST, _PART * edge.shortest / y)
+    nodes, longest = room.nodes, min(_LONGEST, _PART * edge.shortest / _along(edge, way, x)[0])
+    h = min(h, (x**way.grade + longest / way.pace) ** (1.0 / way.grade) - x)
     for _ in range(200):
-        relaxed = advance(edge, drive, y, lag, h, room)
-        away, error = nodes[AWAY, -1], math.inf
-        if away <= 1.2 * longest and not math.isnan(relaxed):
+        relaxed, error = advance(edge, way, x, lag, h, room), math.inf
+        if not math.isnan(relaxed):
             low, high = edge.root - np.max(nodes[LAG]), edge.root - np.min(nodes[LAG])
             loss = _LOST * min(1.0, (0.1 * relaxed) ** (STAGES - 1))
             loss += _KINK if lag == 0.0 or (edge.sense < 0.0 and 2.0 * low < high and high > 0.0) else 0.0
-            of_lag, of_away = _spared(nodes[BY_LAG], loss) / (1.0 + nodes[LAG, -1]), _spared(nodes[BY_AWAY], loss)
-            error = h * max(of_lag, of_away, _spared(nodes[WORK], 0.0) / area)
+            error = h * max(_spared(nodes[BY_LAG], loss) / (1.0 + nodes[LAG, -1]), _spared(nodes[WORK], 0.0) / area)
         factor = 0.9 * (_TOLERANCE / max(error, 1e-16 * _TOLERANCE)) ** (1.0 / (2 * STAGES - 1))
         if error <= _TOLERANCE:
-            return h, h * min(4.0, factor, longest / away)
+            return h, h * min(4.0, factor)
         h *= max(0.15, factor)
     return math.nan, 0.0
 
 
 @kernel
-def measure(edge: Edge, y: float, lag: float, slow: float, what: int) -> float:
-    """Return a quantity of `RADIUS` to `TROUGH` in a state; that of a trough falls to 0 there as y falls.
+def load_at(edge: Edge, y: float, lag: float, slow: float) -> tuple[float, float, float]:
+    """Return the load in opening, its slope by ln y, and what falls from 1 to -1 as y does, through 0 in a trough.
 
     y dP/dy = T Delta [force - ((3+k)/2 - level) rho]
     """
     place, rho = place_at(edge, y), edge.root + edge.sense * lag
-    if what == RADIUS:
-        return math.log(y)
-    if what == DEPTH:
-        return state_of(place, rho)[0]
-    if what == RHO:
-        return rho
-    return math.log(place.drag * slow / ((0.5 * (3.0 + edge.table.k) - place.level) * rho))
+    need, force = (0.5 * (3.0 + edge.curve.table.k) - place.level) * rho, place.drag * slow
+    return state_of(place, rho)[1], place.front * place.adhesion * (force - need), (force - need) / (force + need)
+
+
+@kernel
+def goal(edge: Edge, y: float, lag: float, slow: float, target: float) -> float:
+    """Return what is 0 where a step is to end: a trough of the load in opening, the depth `target` in closing."""
+    if edge.sense > 0.0:
+        return load_at(edge, y, lag, slow)[2]
+    return state_of(place_at(edge, y), edge.root - lag)[0] - target
 
 
 @kernel
 def step_until(
-    edge: Edge,
-    drive: float,
-    y: float,
-    lag: float,
-    lengths: tuple[float, float],
-    values: tuple[float, float, float],
-    what: int,
-    room: Room,
+    edge: Edge, way: Way, x: float, lag: float, ends: Pair, values: Pair, target: float, room: Room
 ) -> float:
-    """Make the step from (y, lag) at whose end a quantity `what` meets a target; return its length, NaN if that fails.
+    """Make the step from (x, lag) whose end is the goal; return its length, NaN if that fails.
 
-    At two `lengths` of a step the quantity has `values` on either side of it, (low, high, target). The rule of false
-    position (Illinois): each try is a step of its own.
+    Steps of two lengths `ends` reach `values` on either side of it. The rule of false position (Illinois).
     """
-    (low, high), (first, last, target) = lengths, values
-    first, last, length, side = first - target, last - target, high, 0
+    (old, length), (first, last) = ends, values
     for _ in range(60):
-        length = (low * last - high * first) / (last - first)
-        if not low < length < high:
-            length = 0.5 * (low + high)
-        if math.isnan(advance(edge, drive, y, lag, length, room)):
+        new = length - last * (length - old) / (last - first)
+        if math.isnan(advance(edge, way, x, lag, new, room)):
             return math.nan
-        there, own, slow, _ = end_of_step(edge, y, length, room)
-        value = measure(edge, there, own, slow, what) - target
-        if value == 0.0 or not high - low > 2e-15 * high:
-            break
-        if (value < 0.0) == (first < 0.0):
-            low, first, last, side = length, value, 0.5 * last if side < 0 else last, -1
+        y, own, slow, _ = end_of_step(new, room)
+        value = goal(edge, y, own, slow, target)
+        if value * last > 0.0:
+            first *= 0.5
         else:
-            high, last, first, side = length, value, 0.5 * first if side > 0 else first, 1
+            old, first = length, last
+        length, last = new, value
+        if value == 0.0 or not abs(length - old) > 2e-15 * length:
+            break
     return length

@@ -81,16 +81,6 @@ def test_at_speed_0_every_bit_is_that_of_an_edge_at_rest(closing: str, control: 
     assert found["pull_off_force"][1] > found["pull_off_force"][0]
 
 
-def test_a_slow_edge_tends_to_one_at_rest_as_the_power_of_the_speed() -> None:
-    """F/F_0 - 1 is the rate coefficient times (V/v*)^n but for its square (docs/theory.md, section 20)."""
-    speed = np.array([0.0, 1e-8, 1e-7])
-    found = solve(
-        TURNED | {"speed_over_reference": speed}, ["pull_off_force", "rate_coefficient"], rate=Rate(exponent=1.0)
-    )
-    gain = found["pull_off_force"][1:] / found["pull_off_force"][0] - 1.0
-    np.testing.assert_allclose(gain, found["rate_coefficient"][1:] * speed[1:], rtol=1e-3)
-
-
 def test_a_machine_that_turns_at_a_depth_reaches_it() -> None:
     scene = TURNED | {"machine_stiffness": 0.05, "closing_ratio": 0.5, "speed_over_reference": np.array([0.01, 1.0])}
     how: dict[str, Any] = {"rate": Rate(exponent=0.6, closing="same"), "loading": Loading(control="machine")}

@@ -220,6 +220,18 @@ def test_a_rim_on_the_way_after_the_turn(speed: float) -> None:
     assert closing_energy(found, 0.6) < closing_energy(free, 0.6)
 
 
+def test_a_depth_that_is_not_met_before_the_rim_changes_nothing() -> None:
+    """One step may pass the rim and, beyond it, the depth: this cycle once turned there."""
+    scene = {"k": 0.0, "nu": -0.1, "modulus": 118.0, "c0_over_R": 0.012, "lambda_over_R": 0.136, "A": 0.0156}
+    scene |= {"a_max_over_R": 0.3265, "speed_over_reference": 2e-6, "closing_ratio": 0.28}
+    law = Rate(exponent=0.3, closing="same")
+    at_rim = solve(scene, CLOSED, rate=law)
+    for share in (1.0 + 1e-3, 1.0 + 1e-2, 1.1):
+        found = solve(scene | {"indentation_max_over_R": share * at_rim["delta_max"]}, CLOSED, rate=law)
+        for name in CLOSED:
+            assert found[name] == pytest.approx(float(at_rim[name]), rel=1e-12), name
+
+
 def test_where_the_edge_hardly_moves_before_the_pull_off() -> None:
     scene = SMOOTH | {"a_max_over_R": 0.05, "speed_over_reference": [0.0, 1e-6]}
     found = solve(scene, ["pull_off_force", "rate_coefficient"], rate=Rate(exponent=2.0))
