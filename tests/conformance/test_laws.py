@@ -144,6 +144,16 @@ def test_a_turn_at_what_loading_reaches_is_a_rim_there(kind: Kind, turn: str) ->
 
 
 @for_kinds(EXACT)
+def test_no_drawn_state_pulls_harder_than_the_pull_off(kind: Kind) -> None:
+    scenes, found = drawn(kind)
+    for i in np.flatnonzero(is_sure(found) & (found["turning_radius"] < np.inf))[:40]:
+        curve, _ = draw_curves(one_of(scenes, i), ["equilibrium"], **kind.how)
+        inside = curve["contact_radius"] <= found["turning_radius"][i]
+        allowed = errors(kind, some(scenes, [i]), some(found, [i]))["pull_off_force"][0]
+        assert curve["load"][inside].min(initial=0.0) >= -found["pull_off_force"][i] - 2 * allowed
+
+
+@for_kinds(EXACT)
 def test_the_drawn_path(kind: Kind) -> None:
     """It is in equilibrium, its jumps are those that are counted and lose what is lost, and its area is the loss."""
     scenes, found = drawn(kind)
