@@ -7,13 +7,14 @@ from typing import Any, Final
 
 import xarray
 
-from gradhesion.cli.keys import INPUTS, PHYSICAL, SETTINGS
+from gradhesion.cli.keys import SETTINGS
 from gradhesion.cli.names.outputs import OUTPUTS, PARAMETER, PHYSICAL_PARAMETER
 from gradhesion.cli.names.scenes import SOLVER
 from gradhesion.cli.study.form.axes import mistakes_of_grid
 from gradhesion.cli.study.form.kinds import KINDS
 from gradhesion.cli.study.text.foreign import as_written
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
+from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.toughness import Toughness

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
 from docs.tables import code, table
-from gradhesion.cli.keys import INPUTS, KEYS, PHYSICAL, REDUCED, SETTINGS, keys_of
+from gradhesion.cli.keys import KEYS, SETTINGS, keys_of
 from gradhesion.cli.names.outputs import OUTPUTS
 from gradhesion.cli.study.fit.form import FitForm
 from gradhesion.cli.study.form.form import Form
@@ -14,6 +14,7 @@ from gradhesion.cli.study.rules.between import LAYOUTS
 from gradhesion.cli.study.rules.roles import ABSENT
 from gradhesion.cli.study.text.quantities import WORDS
 from gradhesion.core import CONTROLS, SOLVERS
+from gradhesion.core.problem.inputs import INPUTS, PHYSICAL, REDUCED
 from gradhesion.core.problem.rate import CLOSINGS
 from gradhesion.core.problem.toughness import OF
 
@@ -203,7 +204,7 @@ def _row(name: str, own: Mapping[str, Any]) -> list[str]:
 
 def _default(name: str, entry: Mapping[str, Any]) -> str:
     """Report what holds where a key is left out."""
-    if name in INPUTS and INPUTS[name].role:
+    if name in INPUTS and INPUTS[name].is_parameter and not INPUTS[name].group and name not in ("k", "nu"):
         tied = [code(key.name) for key in REDUCED.values() if key.gives == name]
         united = [code(key.name) for key in PHYSICAL.values() if key.gives == name and not key.instead_of]
         given = ", ".join(["this", *tied]) + f" or {' and '.join(united)} under `[physical]`"

@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.variable import Variable
-from gradhesion.cli.keys import INPUTS, REDUCED
 from gradhesion.cli.names.curves import NAMED_STATES, STATE, is_of_a_state
 from gradhesion.cli.names.scenes import IDLE, REALISATION, REALISATIONS, SOLVER, SOLVERS
 from gradhesion.cli.study.points import COMMENT
@@ -15,6 +14,7 @@ from gradhesion.cli.study.rules.roles import ABSENT
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of
 from gradhesion.cli.work.solve.given import scenes_from
+from gradhesion.core.problem.inputs import INPUTS, REDUCED
 
 RMS: Final = {
     "A": "rms height over wavelength of the random waviness",

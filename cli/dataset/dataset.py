@@ -15,9 +15,9 @@ from gradhesion.cli.dataset.contents import CONTENTS
 from gradhesion.cli.dataset.coordinates import coordinates
 from gradhesion.cli.dataset.variable import Variable
 from gradhesion.cli.names.curves import STATE, is_ragged
-from gradhesion.cli.names.outputs import CONTACT_SLOPE, SI
+from gradhesion.cli.names.outputs import SI
 from gradhesion.cli.names.scenes import REFERENCES, STATUS, STEEP, STEEP_CONTACT
-from gradhesion.cli.names.units import long_name_in_si, unit_of
+from gradhesion.cli.names.units import UNITS, unit_of
 from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.study.shape_words import profile_table, rate_in_words, shape_in_words, toughness_in_words
 from gradhesion.cli.study.study import Study
@@ -25,6 +25,8 @@ from gradhesion.cli.terminal import messages
 from gradhesion.cli.work.compiling import prepare
 from gradhesion.core import FLAGS
 from gradhesion.core.answers.flags import FLAGS as ALL_FLAGS
+from gradhesion.core.problem.names import CONTACT_SLOPE
+from gradhesion.core.problem.outputs import without_scale
 from gradhesion.core.problem.status import OF_EVERY_MAP, TOO_MANY_WAVES
 
 if TYPE_CHECKING:
@@ -50,7 +52,7 @@ def _output(study: Study, name: str) -> Variable:
     plain = CONTENTS[study.sort.name].described(study, name.removesuffix(SI))
     if not name.endswith(SI):
         return plain
-    long_name = long_name_in_si(plain.attributes["long_name"])
+    long_name = without_scale(plain.attributes["long_name"], UNITS[name.removesuffix(SI)])
     return replace(plain, attributes=plain.attributes | {"units": unit_of(name), "long_name": long_name})
 
 

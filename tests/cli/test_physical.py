@@ -19,13 +19,13 @@ from gradhesion.cli.explorer import choice
 from gradhesion.cli.explorer.data import study_data
 from gradhesion.cli.explorer.lines import lines_of
 from gradhesion.cli.names.curves import CURVES
-from gradhesion.cli.names.outputs import CONTACT_SLOPE, OUTPUTS, SI
+from gradhesion.cli.names.outputs import OUTPUTS, SI
 from gradhesion.cli.names.symbols import SYMBOLS
 from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.picture.curves.picture import drawn_curves
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.core import SENSITIVITIES, VALIDITY
-from gradhesion.core.problem.names import RATE
+from gradhesion.core.problem.names import CONTACT_SLOPE, RATE
 
 Call = Callable[..., Result]
 EPS = 2.0**-52

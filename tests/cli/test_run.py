@@ -16,12 +16,12 @@ import xarray
 from click.testing import Result
 
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.keys import PARAMETERS
 from gradhesion.cli.names.outputs import OUTPUTS
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.study.rules.between import EXACT_ONLY
 from gradhesion.cli.work.solve.scenes import solve as real_solve
 from gradhesion.core import FAILED
+from gradhesion.core.problem.names import PARAMETERS
 from gradhesion.core.problem.status import OF_EVERY_MAP
 
 Call = Callable[..., Result]

@@ -17,11 +17,12 @@ if str(ROOT) not in sys.path:
 from docs import notebooks  # noqa: E402
 from docs.__main__ import FOLDER, PAGES  # noqa: E402
 from gradhesion.cli import errors, main  # noqa: E402
-from gradhesion.cli.keys import INPUTS, SETTINGS  # noqa: E402
+from gradhesion.cli.keys import SETTINGS  # noqa: E402
 from gradhesion.cli.names.curves import CURVES  # noqa: E402
 from gradhesion.cli.names.fits import FIT, FIT_POINTS  # noqa: E402
 from gradhesion.cli.names.outputs import OUTPUTS  # noqa: E402
 from gradhesion.core import FLAGS  # noqa: E402
+from gradhesion.core.problem.inputs import INPUTS  # noqa: E402
 
 SYNONYMS = (
     "young modulus", "colormap", "mont carlo", "afm", "slurm", "tabor", "hysteresi", "indent", "snap", "export", "uncertainti",

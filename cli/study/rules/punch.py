@@ -6,7 +6,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.cli.keys import MACHINE, SPRING, Path
-from gradhesion.cli.names.curves import CURVES, GENERAL_CURVES
+from gradhesion.cli.names.curves import CURVES
 from gradhesion.cli.study.form.axes import Values
 from gradhesion.cli.study.form.mistakes import Checked, Mistake
 from gradhesion.cli.study.form.profile import ProfileTable
@@ -14,6 +14,7 @@ from gradhesion.cli.terminal.wording import did_you_mean, example
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
 from gradhesion.core.problem.control import CONTROLS
 from gradhesion.core.problem.names import WITHOUT_LOAD
+from gradhesion.core.problem.outputs import CURVES as DECLARED
 from gradhesion.core.problem.profile import MOST_HARMONICS, Harmonic, Profile
 
 _SERIES: Final[Path] = ("profile", "harmonics")
@@ -145,7 +146,7 @@ def _mistakes_of_default_only(checked: Checked, *, sound_series: bool) -> Iterat
     others += ["[loading]"] if form.loading.control in CONTROLS[1:] else []
     if not others:
         return
-    special = {name: one for one, own in CURVES.items() if one not in GENERAL_CURVES for name in (one, *own)}
+    special = {name: one for one, own in CURVES.items() if DECLARED[one].needs_depth for name in (one, *own)}
     for i, name in enumerate(form.outputs):
         if name in special and form.kind == "curve" and "[loading]" in others:
             why = WITHOUT_LOAD.get(special[name], WITHOUT_LOAD["envelope"])

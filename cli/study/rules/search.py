@@ -7,13 +7,14 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.cli.keys import INPUTS, Path
-from gradhesion.cli.names.outputs import CONTACT_SLOPE, OF_LINEAR, OUTPUTS, SENSITIVITIES, SI, SPREADABLE
+from gradhesion.cli.names.outputs import OF_LINEAR, OUTPUTS, SI, SPREADABLE
 from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.form.axes import Values
 from gradhesion.cli.study.form.inputs import Range
 from gradhesion.cli.study.form.mistakes import Checked, Mistake
 from gradhesion.cli.study.form.optimum import OptimumTable
 from gradhesion.cli.terminal.wording import did_you_mean, example, nearest, shown
+from gradhesion.core.problem.names import CONTACT_SLOPE, SENSITIVITIES
 
 KIND: Final = "optimum"
 """The kind of study, and its table."""
