@@ -7,11 +7,11 @@ from typing import Any, Final
 
 import xarray
 
-from gradhesion.cli.keys import SETTINGS
 from gradhesion.cli.names.outputs import OUTPUTS, PARAMETER, PHYSICAL_PARAMETER
 from gradhesion.cli.names.scenes import SOLVER
-from gradhesion.cli.study.form.axes import mistakes_of_grid
-from gradhesion.cli.study.form.kinds import KINDS
+from gradhesion.cli.study.form import Form
+from gradhesion.cli.study.mistakes import tables_of
+from gradhesion.cli.study.rules import MOST_SCENES, repeated
 from gradhesion.cli.study.text.foreign import as_written
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
@@ -67,7 +67,7 @@ def given_in(
         _take(given, str(name), value)
     _align(given)
     count = math.prod(dict(_sizes(given)).values())
-    most = KINDS[settings.get("kind", "map")].most_scenes
+    most = MOST_SCENES[settings.get("kind", "map")]
     if count > most:
         given.refuse("parameters", f"they make {count:,} scenes, more than {most:,}; use fewer values")
     return given
@@ -75,7 +75,8 @@ def given_in(
 
 def _take(given: Given, name: str, value: Any) -> None:
     """Take one parameter."""
-    if name not in INPUTS and (name in SETTINGS or name in ARGUMENTS or name in _TABLES):
+    keys = {*ARGUMENTS, *_TABLES, *(key for table in tables_of(Form).values() for key in table.model_fields)}
+    if name not in INPUTS and name in keys:
         given.refuse(name, "a key of a study, not a parameter; give it as a keyword, or call gr.run with the study")
     elif name not in INPUTS and (near := nearest(name, [*INPUTS, *ARGUMENTS])) in ARGUMENTS:
         given.refuse(name, f'unknown argument; did you mean "{near}"?')
@@ -105,8 +106,8 @@ def _take_values(given: Given, name: str, value: Any) -> None:
     else:
         taken = array.copy(data=numbers)
         given.arrays[name] = taken.assign_coords({name: numbers}) if array.dims == (name,) else taken
-        for mistake in mistakes_of_grid({name: numbers}) if array.dims == (name,) else ():
-            given.refuse(name, mistake.sentence)
+        for _, sentence in repeated(name, numbers) if array.dims == (name,) else ():
+            given.refuse(name, sentence)
 
 
 def _align(given: Given) -> None:

@@ -49,7 +49,7 @@ def variables(study: Study) -> dict[str, Variable]:
 
 def _output(study: Study, name: str) -> Variable:
     """Describe a result, perhaps in SI units."""
-    plain = CONTENTS[study.sort.name].described(study, name.removesuffix(SI))
+    plain = CONTENTS[study.sort].described(study, name.removesuffix(SI))
     if not name.endswith(SI):
         return plain
     long_name = without_scale(plain.attributes["long_name"], UNITS[name.removesuffix(SI)])
@@ -165,7 +165,7 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
 
     prepare(study)
     described = variables(study)
-    kind = CONTENTS[study.sort.name]
+    kind = CONTENTS[study.sort]
     found = kind.joined(study, kind.parts(study, threads))
     steep = found.pop(STEEP, np.zeros(1, np.int8))
     for sentence in cautions(study, flagged_in(found["status"]), int(np.count_nonzero(steep))):

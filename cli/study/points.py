@@ -3,7 +3,7 @@
 import json
 import re
 import tomllib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final
@@ -11,18 +11,17 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli import keys
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names.outputs import OUTPUTS, SI
-from gradhesion.cli.study.form.axes import MOST_VALUES
-from gradhesion.cli.study.form.mistakes import Mistake
+from gradhesion.cli.study.mistakes import Mistake
+from gradhesion.cli.study.rules import MOST_VALUES
 from gradhesion.cli.study.text import places
 from gradhesion.cli.study.text.quantities import in_si
 from gradhesion.cli.tables.columns import Columns, ColumnsError
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.wording import did_you_mean, shown
+from gradhesion.core.problem.inputs import INPUTS
 
-KEY: Final[keys.Path] = ("parameters", "points")
+KEY: Final[places.Path] = ("parameters", "points")
 
 COMMENT: Final = "a column of "
 """How the comment of a coordinate begins that is a column of a file."""
@@ -180,13 +179,7 @@ def _column(name: str, given: NDArray[np.float64], found: Columns) -> NDArray[np
         values = in_si(given, unit or key.unit, name)
     except ValueError as error:
         raise ColumnsError(f"its column {name} [{unit}]: {error}") from None
-    tests: dict[str, Callable[[Any, Any], Any]] = {"ge": np.less, "gt": np.less_equal, "le": np.greater}
-    bad = np.isnan(values) if key.infinite else ~np.isfinite(values)
-    for bound, value in key.bounds.items():
-        bad |= tests[bound](values, value)
-    if key.infinite and not key.bounds:
-        bad |= ~(values > 0.0)
-    rows = np.flatnonzero(bad)
+    rows = np.flatnonzero(~key.admits(values))
     if rows.size:
         more = f", and {rows.size - 1:,} more rows are as well" if rows.size > 1 else ""
         value = float(given[rows[0]])

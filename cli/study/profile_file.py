@@ -9,20 +9,20 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli import keys
-from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.study.form.mistakes import Mistake
+from gradhesion.cli.study.mistakes import Mistake, example
+from gradhesion.cli.study.text.places import Path as Key
 from gradhesion.cli.study.text.quantities import si_value
 from gradhesion.cli.study.text.written import with_fingerprint
 from gradhesion.cli.tables.columns import Columns, ColumnsError
 from gradhesion.cli.tables.reading import read_columns
-from gradhesion.cli.terminal.wording import did_you_mean, example, shown
+from gradhesion.cli.terminal.wording import did_you_mean, shown
+from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.profile import Profile
 
 if TYPE_CHECKING:
     from gradhesion.core.answers.profile_fit import FittedProfile
 
-KEY: Final[keys.Path] = ("profile", "file")
+KEY: Final[Key] = ("profile", "file")
 COLUMNS: Final = ("r", "height")
 """The columns of a measured profile."""
 TERMS: Final = 16

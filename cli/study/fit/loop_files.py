@@ -9,12 +9,11 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.cli.keys import Path as Key
 from gradhesion.cli.study.fit.form import FitForm, Search
 from gradhesion.cli.study.fit.loop_columns import LoopFileError
 from gradhesion.cli.study.fit.loop_file import LoopFile, nothing, read_loops
-from gradhesion.cli.study.fit.rules import form_of
-from gradhesion.cli.study.form.mistakes import Checked, Mistake
+from gradhesion.cli.study.mistakes import Checked, Mistake
+from gradhesion.cli.study.text.places import Path as Key
 from gradhesion.cli.study.text.source import Source
 from gradhesion.cli.terminal.amounts import counted
 
@@ -38,7 +37,7 @@ def names_of(folder: Path, file: str) -> list[str]:
 
 def loops_of(source: Source, found: Checked) -> tuple[tuple[LoopFile, ...], list[Mistake]]:
     """Read all loops; one of several that cannot be read is kept with its problem, unless none can."""
-    form, written = form_of(found), _table(found.data)
+    form = found.form
     file, table = form.data.file, form.data
     names = names_of(source.folder, file)
     if not names or len(names) > MOST:
@@ -51,7 +50,7 @@ def loops_of(source: Source, found: Checked) -> tuple[tuple[LoopFile, ...], list
             own = [_enough(loop, form) for loop in read_loops(source.folder / name, name, form)]
         except LoopFileError as error:
             path: Key = ("data", error.key)
-            wrong.append(Mistake(path, written.get(error.key), str(error)))
+            wrong.append(Mistake(path, found.at(path), str(error)))
             own = [nothing(name, str(error), _digest(source.folder / name))]
         loops += own
     problems = [loop for loop in loops if loop.problem]
@@ -116,9 +115,3 @@ def _enough(loop: LoopFile, form: FitForm) -> LoopFile:
             "file", f"all values of the {row} are the same, so that there is no loop; name another column"
         )
     return loop
-
-
-def _table(data: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Give the table [data] of a study, empty where it is none."""
-    table = data.get("data")
-    return table if isinstance(table, Mapping) else {}

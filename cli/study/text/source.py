@@ -11,10 +11,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Final
 
-from gradhesion.cli import keys
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.files import kind_of
-from gradhesion.cli.keys import KEYS
 from gradhesion.cli.study.text import places
 from gradhesion.cli.terminal import wording
 
@@ -30,7 +28,7 @@ class Source:
     data: dict[str, Any]
     text: str
     """The text that gives just this data, or nothing if there is none."""
-    place: Callable[[keys.Path], str]
+    place: Callable[[places.Path], str]
     """Tells where a key comes from."""
     mistakes: tuple[str, ...] = ()
     """What was wrong with the overrides."""
@@ -61,7 +59,7 @@ def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) ->
     sources, mistakes = _override(data, overrides)
     lines = cache(lambda: places.lines_of(text))
 
-    def place(key: keys.Path) -> str:
+    def place(key: places.Path) -> str:
         above = [key[:depth] for depth in range(len(key), 0, -1)]
         for origin in above:
             if origin in sources:
@@ -137,9 +135,15 @@ def _syntax_sentence(path: Path, text: str, problem: str) -> str:
     return f"{path}:{line}: not valid TOML, {what[0].lower()}{what[1:]}{column}{shown}; {remedy}"
 
 
-_TABLES: Final = ("parameters", "physical", "profile", "loading", "method")
-_HOMES: Final = {name: key.table for name, key in KEYS.items() if key.table in _TABLES}
-"""The table of each key that is not at the top."""
+@cache
+def _homes() -> dict[str, str]:
+    """Find the table of each key that is not at the top."""
+    from gradhesion.cli.study.form import Form  # noqa: PLC0415 (which only a slip needs)
+    from gradhesion.cli.study.mistakes import tables_of  # noqa: PLC0415 (as above)
+
+    tables = {name: table for (name, *more), table in list(tables_of(Form).items())[1:] if not more}
+    keys = ((key, name) for name, table in tables.items() if name != "uncertainty" for key in table.model_fields)
+    return dict(reversed([*keys]))
 
 
 def _is_list(value: str) -> bool:
@@ -150,9 +154,9 @@ def _is_list(value: str) -> bool:
         return False
 
 
-def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[keys.Path, str], list[str]]:
+def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[places.Path, str], list[str]]:
     """Set keys by their dotted paths in place; report which text set each, and what was wrong."""
-    sources: dict[keys.Path, str] = {}
+    sources: dict[places.Path, str] = {}
     mistakes = []
     for override in overrides:
         key, equals, value = override.partition("=")
@@ -161,8 +165,7 @@ def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[keys
             parsed = tomllib.loads(f"value = {value.strip()}")
         except (ValueError, RecursionError):
             parsed = {}
-        if equals and len(steps) == 1 and key.strip() in _HOMES:
-            home = _HOMES[key.strip()]
+        if equals and len(steps) == 1 and (home := _homes().get(key.strip())):
             again = shlex.quote(f"{home}.{override.strip()}")
             mistakes.append(f"--set {override}: {key.strip()} belongs under [{home}]; write --set {again}")
             continue
