@@ -379,6 +379,10 @@ def list_of(words: str | list[str] | None) -> list[str]:
 ABOUT_KIND: Final = said(
     "one value per scene, curves of each scene, optima, or parameters from a measured loop", '"map"'
 )
+ABOUT_INCLUDE: Final = said(
+    "path of a study, from the folder of this one, whose keys hold where this one has none, also within its tables",
+    '"base.toml"',
+)
 ABOUT_TITLE: Final = said("title of the dataset [name of the file]", '"Pull-off force against wavelength"')
 ABOUT_PARAMETERS: Final = said("the parameters of a scene, each a number or an axis", "{ k = 0.5, nu = 0.3, .. }")
 ABOUT_PHYSICAL: Final = said("quantities with units instead of ratios", '{ R = "1 mm", .. }')
@@ -393,6 +397,7 @@ ABOUT_RATE: Final = said("a work of adhesion that grows with the speed of the ed
 class Form(Table):
     """A whole study of scenes, each key for itself."""
 
+    include: Annotated[str, ABOUT_INCLUDE] = ""
     title: Annotated[str, ABOUT_TITLE] = ""
     kind: Annotated[Kind, ABOUT_KIND] = "map"
     layout: Annotated[

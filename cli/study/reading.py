@@ -19,7 +19,7 @@ from gradhesion.cli.study.rules import Asked, broken, expanded, left_out, range_
 from gradhesion.cli.study.study import Method, Study
 from gradhesion.cli.study.text import places
 from gradhesion.cli.study.text.foreign import as_written
-from gradhesion.cli.study.text.source import Source, read_source
+from gradhesion.cli.study.text.source import Source, included, read_source
 from gradhesion.cli.study.text.written import toml_of
 from gradhesion.cli.terminal import wording
 from gradhesion.cli.terminal.wording import nearest
@@ -112,8 +112,10 @@ def _source(data: Mapping[str, Any], name: str, folder: str | Path) -> Source:
         raise StudyError(
             f"{name}: not a study, tables or lists are nested more than {places.DEEPEST} deep; remove some levels"
         )
-    home = Path(folder).absolute()
-    return Source(name=name, data=as_written(data), text="", place=lambda _: name, folder=home)
+    home, own = Path(folder).absolute(), as_written(data)
+    if "include" in own:
+        own, _ = included(own, home, f"{name}: include = {wording.shown(own['include'])}")
+    return Source(name=name, data=own, text="", place=lambda _: name, folder=home)
 
 
 def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = None) -> Study:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal
 from pydantic import BeforeValidator, Field, WithJsonSchema, create_model
 
 from gradhesion.cli.study.form import (
+    ABOUT_INCLUDE,
     ABOUT_KIND,
     ABOUT_LOADING,
     ABOUT_PARAMETERS,
@@ -347,6 +348,7 @@ else:
 class FitForm(Table):
     """A whole study of a fit, each key for itself."""
 
+    include: Annotated[str, ABOUT_INCLUDE] = ""
     title: Annotated[str, ABOUT_TITLE] = ""
     kind: Annotated[Literal["fit"], BeforeValidator(_is_fit), ABOUT_KIND]
     data: Annotated[

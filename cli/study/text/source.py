@@ -5,7 +5,7 @@ import os
 import re
 import shlex
 import tomllib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -45,19 +45,8 @@ def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) ->
     StudyError
         The file cannot be read, or is not TOML.
     """
-    text = _text(path, most)
-    deep = f"{path}: not a study, tables or lists are nested more than {places.DEEPEST} deep; remove some levels"
-    try:
-        data = {} if places.is_deep_text(text) else tomllib.loads(text)
-    except RecursionError:
-        raise StudyError(deep) from None
-    except ValueError as error:
-        _check_kind(path)
-        raise StudyError([_syntax_sentence(path, text, str(error))]) from None
-    if places.is_deep_text(text) or places.is_deep(data):
-        raise StudyError(deep)
+    data, lines, text = _read(path, most, ())
     sources, mistakes = _override(data, overrides)
-    lines = cache(lambda: places.lines_of(text))
 
     def place(key: places.Path) -> str:
         above = [key[:depth] for depth in range(len(key), 0, -1)]
@@ -66,7 +55,7 @@ def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) ->
                 return f"--set {sources[origin]}"
         for origin in above:
             if origin in lines():
-                return f"{path}:{lines()[origin]}"
+                return lines()[origin]
         made = next((source for steps, source in sources.items() if steps[: len(key)] == key), None)
         return f"--set {made}" if made else str(path)
 
@@ -80,6 +69,71 @@ def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) ->
         mistakes=tuple(mistakes),
         folder=path.absolute().parent,
     )
+
+
+_Lines = Callable[[], Mapping[places.Path, str]]
+"""Finds the file and the line of each key."""
+
+
+def _read(path: Path, most: int, above: tuple[Path, ...]) -> tuple[dict[str, Any], _Lines, str]:
+    """Read the keys of a file and of what it includes, their places, and a text of just these keys if there is one."""
+    text = _text(path, most)
+    deep = f"{path}: not a study, tables or lists are nested more than {places.DEEPEST} deep; remove some levels"
+    try:
+        data = {} if places.is_deep_text(text) else tomllib.loads(text)
+    except RecursionError:
+        raise StudyError(deep) from None
+    except ValueError as error:
+        _check_kind(path)
+        raise StudyError([_syntax_sentence(path, text, str(error))]) from None
+    if places.is_deep_text(text) or places.is_deep(data):
+        raise StudyError(deep)
+    lines = cache(lambda: {key: f"{path}:{line}" for key, line in places.lines_of(text).items()})
+    if "include" not in data:
+        return data, lines, text
+    where = f"{lines().get(('include',), path)}: include = {wording.shown(data['include'])}"
+    merged, below = included(data, path.parent, where, (*above, path), most)
+    return merged, cache(lambda: {**below(), **lines()}), ""
+
+
+def included(
+    data: Mapping[str, Any], folder: Path, where: str, above: tuple[Path, ...] = (), most: int = MOST_BYTES
+) -> tuple[dict[str, Any], _Lines]:
+    """
+    Give the keys of a study with those of the one that it includes, and the places of these.
+
+    The keys of the study win; tables at the top are merged key by key, and all other values replaced.
+
+    Parameters
+    ----------
+    data, folder
+        The keys, with `include`, and where that file is looked for.
+    where
+        What a message begins with: the place of `include`, and its value.
+    above
+        The files that include this one.
+    most
+        Bytes of the longest study.
+
+    Raises
+    ------
+    StudyError
+        There is no such study, or it includes this one.
+    """
+    name = data["include"]
+    if not isinstance(name, str) or not name:
+        raise StudyError(
+            f'{where}: this must be the path of a study in quotes; write for example include = "base.toml"'
+        )
+    base = folder / name
+    if base.resolve() in {path.resolve() for path in above}:
+        raise StudyError(f"{where}: {base} includes {above[-1]} in turn; remove one of the two")
+    if not base.is_file():
+        raise StudyError(f"{where}: there is no file {base}; name a study that is there, from the folder of this one")
+    found, lines, _ = _read(base, most, above)
+    own = {key: value for key, value in data.items() if key != "include"}
+    tables = {key for key in own if isinstance(own[key], Mapping) and isinstance(found.get(key), Mapping)}
+    return found | own | {key: {**found[key], **own[key]} for key in tables}, lines
 
 
 def _text(path: Path, most: int) -> str:
@@ -185,6 +239,9 @@ def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[plac
                 mistakes.append(f"--set {override}: the value is not TOML; {sentence}, as in --set '{key}={quoted}'")
                 continue
             mistakes.append(f"--set {override}: the value is not TOML; quote strings, as in --set '{key}={quoted}'")
+            continue
+        if steps[0] == "include":
+            mistakes.append(f"--set {override}: a study is included by its file alone; write this at its top")
             continue
         table: Any = data
         for depth, step in enumerate(steps[:-1]):

@@ -177,6 +177,7 @@ def test_a_thousand_mistakes_do_not_flood_the_screen(refused: Callable[..., list
         ("parameters.k=2", "parameters.k = 2: out of range"),
         ("parameters.lambda_over_R={start=1, stop=2, num=0}", "parameters.lambda_over_R.num = 0: "),
         ("parameters.lambda_over_R.num=0", "parameters.lambda_over_R.num = 0: "),
+        ('include="base.toml"', "a study is included by its file alone"),
         ("nothing.at.all=1", "nothing = { at = { all = 1 } }: unknown key"),
     ],
 )
@@ -228,3 +229,57 @@ def test_a_study_made_in_python_is_checked_alike() -> None:
         study_from({"outputs": ["delta_max"], "parameters": {"k": (0.1, 2.0)}}, name="mine")
     assert caught.value.mistakes[0] == "mine: parameters.k[1] = 2.0: out of range; choose a value with 0 <= k <= 1"
     assert len(caught.value.mistakes) == 6
+
+
+BASE = """outputs = ["pull_off_force"]
+[parameters]
+k = 0.3
+nu = 0.3
+modulus = 500.0
+c0_over_R = 0.01
+lambda_over_R = { start = 0.1, stop = 1.0, num = 3 }
+A = 0.1
+"""
+
+
+def test_a_study_may_include_another(tmp_path: Path) -> None:
+    from gradhesion.cli.study.reading import load_study, study_from
+
+    (tmp_path / "base.toml").write_text(BASE)
+    below = tmp_path / "below"
+    below.mkdir()
+    (below / "study.toml").write_text('include = "../base.toml"\n[parameters]\nk = [0.0, 0.5]\nlambda_over_R = 0.2\n')
+    study = load_study(below / "study.toml", ["parameters.A=0.02"])
+    assert study.name == "study"
+    assert (study.parameters["nu"], study.parameters["lambda_over_R"], study.parameters["A"]) == (0.3, 0.2, 0.02)
+    assert study.sizes == {"k": 2}, "a value is replaced, a table is merged"
+    (tmp_path / "again.toml").write_text(study.text)
+    assert "include" not in study.text
+    assert load_study(tmp_path / "again.toml").sha256 == study.sha256
+    mapping = {"include": "base.toml", "parameters": {"k": [0.0, 0.5], "lambda_over_R": 0.2, "A": 0.02}}
+    assert study_from(mapping, "study", folder=tmp_path).text == study.text
+
+
+@pytest.mark.parametrize(
+    ("text", "base", "place", "words"),
+    [
+        ('include = "base.toml"\n', BASE.replace("A = 0.1", "A = -1"), "base.toml:8", "parameters.A = -1"),
+        ('include = "base.toml"\nlayout = "gird"\n', BASE, "study.toml:2", "layout"),
+        ('include = "base.toml"\n', "include = 'study.toml'", "base.toml:1", "study.toml includes"),
+        ('include = "study.toml"\n', "", "study.toml:1", "study.toml includes"),
+        ('include = "other.toml"\n', "", "study.toml:1", "other.toml"),
+        ("include = 3\n", "", "study.toml:1", "include = 3"),
+        ('include = "base.toml"\n', "k = ", "base.toml:1", "not valid TOML"),
+    ],
+)
+def test_what_is_wrong_with_an_included_study(text: str, base: str, place: str, words: str, tmp_path: Path) -> None:
+    from gradhesion.cli.errors import StudyError
+    from gradhesion.cli.study.reading import load_study
+
+    (tmp_path / "study.toml").write_text(text)
+    (tmp_path / "base.toml").write_text(base)
+    with pytest.raises(StudyError) as refused:
+        load_study(tmp_path / "study.toml")
+    (sentence,) = refused.value.mistakes
+    assert sentence.startswith(f"{tmp_path / place}: ")
+    assert words in sentence
