@@ -11,7 +11,17 @@ import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal, Union, get_args, get_type_hints
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, WithJsonSchema, create_model
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Discriminator,
+    Field,
+    Tag,
+    WithJsonSchema,
+    create_model,
+)
 
 from gradhesion.cli.study.answers import Deviation
 from gradhesion.cli.study.text.quantities import QUANTITIES, ratio_sentence, si_value
@@ -394,11 +404,18 @@ ABOUT_TOUGHNESS: Final = said(
 ABOUT_RATE: Final = said("a work of adhesion that grows with the speed of the edge", "{ exponent = 0.6 }")
 
 
+def one_line(title: str) -> str:
+    """Check a title."""
+    if not title.isprintable():
+        raise ValueError("a title is one line of printable characters; remove the others")
+    return title
+
+
 class Form(Table):
     """A whole study of scenes, each key for itself."""
 
     include: Annotated[str, ABOUT_INCLUDE] = ""
-    title: Annotated[str, ABOUT_TITLE] = ""
+    title: Annotated[str, AfterValidator(one_line), ABOUT_TITLE] = ""
     kind: Annotated[Kind, ABOUT_KIND] = "map"
     layout: Annotated[
         Literal["grid", "points"],
