@@ -55,9 +55,16 @@ class Asked:
         """The values of the inputs that are not searched."""
         return {name: values for name, values in self.values.items() if name not in self.over}
 
+    @cached_property
+    def _given(self) -> frozenset[str]:
+        """The inputs that are there, right or wrong."""
+        tables = {own.table: self.checked.data.get(own.table) for own in INPUTS.values()}
+        keys = ((name, key) for name, own in tables.items() if isinstance(own, Mapping) for key in own)
+        return frozenset(key for name, key in keys if key in INPUTS and INPUTS[key].table == name)
+
     def given(self, name: str) -> bool:
         """Report whether an input is there, right or wrong."""
-        return self.checked.has(INPUTS[name].table, name)
+        return name in self._given
 
     def meant(self, name: str) -> bool:
         """Report whether an input is there, perhaps misspelt or in the wrong table."""
@@ -70,7 +77,7 @@ class Asked:
     @property
     def turns(self) -> list[str]:
         """What gives where cycles turn before the rim."""
-        return [name for name, own in INPUTS.items() if own.group == "turn" and self.given(name)]
+        return [name for name in INPUTS if name in self._given and INPUTS[name].group == "turn"]
 
     @property
     def rims(self) -> Values:

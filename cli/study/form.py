@@ -9,6 +9,7 @@ import dataclasses
 import math
 import re
 from collections.abc import Mapping
+from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal, Union, get_args, get_type_hints
 
 from pydantic import (
@@ -453,7 +454,7 @@ class Form(Table):
     ] = None
     method: Annotated[Method, said("how the scenes are solved", '{ solver = "exact" }')] = Method()
 
-    @property
+    @cached_property
     def entries(self) -> dict[str, Entry]:
         """What is given for the inputs, in the order of a dataset's dimensions."""
         given = {name: getattr(getattr(self, own.table, None), name, None) for name, own in INPUTS.items()}

@@ -13,13 +13,19 @@ from gradhesion.cli.study.edge_rules import each_once, rate, toughness, works
 from gradhesion.cli.study.form import OUTPUTS_OF
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 from gradhesion.core.problem.control import CONTROLS
-from gradhesion.core.problem.inputs import INPUTS, REDUCED, Input
+from gradhesion.core.problem.inputs import INPUTS, PHYSICAL, REDUCED, Input
 from gradhesion.core.problem.names import GIVEN_UP, SOLVERS, WITHOUT_LOAD
 from gradhesion.core.problem.outputs import CURVES, OUTPUTS
 from gradhesion.core.problem.profile import MOST_HARMONICS, Profile
 
 MOST_SCENES: Final = {"map": 2**31, "curve": 1_000, "optimum": 2**31, "pareto": 100_000}
 """Scenes of one study: beyond, a dataset is no longer one file; curves are for looking at; fronts are in memory."""
+_KIN: Final = {
+    name: [kin for kin, its in INPUTS.items() if its.gives == name]
+    for name, own in INPUTS.items()
+    if own.is_parameter and name not in ("k", "nu")
+}
+"""The inputs that give each parameter, but for those that only it can give."""
 MAY_MIX: Final = ("A", "closing_ratio", "machine_stiffness")
 """The ratios that may stand beside quantities with units."""
 
@@ -117,9 +123,9 @@ def inputs(asked: Asked) -> Found:
     """Check that each parameter is given once, in the units of the others, and is given where every scene has it."""
     if "parameters" not in asked.checked.data:
         return
-    for name, own in INPUTS.items():
-        if own.is_parameter and name not in ("k", "nu"):
-            yield from _ways(asked, own)
+    for name, kin in _KIN.items():
+        if not INPUTS[name].group or any(map(asked.given, kin)):
+            yield from _ways(asked, INPUTS[name])
     turns = asked.turns
     for name in turns[1:]:
         yield home(name), f"a cycle turns at one depth or load, and {turns[0]} gives it already; remove one of the two"
@@ -127,8 +133,7 @@ def inputs(asked: Asked) -> Found:
 
 def _ways(asked: Asked, own: Input) -> Found:
     """Check the inputs that give one parameter."""
-    others = [one for one in INPUTS.values() if one.gives == own.name and one is not own]
-    physical = [one.name for one in others if one.table == "physical"]
+    physical = [name for name in _KIN[own.name] if name in PHYSICAL]
     idle = own.group in ("toughness", "rate") and own.group not in asked.checked.data
     apart = asked.units and own.name not in MAY_MIX and bool(physical) and not idle
     if apart and asked.given(own.name):
@@ -140,7 +145,7 @@ def _ways(asked: Asked, own: Input) -> Found:
     if own.name == "modulus" and asked.units:
         ways = [["R"], ["E_star", "E"], ["work_of_adhesion"]]
     else:
-        reduced = [one.name for one in others if one.name in REDUCED]
+        reduced = [name for name in _KIN[own.name] if name in REDUCED]
         united = [one for one in physical if INPUTS[one].follows] if asked.units else []
         ways = [[*united, *reduced] if apart else [own.name, *reduced, *united]]
     for names in ways:
@@ -217,8 +222,8 @@ def _punch(asked: Asked) -> Found:
             words = 'random roughness is available only in maps; write kind = "map", or give harmonics'
             yield "profile.spectrum", words
     yield from _control(asked)
-    plain = not form.profile.file and spectrum is None and (series or shape_of(form.profile) == Profile())
-    if "a_max_over_a2" in form.entries and not plain:
+    series_only = not form.profile.file and spectrum is None
+    if "a_max_over_a2" in form.entries and not (series_only and (series or shape_of(form.profile) == Profile())):
         words = "a_2 is defined only for one cosine on a paraboloid; give a_max_over_R or a_max_over_L"
         yield "parameters.a_max_over_a2", f"{words}, or remove [profile]"
     load = form.loading.control in CONTROLS[1:]
