@@ -28,6 +28,26 @@ OF_A_FIT: Final = ("data", "fit")
 """The tables of studies of kind "fit" alone."""
 
 
+_WANTED: Final = {
+    "greater_than": "above {gt:g}",
+    "greater_than_equal": "{ge:g} or more",
+    "less_than": "below {lt:g}",
+    "less_than_equal": "{le:g} or less",
+    "string_type": "a string in quotes",
+    "string_too_short": "the name of a file",
+    "string_pattern_mismatch": "64 digits from 0 to f",
+    "list_type": "a list in brackets",
+    "bool_type": "true or false",
+    "int_type": "an integer",
+    "int_from_float": "an integer",
+    "float_type": "a number",
+    "finite_number": "finite",
+    "dict_type": "a table",
+    "model_type": "a table",
+}
+"""What must stand in the place of what pydantic found."""
+
+
 @dataclass(frozen=True)
 class Mistake:
     """What is wrong at a key, and what to do about it."""
@@ -183,13 +203,7 @@ def _sentence(detail: ErrorDetails, path: Path, model: type[Table]) -> str:
     own = INPUTS.get(str(path[1])) if len(path) > 1 and path[0] in ("parameters", "physical", "loading") else None
     if own and path[-1] != "num":
         return _input_sentence(kind, value, path, write)
-    limits = {"greater_than": "above {gt}", "greater_than_equal": "{ge} or more", "less_than": "below {lt}",
-              "less_than_equal": "{le} or less", "string_type": "a string in quotes", "list_type": "a list in brackets",
-              "bool_type": "true or false", "int_type": "an integer", "int_from_float": "an integer",
-              "float_type": "a number", "finite_number": "finite", "dict_type": "a table", "model_type": "a table",
-              "string_too_short": "the name of a file", "string_pattern_mismatch": "64 digits from 0 to f",
-              }  # fmt: skip
-    return f"this must be {limits.get(kind, 'another value').format(**context)}; {write}"
+    return f"this must be {_WANTED.get(kind, 'another value').format(**context)}; {write}"
 
 
 def _input_sentence(kind: str, value: object, path: Path, write: str) -> str:

@@ -16,7 +16,7 @@ from gradhesion.cli.study.axes import MOST_VALUES
 from gradhesion.cli.study.mistakes import Mistake
 from gradhesion.cli.study.text import places
 from gradhesion.cli.study.text.quantities import in_si
-from gradhesion.cli.tables.columns import Columns, ColumnsError
+from gradhesion.cli.tables.columns import Columns, ColumnsError, changed
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 from gradhesion.core.problem.inputs import INPUTS
@@ -121,10 +121,8 @@ def points_of(
     except ColumnsError as error:
         return Points(written=written, mistakes=(Mistake(KEY, written, str(error)),))
     if expected and expected != found.sha256:
-        sentence = (
-            f"the file is not the one that this study was written for: its sha256 is {found.sha256[:12]}..., not "
-            f"{expected[:12]}...; put that file back, or write points = {json.dumps(file, ensure_ascii=False)}"
-        )
+        remedy = f"write points = {json.dumps(file, ensure_ascii=False)}"
+        sentence = changed(found.sha256, expected, remedy)
         return Points(written=written, mistakes=(Mistake(KEY, written, sentence),))
     mistakes = [Mistake(KEY, written, sentence) for sentence in _mistakes(data, found)]
     columns, wrong = {}, []

@@ -151,7 +151,7 @@ def _ways(asked: Asked, own: Input) -> Found:
     for names in ways:
         given = [name for name in names if asked.given(name)]
         for name in given[1:]:
-            yield home(name), f"{given[0]} gives {own.about} already; keep one of the two and remove the other"
+            yield home(name), f"{given[0]} gives this already; keep one of the two and remove the other"
         if own.group or own.name == "a_max_over_R" or any(asked.meant(name) for name in names):
             continue
         zero = own.idle_without

@@ -15,6 +15,7 @@ from gradhesion.cli.study.fit.loop_file import LoopFile, nothing, read_loops
 from gradhesion.cli.study.mistakes import Checked, Mistake
 from gradhesion.cli.study.text.places import Path as Key
 from gradhesion.cli.study.text.source import Source
+from gradhesion.cli.tables.columns import changed
 from gradhesion.cli.terminal.amounts import counted
 
 FILE: Final[Key] = ("data", "file")
@@ -61,11 +62,7 @@ def loops_of(source: Source, found: Checked) -> tuple[tuple[LoopFile, ...], list
         return tuple(loops), [replace(first, sentence=f"{where}{first.sentence}{more}")]
     sha256 = fingerprint(loops)
     if table.sha256 and table.sha256 != sha256:
-        what = "the file is not the one" if file in names else "the files are not the ones"
-        sentence = (
-            f"{what} that this study was written for: its sha256 is {sha256[:12]}..., not "
-            f"{table.sha256[:12]}...; put {'that file' if file in names else 'those'} back, or remove sha256"
-        )
+        sentence = changed(sha256, table.sha256, "remove sha256", several=file not in names)
         return tuple(loops), [Mistake(FILE, file, sentence)]
     return tuple(loops), []
 
