@@ -10,8 +10,8 @@ import xarray
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.names.scenes import SCENE
-from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.reading import study_from, text_of
+from gradhesion.cli.study.rules.axes import Values
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal.wording import nearest
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL

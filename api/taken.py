@@ -9,10 +9,10 @@ import xarray
 
 from gradhesion.cli.names.outputs import OUTPUTS, PARAMETER, PHYSICAL_PARAMETER
 from gradhesion.cli.names.scenes import SOLVER
-from gradhesion.cli.study.axes import repeated
-from gradhesion.cli.study.form import Form
-from gradhesion.cli.study.mistakes import tables_of
-from gradhesion.cli.study.rules import MOST_SCENES
+from gradhesion.cli.study.rules.axes import repeated
+from gradhesion.cli.study.rules.form import Form
+from gradhesion.cli.study.rules.mistakes import tables_of
+from gradhesion.cli.study.rules.scenes import MOST_SCENES
 from gradhesion.cli.study.text.foreign import as_written
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL

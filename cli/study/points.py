@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.names.outputs import OUTPUTS, SI
-from gradhesion.cli.study.axes import MOST_VALUES
-from gradhesion.cli.study.mistakes import Mistake
+from gradhesion.cli.study.rules.axes import MOST_VALUES
+from gradhesion.cli.study.rules.mistakes import Mistake
 from gradhesion.cli.study.text import places
 from gradhesion.cli.study.text.quantities import in_si
 from gradhesion.cli.tables.columns import Columns, ColumnsError, changed

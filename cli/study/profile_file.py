@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.study.mistakes import Mistake, example
+from gradhesion.cli.study.rules.mistakes import Mistake, example
 from gradhesion.cli.study.text.places import Path as Key
 from gradhesion.cli.study.text.quantities import si_value
 from gradhesion.cli.study.text.written import with_fingerprint

@@ -9,15 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.study.answers import Search, Searched, Uncertainty
-from gradhesion.cli.study.asked import Asked, steps_of
-from gradhesion.cli.study.axes import expanded, range_mistakes
 from gradhesion.cli.study.fit.study import FitStudy
-from gradhesion.cli.study.form import KINDS, OUTPUTS_OF, Range
-from gradhesion.cli.study.mistakes import Checked, Mistake, checked
 from gradhesion.cli.study.points import points_of
 from gradhesion.cli.study.profile_file import measured_in
-from gradhesion.cli.study.rules import broken, left_out, shape_of
+from gradhesion.cli.study.rules.answers import Search, Searched, Uncertainty
+from gradhesion.cli.study.rules.asked import Asked, steps_of
+from gradhesion.cli.study.rules.axes import expanded, range_mistakes
+from gradhesion.cli.study.rules.form import KINDS, OUTPUTS_OF, Range
+from gradhesion.cli.study.rules.mistakes import Checked, Mistake, checked
+from gradhesion.cli.study.rules.scenes import broken, left_out, shape_of
 from gradhesion.cli.study.study import Method, Study
 from gradhesion.cli.study.text import places
 from gradhesion.cli.study.text.foreign import as_written

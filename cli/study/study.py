@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from gradhesion.cli.names.outputs import BEST, OF_PHYSICAL, ON_BOUND, PARAMETER, PHYSICAL_PARAMETER, SI, labels_of
 from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
 from gradhesion.cli.names.units import UNITS
-from gradhesion.cli.study.answers import Search, Uncertainty
-from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.points import Points
 from gradhesion.cli.study.profile_file import Measured
+from gradhesion.cli.study.rules.answers import Search, Uncertainty
+from gradhesion.cli.study.rules.axes import Values
 from gradhesion.cli.study.tiling import CHUNK, Block, Tiling
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
 from gradhesion.core.problem.control import Loading

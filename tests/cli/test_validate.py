@@ -8,7 +8,7 @@ from pathlib import Path
 from click.testing import Result
 
 from gradhesion.cli.study.fit.form import FitForm
-from gradhesion.cli.study.form import Form
+from gradhesion.cli.study.rules.form import Form
 from gradhesion.core.problem.inputs import INPUTS
 
 Call = Callable[..., Result]

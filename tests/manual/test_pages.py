@@ -21,8 +21,8 @@ from gradhesion.cli.names.curves import CURVES  # noqa: E402
 from gradhesion.cli.names.fits import FIT, FIT_POINTS  # noqa: E402
 from gradhesion.cli.names.outputs import OUTPUTS  # noqa: E402
 from gradhesion.cli.study.fit.form import FitForm  # noqa: E402
-from gradhesion.cli.study.form import Form  # noqa: E402
-from gradhesion.cli.study.mistakes import tables_of  # noqa: E402
+from gradhesion.cli.study.rules.form import Form  # noqa: E402
+from gradhesion.cli.study.rules.mistakes import tables_of  # noqa: E402
 from gradhesion.core import FLAGS  # noqa: E402
 from gradhesion.core.problem.inputs import INPUTS  # noqa: E402
 

@@ -37,8 +37,10 @@ OUTPUT = {
     "core/problem/outputs.py": [
         (
             '    Output("turning_radius",',
-            '    Output("pull_off_area", "contact area at pull-off, in R^2", "area at pull-off $/R^2$", "cycle"),\n'
-            '    Output("turning_radius",',
+            (
+                '    Output("pull_off_area", "contact area at pull-off, in R^2", "area at pull-off $/R^2$", "cycle"),\n'
+                '    Output("turning_radius",'
+            ),
         ),
     ],
 }

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, create_model
 
-from gradhesion.cli.study.form import (
+from gradhesion.cli.study.rules.form import (
     ABOUT_INCLUDE,
     ABOUT_KIND,
     ABOUT_LOADING,

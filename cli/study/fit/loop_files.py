@@ -12,7 +12,7 @@ import numpy as np
 from gradhesion.cli.study.fit.form import FitForm, Search
 from gradhesion.cli.study.fit.loop_columns import LoopFileError
 from gradhesion.cli.study.fit.loop_file import LoopFile, nothing, read_loops
-from gradhesion.cli.study.mistakes import Checked, Mistake
+from gradhesion.cli.study.rules.mistakes import Checked, Mistake
 from gradhesion.cli.study.text.places import Path as Key
 from gradhesion.cli.study.text.source import Source
 from gradhesion.cli.tables.columns import changed

@@ -3,14 +3,14 @@
 from collections.abc import Mapping
 from typing import Any
 
-from gradhesion.cli.study.asked import steps_of
 from gradhesion.cli.study.fit.form import NUMBER_ALONE, REQUIRED, FitForm, Search
 from gradhesion.cli.study.fit.loop_file import LoopFile
 from gradhesion.cli.study.fit.loop_files import fingerprint, loops_of
 from gradhesion.cli.study.fit.rules import broken, control_of, sound_keys
 from gradhesion.cli.study.fit.study import FitStudy
-from gradhesion.cli.study.mistakes import Mistake, checked
-from gradhesion.cli.study.rules import shape_of
+from gradhesion.cli.study.rules.asked import steps_of
+from gradhesion.cli.study.rules.mistakes import Mistake, checked
+from gradhesion.cli.study.rules.scenes import shape_of
 from gradhesion.cli.study.text.source import Source
 from gradhesion.cli.study.text.written import toml_of, with_fingerprint
 from gradhesion.core.problem.control import Loading

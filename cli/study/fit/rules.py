@@ -6,14 +6,14 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.cli.study.asked import Asked, steps_of
-from gradhesion.cli.study.axes import Found, home
-from gradhesion.cli.study.edge_rules import rate, toughness, works
 from gradhesion.cli.study.fit.afm_file import is_force_file
 from gradhesion.cli.study.fit.form import DATA, FitForm, Search
-from gradhesion.cli.study.form import Form
-from gradhesion.cli.study.mistakes import Checked, Mistake, example
-from gradhesion.cli.study.rules import inputs, waves
+from gradhesion.cli.study.rules.asked import Asked, steps_of
+from gradhesion.cli.study.rules.axes import Found, home
+from gradhesion.cli.study.rules.edge import rate, toughness, works
+from gradhesion.cli.study.rules.form import Form
+from gradhesion.cli.study.rules.mistakes import Checked, Mistake, example
+from gradhesion.cli.study.rules.scenes import inputs, waves
 from gradhesion.core.problem.inputs import INPUTS
 
 ONE_NUMBER: Final = ("E_star", "E", "c0", "nu")

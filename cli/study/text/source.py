@@ -3,7 +3,6 @@
 import json
 import os
 import re
-import shlex
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -189,17 +188,6 @@ def _syntax_sentence(path: Path, text: str, problem: str) -> str:
     return f"{path}:{line}: not valid TOML, {what[0].lower()}{what[1:]}{column}{shown}; {remedy}"
 
 
-@cache
-def _homes() -> dict[str, str]:
-    """Find the table of each key that is not at the top."""
-    from gradhesion.cli.study.form import Form  # noqa: PLC0415 (which only a slip needs)
-    from gradhesion.cli.study.mistakes import tables_of  # noqa: PLC0415 (as above)
-
-    tables = {name: table for (name, *more), table in list(tables_of(Form).items())[1:] if not more}
-    keys = ((key, name) for name, table in tables.items() if name != "uncertainty" for key in table.model_fields)
-    return dict(reversed([*keys]))
-
-
 def _is_list(value: str) -> bool:
     """Report whether a value would be a list, in brackets."""
     try:
@@ -219,10 +207,6 @@ def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[plac
             parsed = tomllib.loads(f"value = {value.strip()}")
         except (ValueError, RecursionError):
             parsed = {}
-        if equals and len(steps) == 1 and (home := _homes().get(key.strip())):
-            again = shlex.quote(f"{home}.{override.strip()}")
-            mistakes.append(f"--set {override}: {key.strip()} belongs under [{home}]; write --set {again}")
-            continue
         if not equals or not all(steps):
             mistakes.append(f"--set {override}: not of the form KEY=VALUE; write for example --set parameters.A=0.02")
             continue

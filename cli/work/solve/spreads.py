@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.names.outputs import PARAMETER, SI, SPREADABLE
 from gradhesion.cli.names.scenes import STEEP
-from gradhesion.cli.study.answers import Uncertainty
+from gradhesion.cli.study.rules.answers import Uncertainty
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, shape_of
 from gradhesion.cli.work.solve.given import solve_given

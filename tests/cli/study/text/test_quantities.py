@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradhesion.cli.study.form import Range
-from gradhesion.cli.study.mistakes import checked
+from gradhesion.cli.study.rules.form import Range
+from gradhesion.cli.study.rules.mistakes import checked
 from gradhesion.cli.study.text.quantities import si_value
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
 

@@ -9,9 +9,9 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.cli.study.axes import Values
-from gradhesion.cli.study.form import KINDS
-from gradhesion.cli.study.mistakes import Checked
+from gradhesion.cli.study.rules.axes import Values
+from gradhesion.cli.study.rules.form import KINDS
+from gradhesion.cli.study.rules.mistakes import Checked
 from gradhesion.cli.terminal.wording import nearest
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.outputs import CURVES

@@ -7,8 +7,8 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.cli.names.outputs import SI
-from gradhesion.cli.study.asked import Asked, curve_of
-from gradhesion.cli.study.axes import Found, home
+from gradhesion.cli.study.rules.asked import Asked, curve_of
+from gradhesion.cli.study.rules.axes import Found, home
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.outputs import CURVES, OUTPUTS
 from gradhesion.core.problem.rate import MOST_WAVES

@@ -2,7 +2,7 @@
 
 The tables of inputs are made from `INPUTS`, those of the punch and of what its edge meets from the classes of the core;
 pydantic checks the whole study at once and gives its JSON Schema. Its findings become sentences in mistakes.py; what
-keys have to do with each other is in rules.py.
+keys have to do with each other is in the other modules.
 """
 
 import dataclasses
@@ -24,7 +24,7 @@ from pydantic import (
     create_model,
 )
 
-from gradhesion.cli.study.answers import Deviation
+from gradhesion.cli.study.rules.answers import Deviation
 from gradhesion.cli.study.text.quantities import QUANTITIES, ratio_sentence, si_value
 from gradhesion.core.answers.spectrum import Spectrum
 from gradhesion.core.problem.control import Loading

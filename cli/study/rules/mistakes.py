@@ -11,7 +11,7 @@ from typing import Any, Final, get_args
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from gradhesion.cli.study.form import Form, Table
+from gradhesion.cli.study.rules.form import Form, Table
 from gradhesion.cli.study.text.places import Path, dotted
 from gradhesion.cli.study.text.quantities import ratio_sentence
 from gradhesion.cli.terminal.wording import did_you_mean, nearest

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.study.form import Entry, Range
+from gradhesion.cli.study.rules.form import Entry, Range
 from gradhesion.core.problem.inputs import INPUTS
 
 Values = float | NDArray[np.float64]

@@ -8,9 +8,9 @@ import numpy as np
 
 from gradhesion.cli.names.outputs import OF_LINEAR, SI, SPREADABLE
 from gradhesion.cli.names.units import UNITS
-from gradhesion.cli.study.asked import Asked
-from gradhesion.cli.study.axes import Found, home
-from gradhesion.cli.study.mistakes import example, line_of
+from gradhesion.cli.study.rules.asked import Asked
+from gradhesion.cli.study.rules.axes import Found, home
+from gradhesion.cli.study.rules.mistakes import example, line_of
 from gradhesion.cli.terminal.wording import did_you_mean, nearest, shown
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.names import SENSITIVITIES

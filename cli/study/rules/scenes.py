@@ -6,11 +6,11 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.cli.study.answer_rules import search, uncertain
-from gradhesion.cli.study.asked import Asked, curve_of
-from gradhesion.cli.study.axes import Found, Values, home, repeated
-from gradhesion.cli.study.edge_rules import each_once, rate, toughness, works
-from gradhesion.cli.study.form import OUTPUTS_OF
+from gradhesion.cli.study.rules.asked import Asked, curve_of
+from gradhesion.cli.study.rules.axes import Found, Values, home, repeated
+from gradhesion.cli.study.rules.edge import each_once, rate, toughness, works
+from gradhesion.cli.study.rules.form import OUTPUTS_OF
+from gradhesion.cli.study.rules.search import search, uncertain
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 from gradhesion.core.problem.control import CONTROLS
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL, REDUCED, Input
