@@ -1,6 +1,7 @@
 """A study from a file or a mapping: checked as a whole, and expanded."""
 
 import re
+import shlex
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, Final
@@ -268,7 +269,12 @@ def _refuse(source: Source, mistakes: Iterable[Mistake]) -> None:
     sentences = []
     for mistake in mistakes:
         value = "" if mistake.value is None else f" = {wording.shown(mistake.value)}"
-        sentences.append(f"{source.place(mistake.path)}: {places.dotted(mistake.path)}{value}: {mistake.sentence}")
+        place, sentence = source.place(mistake.path), mistake.sentence
+        written, _, given = place.partition("=")
+        if written == f"--set {places.dotted(mistake.path)}" and mistake.meant[-1:] == mistake.path[-1:]:
+            right = shlex.quote(f"{places.dotted(mistake.meant)}={given.strip()}")
+            sentence = f"{sentence.partition(';')[0]}; write --set {right}"
+        sentences.append(f"{place}: {places.dotted(mistake.path)}{value}: {sentence}")
     sentences.sort(key=_line)
     found = [*source.mistakes, *sentences]
     if len(found) > MOST_MISTAKES:

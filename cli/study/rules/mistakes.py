@@ -55,6 +55,8 @@ class Mistake:
     path: Path
     value: Any
     sentence: str
+    meant: Path = ()
+    """The key that was meant, where another stands in its place."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -113,7 +115,7 @@ def checked(data: Mapping[str, Any], model: Any = Form, required: Mapping[Path, 
         if detail["type"] == "extra_forbidden":
             key, sentence = _unknown_key(path, model)
             meant.add(key)
-            mistakes.append(Mistake(path, detail["input"], sentence))
+            mistakes.append(Mistake(path, detail["input"], sentence, key))
         elif detail["type"] == "missing":
             missing[path] = Mistake(path, None, _sentence(detail, path, model))
         else:
