@@ -147,14 +147,11 @@ def _column(value: Any) -> Any:
 class ColumnTable(Table):
     """A column of the data, with its unit."""
 
-    column: Annotated[str, said("name of the column in the header", '"depth"', min_length=1)]
-    unit: Annotated[str, said("unit of the column [from the header]", '"nm"')] = ""
-    sign: Annotated[
-        int,
-        said(
-            "-1 changes the sign of the column, so that depth grows into the half-space and positive loads press", "-1"
-        ),
-    ] = 1
+    column: str = said("name of the column in the header", '"depth"', min_length=1)
+    unit: str = said("unit of the column [from the header]", '"nm"', "")
+    sign: int = said(
+        "-1 changes the sign of the column, so that depth grows into the half-space and positive loads press", "-1", 1
+    )
 
 
 Column = Annotated[ColumnTable, BeforeValidator(_column)]
@@ -164,39 +161,29 @@ Word = Annotated[str, Field(min_length=1)]
 class DataTable(File):
     """The measured loop."""
 
-    indentation: Annotated[
-        Column | None, said("column of the depth, with its unit", '{ column = "depth", unit = "nm" }')
-    ] = None
-    displacement: Annotated[
-        Column | None,
-        said(
-            "instead of indentation: column of depth + load/stiffness, the displacement of a machine",
-            '{ column = "piezo", unit = "nm" }',
-        ),
-    ] = None
-    load: Annotated[
-        Column | None,
-        said("column of the load, with its unit; positive loads press", '{ column = "force", unit = "nN" }'),
-    ] = None
-    branch: Annotated[
-        Word | None,
-        said(
-            'column with "loading" or "unloading", "approach" or "retract", 0 or 1 [from the order of the points]',
-            '"branch"',
-        ),
-    ] = None
-    leave_out: Annotated[
-        list[Word],
-        said(
-            'more words of branch whose rows are left out, beside "pause", "hold", "dwell", "creep" and "modulate"',
-            '["pause"]',
-        ),
-    ] = []  # noqa: RUF012 (pydantic copies it)
-    which: Annotated[
-        Literal["loading", "unloading"] | None,
-        said('the branch that is fitted: "loading" or "unloading" [both]', '"unloading"'),
-    ] = None
-    cycle: Annotated[Word | None, said("column with the number of the cycle, a whole number", '"cycle"')] = None
+    indentation: Column | None = said("column of the depth, with its unit", '{ column = "depth", unit = "nm" }', None)
+    displacement: Column | None = said(
+        "instead of indentation: column of depth + load/stiffness, the displacement of a machine",
+        '{ column = "piezo", unit = "nm" }',
+        None,
+    )
+    load: Column | None = said(
+        "column of the load, with its unit; positive loads press", '{ column = "force", unit = "nN" }', None
+    )
+    branch: Word | None = said(
+        'column with "loading" or "unloading", "approach" or "retract", 0 or 1 [from the order of the points]',
+        '"branch"',
+        None,
+    )
+    leave_out: list[Word] = said(
+        'more words of branch whose rows are left out, beside "pause", "hold", "dwell", "creep" and "modulate"',
+        '["pause"]',
+        [],
+    )
+    which: Literal["loading", "unloading"] | None = said(
+        'the branch that is fitted: "loading" or "unloading" [both]', '"unloading"', None
+    )
+    cycle: Word | None = said("column with the number of the cycle, a whole number", '"cycle"', None)
 
     @property
     def names_columns(self) -> bool:
@@ -288,35 +275,29 @@ class FitTable(Table):
     """What is fitted beside the parameters, and how."""
 
     offsets: Annotated[
-        Any,
-        BeforeValidator(offsets_of),
-        WithJsonSchema({"anyOf": [{"type": "boolean"}, {"type": "object"}]}),
-        said(
-            "whether the zeros are also fitted; as a table `indentation`, `load` and, for a tilt, `slope`",
-            '{ indentation = ["-1 um", "2 um"], load = "free", slope = true }',
-            validate_default=True,
-        ),
-    ] = True
-    average: Annotated[
-        bool, said("whether more than 2,000 points are averaged along the path, never across a jump", "false")
-    ] = True
+        Any, BeforeValidator(offsets_of), WithJsonSchema({"anyOf": [{"type": "boolean"}, {"type": "object"}]})
+    ] = said(
+        "whether the zeros are also fitted; as a table `indentation`, `load` and, for a tilt, `slope`",
+        '{ indentation = ["-1 um", "2 um"], load = "free", slope = true }',
+        default=True,
+        validate_default=True,
+    )
+    average: bool = said(
+        "whether more than 2,000 points are averaged along the path, never across a jump", "false", default=True
+    )
     noise: Annotated[
         dict[str, float] | None,
         BeforeValidator(lambda value: None if value is None else noise_of(value)),
         WithJsonSchema({"type": "object", "additionalProperties": {"type": "string"}}),
-        said(
-            "standard deviations of the measured depth and load [estimated from the data]",
-            '{ load = "0.5 nN", indentation = "0.1 nm" }',
-        ),
-    ] = None
-    intervals: Annotated[
-        Literal["profile", "linear"],
-        said("95 % intervals from profile likelihoods, or from the linearised problem", '"profile"'),
-    ] = "profile"
-    starts: Annotated[
-        int,
-        said("maximum number of refinements, each from other starting values", "32", ge=1, le=MOST_STARTS),
-    ] = 32
+    ] = said(
+        "standard deviations of the measured depth and load [estimated from the data]",
+        '{ load = "0.5 nN", indentation = "0.1 nm" }',
+        None,
+    )
+    intervals: Literal["profile", "linear"] = said(
+        "95 % intervals from profile likelihoods, or from the linearised problem", '"profile"', "profile"
+    )
+    starts: int = said("maximum number of refinements, each from other starting values", "32", 32, ge=1, le=MOST_STARTS)
 
 
 def _rate() -> Any:
@@ -348,19 +329,17 @@ else:
 class FitForm(Table):
     """A whole study of a fit, each key for itself."""
 
-    include: Annotated[str, ABOUT_INCLUDE] = ""
-    title: Annotated[str, ABOUT_TITLE] = ""
-    kind: Annotated[Literal["fit"], BeforeValidator(_is_fit), ABOUT_KIND]
-    data: Annotated[
-        DataTable, said('measured loop, for kind = "fit"', '{ file = "loop.csv", indentation = "d", load = "F" }')
-    ]
-    parameters: Annotated[FitParameters, ABOUT_PARAMETERS]
-    physical: Annotated[FitPhysical, ABOUT_PHYSICAL]
-    profile: Annotated[ProfileTable, ABOUT_PROFILE] = ProfileTable()
-    loading: Annotated[LoadingTable, ABOUT_LOADING] = LoadingTable()
-    toughness: Annotated[ToughnessTable | None, ABOUT_TOUGHNESS] = None
-    rate: Annotated[FitRate | None, ABOUT_RATE] = None
-    fit: Annotated[FitTable, said("further options of the fit", "{ offsets = true }")] = FitTable()
+    include: str = said(*ABOUT_INCLUDE, "")
+    title: str = said(*ABOUT_TITLE, "")
+    kind: Annotated[Literal["fit"], BeforeValidator(_is_fit)] = said(*ABOUT_KIND)
+    data: DataTable = said('measured loop, for kind = "fit"', '{ file = "loop.csv", indentation = "d", load = "F" }')
+    parameters: FitParameters = said(*ABOUT_PARAMETERS)
+    physical: FitPhysical = said(*ABOUT_PHYSICAL)
+    profile: ProfileTable = said(*ABOUT_PROFILE, ProfileTable())
+    loading: LoadingTable = said(*ABOUT_LOADING, LoadingTable())
+    toughness: ToughnessTable | None = said(*ABOUT_TOUGHNESS, None)
+    rate: FitRate | None = said(*ABOUT_RATE, None)
+    fit: FitTable = said("further options of the fit", "{ offsets = true }", FitTable())
 
     method: ClassVar = Method()
     """The exact solver alone; rules of other studies ask."""

@@ -55,9 +55,9 @@ class Table(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True, defer_build=True)
 
 
-def said(about: str, example: str, **limits: Any) -> Any:
-    """Say what a key is about, and a value that would do, as TOML has it."""
-    return Field(description=about, examples=[example], **limits)
+def said(about: str | None, example: str, default: Any = ..., **limits: Any) -> Any:
+    """Declare a key: what it is about, a value that would do, as TOML has it, and what holds where it is left out."""
+    return Field(default, description=about, examples=[example], **limits)
 
 
 class OfCore(Table):
@@ -87,8 +87,8 @@ def table_of(kind: type, name: str = "", **more: Any) -> Any:
         if default is None or (items and default is not dataclasses.MISSING):
             hint, default = Annotated[hint, Field(**limits)] | None, None
             limits = {}
-        about = said(one.metadata["about"], one.metadata["example"], **limits)
-        own[one.name] = (Annotated[hint, about], ... if default is dataclasses.MISSING else default)
+        default = ... if default is dataclasses.MISSING else default
+        own[one.name] = (hint, said(one.metadata["about"], one.metadata["example"], default, **limits))
     made: Any = create_model(
         name or kind.__name__, __base__=OfCore, __doc__=str(kind.__doc__).partition("\n")[0], **own | more
     )
@@ -104,10 +104,8 @@ class Range(Table):
 
     start: float
     stop: float
-    num: Annotated[int, said("the number of values", "50", ge=1)]
-    spacing: Annotated[
-        Literal["linear", "log"], said("whether differences or ratios of neighbours are equal", '"log"')
-    ] = "linear"
+    num: int = said("the number of values", "50", ge=1)
+    spacing: Literal["linear", "log"] = said("whether differences or ratios of neighbours are equal", '"log"', "linear")
 
 
 Entry = float | list[float] | Range
@@ -117,17 +115,10 @@ Entry = float | list[float] | Range
 class File(Table):
     """A file with its fingerprint."""
 
-    file: Annotated[
-        str,
-        said(
-            "path of a file, relative to the folder of the study; for loops, several with * or ?",
-            '"tip.csv"',
-            min_length=1,
-        ),
-    ]
-    sha256: Annotated[
-        str, said("SHA-256 of the file; a file that differs is refused", '"0a1b..."', pattern="^[0-9a-f]{64}$")
-    ] = ""
+    file: str = said(
+        "path of a file, relative to the folder of the study; for loops, several with * or ?", '"tip.csv"', min_length=1
+    )
+    sha256: str = said("SHA-256 of the file; a file that differs is refused", '"0a1b..."', "", pattern="^[0-9a-f]{64}$")
 
 
 def _tagged(which: Any, **forms: Any) -> Any:
@@ -141,8 +132,8 @@ def _form_of(value: object) -> str:
     return "table" if isinstance(value, Mapping | Table) else "list" if isinstance(value, list) else "plain"
 
 
-def _entry(own: Input) -> Any:
-    """Make the type of an input: a number, a list of numbers, or a range table; quantities become numbers in SI."""
+def _entry(own: Input) -> tuple[Any, Any]:
+    """Make the key of an input: a number, a list of numbers, or a range table; quantities become numbers in SI."""
     number: Any
     end: Any
     limits: dict[str, Any] = {"strict": True, **own.bounds}
@@ -153,22 +144,15 @@ def _entry(own: Input) -> Any:
     else:
         end = Annotated[float, Field(allow_inf_nan=False, **limits)]
         number = Annotated[float, Field(**limits)] if own.infinite else end
-    ends: Any = {
-        name: (Annotated[end, said(f"the {which} value", own.value)], ...)
-        for name, which in (("start", "first"), ("stop", "last"))
-    }
-    made: Any = create_model(f"Range_{own.name}", __base__=Range, **ends)
+    start, stop = ((end, said(f"the {which} value", own.value)) for which in ("first", "last"))
+    made: Any = create_model(f"Range_{own.name}", __base__=Range, start=start, stop=stop)
     forms = _tagged(_form_of, plain=number, list=Annotated[list[number], Field(min_length=1)], table=made)
-    return Annotated[forms, said(own.about, own.value)]
+    return forms, said(own.about, own.value, ... if own.name in ("k", "nu") else None)
 
 
 def _table(name: str, **more: Any) -> Any:
     """Make the table of inputs of one name; k and nu are required."""
-    own: dict[str, Any] = {
-        one.name: (_entry(one), ... if one.name in ("k", "nu") else None)
-        for one in INPUTS.values()
-        if one.table == name
-    }
+    own: dict[str, Any] = {one.name: _entry(one) for one in INPUTS.values() if one.table == name}
     return create_model(name.capitalize(), __base__=Table, **own, **more)
 
 
@@ -236,21 +220,11 @@ def _samples(value: object) -> object:
     raise ValueError(f"{words}; write for example samples = 1024")
 
 
-def _uncertainty() -> Any:
-    """Make the table of uncertain inputs."""
+def _deviation(own: Input) -> tuple[Any, Any]:
+    """Make the key of the deviation of an input."""
+    read = BeforeValidator(lambda value: None if value is None else deviation_of(value, own.name))
     schema = WithJsonSchema({"type": ["number", "string", "object"]})
-
-    def deviation(name: str) -> Any:
-        read = BeforeValidator(lambda value: None if value is None else deviation_of(value, name))
-        about = f"uncertainty of {name}: {INPUTS[name].about}"
-        return Annotated[Deviation | None, read, schema, said(about, '"5 %"')]
-
-    own: dict[str, Any] = {name: (deviation(name), None) for name in INPUTS}
-    samples = Annotated[int, BeforeValidator(_samples)]
-    about = "number of quasi-random samples, a power of two; 0: standard deviations by sensitivities only"
-    own["samples"] = (Annotated[samples, said(about, "1024")], 0)
-    own["seed"] = (Annotated[int, said("seed of the random numbers", "1", ge=0, lt=2**63)], 0)
-    return create_model("Uncertainty", __base__=Table, **own)
+    return Annotated[Deviation | None, read, schema], said(f"uncertainty of {own.name}: {own.about}", '"5 %"', None)
 
 
 # The punch, its loading and what its edge meets.
@@ -264,49 +238,59 @@ def _exponent(value: object) -> object:
     raise ValueError(f"{words}; write for example exponent = 2.0")
 
 
-def _profile() -> Any:
-    """Make the table of the shape of the punch: that of a series, of random waves or of heights in a file."""
-    power = dataclasses.fields(Profile)[0].metadata
-    file, sha256 = (File.model_fields[name] for name in ("file", "sha256"))
-    about = said(power["about"], power["example"], json_schema_extra={"minimum": 1.0})
-    spectrum = said(
-        "random self-affine waves instead of harmonics; A is then their rms height over lambda",
-        "{ hurst = 0.8, first = 1, last = 32, realisations = 100, seed = 1 }",
-    )
-    terms = said("number of harmonics to fit to the heights in the file [16]", "16", ge=1, le=MOST_HARMONICS)
-    length = BeforeValidator(lambda value: si_value(value, "up_to"))
-    up_to = said(QUANTITIES["up_to"].about, QUANTITIES["up_to"].value, json_schema_extra={"type": "string"})
-    return table_of(
-        Profile,
-        exponent=(Annotated[float | Literal["fit"], BeforeValidator(_exponent), about], 2.0),
-        spectrum=(Annotated[table_of(Spectrum) | None, spectrum], None),
-        file=(Annotated[str | None, said(str(file.description), '"tip.csv"', min_length=1)], None),
-        sha256=(Annotated[str, said(str(sha256.description), '"0a1b..."', pattern="^[0-9a-f]{64}$")], ""),
-        terms=(Annotated[int | None, terms], None),
-        up_to=(Annotated[float | None, length, up_to], None),
-    )
-
-
 if TYPE_CHECKING:  # made when this is run, which the types cannot show
     Parameters = Any
     Physical = Any
-    ProfileTable = Any
+    Shape = Any
+    SpectrumTable = Any
     LoadingTable = Any
     ToughnessTable = Any
     RateTable = Any
-    Uncertainty = Any
+    Deviations = Any
     Words = str | list[str]
 else:
-    _points = said("scenes from a file (CSV or NetCDF): one row per scene, one column per parameter", '"samples.csv"')
     _file = _tagged(_form_of, plain=Annotated[str, Field(min_length=1)], table=File)
-    Parameters = _table("parameters", points=(Annotated[_file, _points], None))
+    _about = "scenes from a file (CSV or NetCDF): one row per scene, one column per parameter"
+    Parameters = _table("parameters", points=(_file, said(_about, '"samples.csv"', None)))
     Physical = _table("physical")
-    ProfileTable = _profile()
-    LoadingTable = table_of(Loading, machine_stiffness=(_entry(INPUTS["machine_stiffness"]), None))
+    Shape = table_of(Profile)
+    SpectrumTable = table_of(Spectrum)
+    LoadingTable = table_of(Loading, machine_stiffness=_entry(INPUTS["machine_stiffness"]))
     ToughnessTable = table_of(Toughness)
     RateTable = table_of(Rate)
-    Uncertainty = _uncertainty()
+    Deviations = create_model("Deviations", __base__=Table, **{one.name: _deviation(one) for one in INPUTS.values()})
     Words = _tagged(_form_of, plain=str, list=Annotated[list[str], Field(min_length=1)])
+
+
+class Uncertainty(Deviations):  # type: ignore[misc]
+    """How far the inputs may be off."""
+
+    samples: Annotated[int, BeforeValidator(_samples)] = said(
+        "number of quasi-random samples, a power of two; 0: standard deviations by sensitivities only", "1024", 0
+    )
+    seed: int = said("seed of the random numbers", "1", 0, ge=0, lt=2**63)
+
+
+class ProfileTable(Shape):  # type: ignore[misc]
+    """The shape of the punch: that of a series, of random waves or of heights in a file."""
+
+    exponent: Annotated[float | Literal["fit"], BeforeValidator(_exponent)] = said(
+        dataclasses.fields(Profile)[0].metadata["about"], "2.0", 2.0, json_schema_extra={"minimum": 1.0}
+    )
+    spectrum: SpectrumTable | None = said(
+        "random self-affine waves instead of harmonics; A is then their rms height over lambda",
+        "{ hurst = 0.8, first = 1, last = 32, realisations = 100, seed = 1 }",
+        None,
+    )
+    file: str | None = said(File.model_fields["file"].description, '"tip.csv"', None, min_length=1)
+    sha256: str = said(File.model_fields["sha256"].description, '"0a1b..."', "", pattern="^[0-9a-f]{64}$")
+    terms: int | None = said(
+        "number of harmonics to fit to the heights in the file [16]", "16", None, ge=1, le=MOST_HARMONICS
+    )
+    up_to: Annotated[float | None, BeforeValidator(lambda value: si_value(value, "up_to"))] = said(
+        QUANTITIES["up_to"].about, QUANTITIES["up_to"].value, None, json_schema_extra={"type": "string"}
+    )
+
 
 Radius = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 
@@ -314,29 +298,26 @@ Radius = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 class States(Table):
     """The states whose pressure and surface are drawn."""
 
-    contact_radius_over_R: Annotated[  # noqa: N815 (the key of a study)
-        list[Radius] | None,
-        said(
-            "contact radii a/R of equilibrium states [turning point, pull-off and jump-out]",
-            "[0.1, 0.2]",
-            min_length=1,
-            max_length=MOST_STATES,
-        ),
-    ] = None
+    contact_radius_over_R: list[Radius] | None = said(  # noqa: N815 (the key of a study)
+        "contact radii a/R of equilibrium states [turning point, pull-off and jump-out]",
+        "[0.1, 0.2]",
+        None,
+        min_length=1,
+        max_length=MOST_STATES,
+    )
 
 
 class Method(Table):
     """How the scenes are solved."""
 
-    solver: Annotated[
-        Words,
-        said(
-            "the exact solution, or an approximation for short waves; a list compares several", '["exact", "envelope"]'
-        ),
-    ] = "exact"
-    check_contact: Annotated[
-        bool, said("whether `status` reports that the contact on loading is not one disc", "false")
-    ] = True
+    solver: Words = said(
+        "the exact solution, or an approximation for short waves; a list compares several",
+        '["exact", "envelope"]',
+        "exact",
+    )
+    check_contact: bool = said(
+        "whether `status` reports that the contact on loading is not one disc", "false", default=True
+    )
 
     @property
     def solvers(self) -> list[str]:
@@ -350,31 +331,23 @@ Limits = dict[str, Annotated[float, Field(allow_inf_nan=False)]]
 class Require(Table):
     """What an optimum has to meet."""
 
-    one_disc: Annotated[bool, said("whether contact on loading must be one disc", "true")] = False
-    minimum: Annotated[Limits, said("minimum values of other outputs", "{ dissipated_energy = 0.1 }")] = {}
-    maximum: Annotated[Limits, said("maximum values of other outputs", "{ pull_off_radius = 0.2 }")] = {}
+    one_disc: bool = said("whether contact on loading must be one disc", "true", default=False)
+    minimum: Limits = said("minimum values of other outputs", "{ dissipated_energy = 0.1 }", {})
+    maximum: Limits = said("maximum values of other outputs", "{ pull_off_radius = 0.2 }", {})
 
 
 class Optimum(Table):
     """What is sought."""
 
-    maximise: Annotated[
-        Words | None, said("output to maximise; two outputs: their Pareto front", '"pull_off_force"')
-    ] = None
-    minimise: Annotated[
-        Words | None, said("output to minimise, instead or as a second goal", '"dissipated_energy"')
-    ] = None
-    over: Annotated[
-        list[str], said("inputs to search between bounds: { start, stop } without num", '["lambda_over_R"]')
-    ] = []
-    resolution: Annotated[
-        int,
-        said("points of the sweep along each input; narrower peaks may be missed", "200", ge=3, le=MOST_RESOLUTION),
-    ] = 200
-    require: Annotated[
-        Require,
-        said("conditions that an optimum must meet", "{ one_disc = true, minimum = { dissipated_energy = 0.1 } }"),
-    ] = Require()
+    maximise: Words | None = said("output to maximise; two outputs: their Pareto front", '"pull_off_force"', None)
+    minimise: Words | None = said("output to minimise, instead or as a second goal", '"dissipated_energy"', None)
+    over: list[str] = said("inputs to search between bounds: { start, stop } without num", '["lambda_over_R"]', [])
+    resolution: int = said(
+        "points of the sweep along each input; narrower peaks may be missed", "200", 200, ge=3, le=MOST_RESOLUTION
+    )
+    require: Require = said(
+        "conditions that an optimum must meet", "{ one_disc = true, minimum = { dissipated_energy = 0.1 } }", Require()
+    )
 
     @property
     def goals(self) -> list[tuple[str, str]]:
@@ -387,22 +360,21 @@ def list_of(words: str | list[str] | None) -> list[str]:
     return [] if words is None else [words] if isinstance(words, str) else words
 
 
-ABOUT_KIND: Final = said(
-    "one value per scene, curves of each scene, optima, or parameters from a measured loop", '"map"'
-)
-ABOUT_INCLUDE: Final = said(
+ABOUT_KIND: Final = ("one value per scene, curves of each scene, optima, or parameters from a measured loop", '"map"')
+ABOUT_INCLUDE: Final = (
     "path of a study, from the folder of this one, whose keys hold where this one has none, also within its tables",
     '"base.toml"',
 )
-ABOUT_TITLE: Final = said("title of the dataset [name of the file]", '"Pull-off force against wavelength"')
-ABOUT_PARAMETERS: Final = said("the parameters of a scene, each a number or an axis", "{ k = 0.5, nu = 0.3, .. }")
-ABOUT_PHYSICAL: Final = said("quantities with units instead of ratios", '{ R = "1 mm", .. }')
-ABOUT_PROFILE: Final = said("the shape of the punch: a power, and a series of waves", "{ exponent = 2.0 }")
-ABOUT_LOADING: Final = said("control of the punch", '{ control = "load" }')
-ABOUT_TOUGHNESS: Final = said(
-    "a toughness that varies with the radius: a series of waves", "{ harmonics = [{ n = 1, cos = 0.2 }] }"
+ABOUT_TITLE: Final = ("title of the dataset [name of the file]", '"Pull-off force against wavelength"')
+ABOUT_PARAMETERS: Final = ("the parameters of a scene, each a number or an axis", "{ k = 0.5, nu = 0.3, .. }")
+ABOUT_PHYSICAL: Final = ("quantities with units instead of ratios", '{ R = "1 mm", .. }')
+ABOUT_PROFILE: Final = ("the shape of the punch: a power, and a series of waves", "{ exponent = 2.0 }")
+ABOUT_LOADING: Final = ("control of the punch", '{ control = "load" }')
+ABOUT_TOUGHNESS: Final = (
+    "a toughness that varies with the radius: a series of waves",
+    "{ harmonics = [{ n = 1, cos = 0.2 }] }",
 )
-ABOUT_RATE: Final = said("a work of adhesion that grows with the speed of the edge", "{ exponent = 0.6 }")
+ABOUT_RATE: Final = ("a work of adhesion that grows with the speed of the edge", "{ exponent = 0.6 }")
 
 
 def one_line(title: str) -> str:
@@ -415,44 +387,37 @@ def one_line(title: str) -> str:
 class Form(Table):
     """A whole study of scenes, each key for itself."""
 
-    include: Annotated[str, ABOUT_INCLUDE] = ""
-    title: Annotated[str, AfterValidator(one_line), ABOUT_TITLE] = ""
-    kind: Annotated[Kind, ABOUT_KIND] = "map"
-    layout: Annotated[
-        Literal["grid", "points"],
-        said("every combination of the axes is a scene, or the lists are combined item by item", '"grid"'),
-    ] = "grid"
-    outputs: Annotated[
-        list[str],
-        said("quantities to compute for each scene", '["pull_off_force", "dissipated_energy"]', min_length=1),
-    ]
-    parameters: Annotated[Parameters, ABOUT_PARAMETERS]
-    physical: Annotated[Physical | None, ABOUT_PHYSICAL] = None
-    profile: Annotated[ProfileTable, ABOUT_PROFILE] = ProfileTable()
-    loading: Annotated[LoadingTable, ABOUT_LOADING] = LoadingTable()
-    toughness: Annotated[ToughnessTable | None, ABOUT_TOUGHNESS] = None
-    rate: Annotated[RateTable | None, ABOUT_RATE] = None
-    states: Annotated[
-        States,
-        said(
-            'states of contact for pressure and surface, for kind = "curve"', "{ contact_radius_over_R = [0.1, 0.2] }"
-        ),
-    ] = States()
-    optimum: Annotated[
-        Optimum | None,
-        said(
-            'goal, searched inputs and requirements, for kind = "optimum"',
-            '{ maximise = "pull_off_force", over = ["lambda_over_R"] }',
-        ),
-    ] = None
-    uncertainty: Annotated[
-        Uncertainty | None,
-        said(
-            "uncertainties of the inputs: outputs get standard deviations and, with samples, quantiles",
-            '{ modulus = "5 %" }',
-        ),
-    ] = None
-    method: Annotated[Method, said("how the scenes are solved", '{ solver = "exact" }')] = Method()
+    include: str = said(*ABOUT_INCLUDE, "")
+    title: Annotated[str, AfterValidator(one_line)] = said(*ABOUT_TITLE, "")
+    kind: Kind = said(*ABOUT_KIND, "map")
+    layout: Literal["grid", "points"] = said(
+        "every combination of the axes is a scene, or the lists are combined item by item", '"grid"', "grid"
+    )
+    outputs: list[str] = said(
+        "quantities to compute for each scene", '["pull_off_force", "dissipated_energy"]', min_length=1
+    )
+    parameters: Parameters = said(*ABOUT_PARAMETERS)
+    physical: Physical | None = said(*ABOUT_PHYSICAL, None)
+    profile: ProfileTable = said(*ABOUT_PROFILE, ProfileTable())
+    loading: LoadingTable = said(*ABOUT_LOADING, LoadingTable())
+    toughness: ToughnessTable | None = said(*ABOUT_TOUGHNESS, None)
+    rate: RateTable | None = said(*ABOUT_RATE, None)
+    states: States = said(
+        'states of contact for pressure and surface, for kind = "curve"',
+        "{ contact_radius_over_R = [0.1, 0.2] }",
+        States(),
+    )
+    optimum: Optimum | None = said(
+        'goal, searched inputs and requirements, for kind = "optimum"',
+        '{ maximise = "pull_off_force", over = ["lambda_over_R"] }',
+        None,
+    )
+    uncertainty: Uncertainty | None = said(
+        "uncertainties of the inputs: outputs get standard deviations and, with samples, quantiles",
+        '{ modulus = "5 %" }',
+        None,
+    )
+    method: Method = said("how the scenes are solved", '{ solver = "exact" }', Method())
 
     @cached_property
     def entries(self) -> dict[str, Entry]:
