@@ -60,15 +60,15 @@ def _needs_table(asked: Asked, table: str, line: str) -> Found:
             if asked.given(name):
                 words = f"without [{table}] this has no effect; remove it, or add a table [{table}] with {line}"
                 yield home(name), words
-    elif not any(asked.meant(name) for name in names if name != "reference_speed"):
+    elif isinstance(asked.checked.data[table], Mapping) and not any(
+        asked.meant(name) for name in names if name != "reference_speed"
+    ):
         own = INPUTS[names[0] if asked.units else names[-1]]
         yield table, f"it needs {own.example} under [{own.table}]; add it, or remove [{table}]"
 
 
 def toughness(asked: Asked) -> Found:
     """Check a pattern of toughness: its keys, each wave once, and its sign everywhere on the punch."""
-    if "toughness" in asked.checked.data and not asked.sound("toughness"):
-        return
     yield from _needs_table(asked, "toughness", "harmonics = [{ n = 1, cos = 0.2 }]")
     if (table := asked.form.toughness) is None:
         return
@@ -116,9 +116,9 @@ def _sign(asked: Asked) -> Found:
 def rate(asked: Asked) -> Found:
     """Check the law of a moving edge: its keys, what drives it, and what is known of it."""
     form = asked.form
+    yield from _needs_table(asked, "rate", "exponent = 0.6")
     if "rate" in asked.checked.data and not asked.sound("rate"):
         return
-    yield from _needs_table(asked, "rate", "exponent = 0.6")
     for i, name in enumerate(form.outputs):
         own, curve = OUTPUTS.get(name), curve_of(name)
         if form.rate is None and own and own.needs == "rate":
