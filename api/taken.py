@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict
+from dataclasses import asdict, is_dataclass
 from typing import Any, Final
 
 import xarray
@@ -16,9 +16,6 @@ from gradhesion.cli.study.rules.scenes import MOST_SCENES
 from gradhesion.cli.study.text.foreign import as_written
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
-from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.rate import Rate
-from gradhesion.core.problem.toughness import Toughness
 from gradhesion.given import Given
 from gradhesion.values import array_of, numbers_of
 
@@ -152,14 +149,9 @@ def _settings(settings: Mapping[str, Any]) -> dict[str, Any]:
         found["outputs"] = list(outputs)
     if isinstance(found.get("outputs"), list):
         found.setdefault("title", ", ".join(map(str, found["outputs"])))
-    if isinstance(profile := found.get("profile"), Profile):
-        waves = [{"n": wave.n, "cos": wave.cos, "sin": wave.sin} for wave in profile.harmonics]
-        found["profile"] = {"exponent": profile.exponent, "harmonics": waves}
-    if isinstance(toughness := found.get("toughness"), Toughness):
-        waves = [{"n": wave.n, "cos": wave.cos, "sin": wave.sin} for wave in toughness.harmonics]
-        found["toughness"] = {"harmonics": waves, "of": toughness.of}
-    if isinstance(rate := found.get("rate"), Rate):
-        found["rate"] = asdict(rate)
+    for key in ("profile", "toughness", "rate"):
+        if is_dataclass(own := found.get(key)) and not isinstance(own, type):
+            found[key] = as_written(asdict(own))
     if "contact_radius_over_R" in found:
         radii = as_written(found["contact_radius_over_R"])
         found["contact_radius_over_R"] = radii if isinstance(radii, list) else [radii]
