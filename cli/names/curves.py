@@ -32,6 +32,19 @@ MEANINGS: Final = {name: one.meanings for name, one in VARIABLES.items() if one.
 """What 0 and 1 mean where an integer is a flag."""
 
 
+_CURVE_OF: Final = {variable: curve for curve, own in CURVES.items() for variable in own}
+
+
+def curve_of(variable: str) -> str | None:
+    """
+    Name the curve that a variable belongs to, None if to none.
+
+    >>> curve_of("path_load_si"), curve_of("dissipated_energy")
+    ('path', None)
+    """
+    return _CURVE_OF.get(variable.removesuffix(SI))
+
+
 def is_of_a_state(variable: str) -> bool:
     """
     Report whether a variable belongs to a curve of a state.
@@ -39,7 +52,28 @@ def is_of_a_state(variable: str) -> bool:
     >>> is_of_a_state("surface_gap_si"), is_of_a_state("path_load")
     (True, False)
     """
-    return any(variable.removesuffix(SI) in CURVES[curve] for curve in STATE_CURVES)
+    return curve_of(variable) in STATE_CURVES
+
+
+def extent_of(variable: str) -> str:
+    """
+    Name the dimension along the curve that a variable belongs to.
+
+    >>> extent_of("path_load")
+    'path_point'
+    """
+    return EXTENTS[_CURVE_OF[variable.removesuffix(SI)]]
+
+
+def is_ragged(variable: str) -> bool:
+    """
+    Report whether a variable has the items of one scene after those of the other.
+
+    >>> is_ragged("jump_energy"), is_ragged("jump_count"), is_ragged("path_load")
+    (True, False, False)
+    """
+    count = RAGGED.get(curve_of(variable) or "")
+    return count is not None and variable != count
 
 
 def variables_of_curves(there: Container[Any]) -> dict[str, list[str]]:
@@ -54,33 +88,3 @@ def variables_of_curves(there: Container[Any]) -> dict[str, list[str]]:
         for curve, own in CURVES.items()
     }
     return {curve: own for curve, own in found.items() if own}
-
-
-def curve_of(variable: str) -> str | None:
-    """
-    Name the curve that a variable belongs to, None if to none.
-
-    >>> curve_of("path_load_si"), curve_of("dissipated_energy")
-    ('path', None)
-    """
-    return next((curve for curve, own in CURVES.items() if variable.removesuffix(SI) in own), None)
-
-
-def extent_of(variable: str) -> str:
-    """
-    Name the dimension along the curve that a variable belongs to.
-
-    >>> extent_of("path_load")
-    'path_point'
-    """
-    return next(EXTENTS[curve] for curve, own in CURVES.items() if variable.removesuffix(SI) in own)
-
-
-def is_ragged(variable: str) -> bool:
-    """
-    Report whether a variable has the items of one scene after those of the other.
-
-    >>> is_ragged("jump_energy"), is_ragged("jump_count"), is_ragged("path_load")
-    (True, False, False)
-    """
-    return any(variable.removesuffix(SI) in CURVES[curve] and variable != count for curve, count in RAGGED.items())

@@ -9,6 +9,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from gradhesion.cli.names import curves as names
 from gradhesion.cli.study.rules.axes import Values
 from gradhesion.cli.study.rules.form import KINDS
 from gradhesion.cli.study.rules.mistakes import Checked
@@ -97,7 +98,7 @@ class Asked:
 
 def curve_of(name: str) -> str:
     """Name the curve that an output is, or is a variable of; empty for another."""
-    return next((curve for curve, own in CURVES.items() if name == curve or name in own.names), "")
+    return name if name in CURVES else names.curve_of(name) or ""
 
 
 _STEPS: Final = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
