@@ -8,21 +8,14 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal
 from pydantic import BeforeValidator, Field, WithJsonSchema, create_model
 
 from gradhesion.cli.study.rules.form import (
-    ABOUT_INCLUDE,
     ABOUT_KIND,
-    ABOUT_LOADING,
     ABOUT_PARAMETERS,
     ABOUT_PHYSICAL,
-    ABOUT_PROFILE,
     ABOUT_RATE,
-    ABOUT_TITLE,
-    ABOUT_TOUGHNESS,
+    Common,
     File,
-    LoadingTable,
     Method,
-    ProfileTable,
     Table,
-    ToughnessTable,
     said,
     table_of,
 )
@@ -326,18 +319,13 @@ else:
     FitRate = _rate()
 
 
-class FitForm(Table):
+class FitForm(Common):
     """A whole study of a fit, each key for itself."""
 
-    include: str = said(*ABOUT_INCLUDE, "")
-    title: str = said(*ABOUT_TITLE, "")
     kind: Annotated[Literal["fit"], BeforeValidator(_is_fit)] = said(*ABOUT_KIND)
     data: DataTable = said('measured loop, for kind = "fit"', '{ file = "loop.csv", indentation = "d", load = "F" }')
     parameters: FitParameters = said(*ABOUT_PARAMETERS)
     physical: FitPhysical = said(*ABOUT_PHYSICAL)
-    profile: ProfileTable = said(*ABOUT_PROFILE, ProfileTable())
-    loading: LoadingTable = said(*ABOUT_LOADING, LoadingTable())
-    toughness: ToughnessTable | None = said(*ABOUT_TOUGHNESS, None)
     rate: FitRate | None = said(*ABOUT_RATE, None)
     fit: FitTable = said("further options of the fit", "{ offsets = true }", FitTable())
 

@@ -361,19 +361,8 @@ def list_of(words: str | list[str] | None) -> list[str]:
 
 
 ABOUT_KIND: Final = ("one value per scene, curves of each scene, optima, or parameters from a measured loop", '"map"')
-ABOUT_INCLUDE: Final = (
-    "path of a study, from the folder of this one, whose keys hold where this one has none, also within its tables",
-    '"base.toml"',
-)
-ABOUT_TITLE: Final = ("title of the dataset [name of the file]", '"Pull-off force against wavelength"')
 ABOUT_PARAMETERS: Final = ("the parameters of a scene, each a number or an axis", "{ k = 0.5, nu = 0.3, .. }")
 ABOUT_PHYSICAL: Final = ("quantities with units instead of ratios", '{ R = "1 mm", .. }')
-ABOUT_PROFILE: Final = ("the shape of the punch: a power, and a series of waves", "{ exponent = 2.0 }")
-ABOUT_LOADING: Final = ("control of the punch", '{ control = "load" }')
-ABOUT_TOUGHNESS: Final = (
-    "a toughness that varies with the radius: a series of waves",
-    "{ harmonics = [{ n = 1, cos = 0.2 }] }",
-)
 ABOUT_RATE: Final = ("a work of adhesion that grows with the speed of the edge", "{ exponent = 0.6 }")
 
 
@@ -384,11 +373,29 @@ def one_line(title: str) -> str:
     return title
 
 
-class Form(Table):
+class Common(Table):
+    """The keys of studies of every kind."""
+
+    include: str = said(
+        "path of a study, from the folder of this one, whose keys hold where this one has none, also within its tables",
+        '"base.toml"',
+        "",
+    )
+    title: Annotated[str, AfterValidator(one_line)] = said(
+        "title of the dataset [name of the file]", '"Pull-off force against wavelength"', ""
+    )
+    profile: ProfileTable = said(
+        "the shape of the punch: a power, and a series of waves", "{ exponent = 2.0 }", ProfileTable()
+    )
+    loading: LoadingTable = said("control of the punch", '{ control = "load" }', LoadingTable())
+    toughness: ToughnessTable | None = said(
+        "a toughness that varies with the radius: a series of waves", "{ harmonics = [{ n = 1, cos = 0.2 }] }", None
+    )
+
+
+class Form(Common):
     """A whole study of scenes, each key for itself."""
 
-    include: str = said(*ABOUT_INCLUDE, "")
-    title: Annotated[str, AfterValidator(one_line)] = said(*ABOUT_TITLE, "")
     kind: Kind = said(*ABOUT_KIND, "map")
     layout: Literal["grid", "points"] = said(
         "every combination of the axes is a scene, or the lists are combined item by item", '"grid"', "grid"
@@ -398,9 +405,6 @@ class Form(Table):
     )
     parameters: Parameters = said(*ABOUT_PARAMETERS)
     physical: Physical | None = said(*ABOUT_PHYSICAL, None)
-    profile: ProfileTable = said(*ABOUT_PROFILE, ProfileTable())
-    loading: LoadingTable = said(*ABOUT_LOADING, LoadingTable())
-    toughness: ToughnessTable | None = said(*ABOUT_TOUGHNESS, None)
     rate: RateTable | None = said(*ABOUT_RATE, None)
     states: States = said(
         'states of contact for pressure and surface, for kind = "curve"',
