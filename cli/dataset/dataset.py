@@ -17,7 +17,7 @@ from gradhesion.cli.dataset.variable import Variable
 from gradhesion.cli.names.curves import STATE, is_ragged
 from gradhesion.cli.names.outputs import SI
 from gradhesion.cli.names.scenes import REFERENCES, STATUS, STEEP, STEEP_CONTACT
-from gradhesion.cli.names.units import UNITS, unit_of
+from gradhesion.cli.names.units import unit_of
 from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.study.shape_words import profile_table, rate_in_words, shape_in_words, toughness_in_words
 from gradhesion.cli.study.study import Study
@@ -52,8 +52,9 @@ def _output(study: Study, name: str) -> Variable:
     plain = CONTENTS[study.sort].described(study, name.removesuffix(SI))
     if not name.endswith(SI):
         return plain
-    long_name = without_scale(plain.attributes["long_name"], UNITS[name.removesuffix(SI)])
-    return replace(plain, attributes=plain.attributes | {"units": unit_of(name), "long_name": long_name})
+    unit = unit_of(name)
+    long_name = without_scale(plain.attributes["long_name"], unit)
+    return replace(plain, attributes=plain.attributes | {"units": unit, "long_name": long_name})
 
 
 def _status(study: Study) -> Variable:

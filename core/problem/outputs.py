@@ -62,11 +62,6 @@ class Output:
             return words + scale + dollar if dollar else self.symbol_in_si
         return f"{self.symbol_in_si} ${scale[2:]}$"  # without the space before it
 
-    @property
-    def about_in_si(self) -> str:
-        """What it is in SI units."""
-        return without_scale(self.about, self.unit)
-
 
 OUTPUTS: Final = {one.name: one for one in (
     Output("pull_off_force", "pull-off force F/(1.5 pi R dgamma)", "pull-off force $F$", "cycle", "N"),
