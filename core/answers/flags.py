@@ -2,7 +2,6 @@
 
 from typing import Final
 
-from gradhesion.core.problem.status import FLAGS as FLAGS_OF_SCENES
 from gradhesion.core.problem.status import OF_LOOPS, OF_SCENES, Flag
 
 LINEAR_DEVIATION_OFF: Final = 128
@@ -21,7 +20,8 @@ _OF_ANSWERS: Final = (
 )
 ANSWER_FLAGS: Final = {flag.name: flag.bit for flag in _OF_ANSWERS}
 """Name of every flag of answers, with its bit."""
-FLAGS: Final = dict(sorted((FLAGS_OF_SCENES | ANSWER_FLAGS).items(), key=lambda flag: flag[1]))
+_BY_BIT: Final = sorted((*OF_SCENES, *_OF_ANSWERS), key=lambda flag: flag.bit)
+FLAGS: Final = {flag.name: flag.bit for flag in _BY_BIT}
 """Name of every flag of a dataset, with its bit, in the order of the bits."""
-FLAG_WORDS: Final = {flag.name: flag.about for flag in (*OF_SCENES, *_OF_ANSWERS, *OF_LOOPS)}
+FLAG_WORDS: Final = {flag.name: flag.about for flag in (*_BY_BIT, *OF_LOOPS)}
 """Every flag of `status`, in words."""
