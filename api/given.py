@@ -9,12 +9,12 @@ import numpy as np
 import xarray
 
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.keys import INPUTS, PHYSICAL
 from gradhesion.cli.names.scenes import SCENE
-from gradhesion.cli.study.form.axes import Values
 from gradhesion.cli.study.reading import study_from, text_of
+from gradhesion.cli.study.rules.axes import Values
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal.wording import nearest
+from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
 from gradhesion.wording import without_tables
 
 MOST_LISTED: Final = 10_000

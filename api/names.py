@@ -2,9 +2,10 @@
 
 from typing import Any, Final, TypedDict
 
-from gradhesion.cli import keys
+from gradhesion.core.problem import names
+from gradhesion.core.problem.inputs import INPUTS
 
-PARAMETERS: Final = {name: key.about for name, key in keys.PARAMETERS.items()}
+PARAMETERS: Final = {name: INPUTS[name].about for name in names.PARAMETERS}
 """Every parameter of a scene, in the order of a dataset's dimensions, with its `long_name`."""
 
 

@@ -16,7 +16,6 @@ from gradhesion.cli.dataset.read.soundness import is_fit, refuse_fit
 from gradhesion.cli.disk import replacement, writing
 from gradhesion.cli.errors import DatasetError, OutputError
 from gradhesion.cli.installation import checked
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names.scenes import SCENE, SOLVER
 from gradhesion.cli.picture.curves.picture import drawn_curves
 from gradhesion.cli.picture.fits.loops import drawn_fits
@@ -24,6 +23,7 @@ from gradhesion.cli.picture.looks import Looks, looks_of
 from gradhesion.cli.picture.pictured import styled
 from gradhesion.cli.picture.values.picture import drawn
 from gradhesion.cli.study.text.foreign import as_written
+from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.datasets import Data, data_of
 from gradhesion.shown import is_shown, show_later
 from gradhesion.wording import in_python

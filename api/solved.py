@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from gradhesion.cli.dataset.dataset import attributes, variables, with_steep_contact
 from gradhesion.cli.dataset.read.model_range import slope_warnings
 from gradhesion.cli.dataset.variable import Variable
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names.outputs import PHYSICAL_PARAMETER, SI, labels_of
 from gradhesion.cli.names.scenes import REALISATION, SOLVER, STEEP
 from gradhesion.cli.names.units import UNITS
@@ -20,6 +19,7 @@ from gradhesion.cli.terminal import messages
 from gradhesion.cli.work.solve.given import driven_by, physical_of, solved_by
 from gradhesion.core import PARAMETERS
 from gradhesion.core.closed.reduced import parameters_from, scales_in_si, sources_of
+from gradhesion.core.problem.inputs import INPUTS
 
 Arrays = Mapping[str, float | xarray.DataArray]
 """By name; a number is the same in all scenes."""

@@ -2,21 +2,20 @@
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict
+from dataclasses import asdict, is_dataclass
 from typing import Any, Final
 
 import xarray
 
-from gradhesion.cli.keys import INPUTS, PHYSICAL, SETTINGS
 from gradhesion.cli.names.outputs import OUTPUTS, PARAMETER, PHYSICAL_PARAMETER
 from gradhesion.cli.names.scenes import SOLVER
-from gradhesion.cli.study.form.axes import mistakes_of_grid
-from gradhesion.cli.study.form.kinds import KINDS
+from gradhesion.cli.study.rules.axes import repeated
+from gradhesion.cli.study.rules.form import Form
+from gradhesion.cli.study.rules.mistakes import tables_of
+from gradhesion.cli.study.rules.scenes import MOST_SCENES
 from gradhesion.cli.study.text.foreign import as_written
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
-from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.rate import Rate
-from gradhesion.core.problem.toughness import Toughness
+from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
 from gradhesion.given import Given
 from gradhesion.values import array_of, numbers_of
 
@@ -66,7 +65,7 @@ def given_in(
         _take(given, str(name), value)
     _align(given)
     count = math.prod(dict(_sizes(given)).values())
-    most = KINDS[settings.get("kind", "map")].most_scenes
+    most = MOST_SCENES[settings.get("kind", "map")]
     if count > most:
         given.refuse("parameters", f"they make {count:,} scenes, more than {most:,}; use fewer values")
     return given
@@ -74,7 +73,8 @@ def given_in(
 
 def _take(given: Given, name: str, value: Any) -> None:
     """Take one parameter."""
-    if name not in INPUTS and (name in SETTINGS or name in ARGUMENTS or name in _TABLES):
+    keys = {*ARGUMENTS, *_TABLES, *(key for table in tables_of(Form).values() for key in table.model_fields)}
+    if name not in INPUTS and name in keys:
         given.refuse(name, "a key of a study, not a parameter; give it as a keyword, or call gr.run with the study")
     elif name not in INPUTS and (near := nearest(name, [*INPUTS, *ARGUMENTS])) in ARGUMENTS:
         given.refuse(name, f'unknown argument; did you mean "{near}"?')
@@ -104,8 +104,8 @@ def _take_values(given: Given, name: str, value: Any) -> None:
     else:
         taken = array.copy(data=numbers)
         given.arrays[name] = taken.assign_coords({name: numbers}) if array.dims == (name,) else taken
-        for mistake in mistakes_of_grid({name: numbers}) if array.dims == (name,) else ():
-            given.refuse(name, mistake.sentence)
+        for _, sentence in repeated(name, numbers) if array.dims == (name,) else ():
+            given.refuse(name, sentence)
 
 
 def _align(given: Given) -> None:
@@ -149,14 +149,9 @@ def _settings(settings: Mapping[str, Any]) -> dict[str, Any]:
         found["outputs"] = list(outputs)
     if isinstance(found.get("outputs"), list):
         found.setdefault("title", ", ".join(map(str, found["outputs"])))
-    if isinstance(profile := found.get("profile"), Profile):
-        waves = [{"n": wave.n, "cos": wave.cos, "sin": wave.sin} for wave in profile.harmonics]
-        found["profile"] = {"exponent": profile.exponent, "harmonics": waves}
-    if isinstance(toughness := found.get("toughness"), Toughness):
-        waves = [{"n": wave.n, "cos": wave.cos, "sin": wave.sin} for wave in toughness.harmonics]
-        found["toughness"] = {"harmonics": waves, "of": toughness.of}
-    if isinstance(rate := found.get("rate"), Rate):
-        found["rate"] = asdict(rate)
+    for key in ("profile", "toughness", "rate"):
+        if is_dataclass(own := found.get(key)) and not isinstance(own, type):
+            found[key] = as_written(asdict(own))
     if "contact_radius_over_R" in found:
         radii = as_written(found["contact_radius_over_R"])
         found["contact_radius_over_R"] = radii if isinstance(radii, list) else [radii]

@@ -6,9 +6,9 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.keys import INPUTS, PHYSICAL
 from gradhesion.cli.study.text.foreign import apart, as_written, filled
 from gradhesion.cli.study.text.quantities import in_si, si_value
+from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
 
 
 def array_of(name: str, value: Any) -> xarray.DataArray:

@@ -8,7 +8,6 @@ from typing import Any, Final
 
 from docs.tables import code, table
 from gradhesion.cli.dataset.dataset import attributes
-from gradhesion.cli.keys import INPUTS, PARAMETERS
 from gradhesion.cli.names.curves import CURVES, EXTENTS, MEANINGS, RAGGED
 from gradhesion.cli.names.fits import (
     FIT,
@@ -31,19 +30,23 @@ from gradhesion.cli.names.outputs import (
     SPREAD,
     SPREADABLE,
 )
-from gradhesion.cli.names.scenes import FLAG_WORDS, SCENE, SOLVER, STATUS, STEEP, STEEP_CONTACT
+from gradhesion.cli.names.scenes import SCENE, SOLVER, STATUS, STEEP, STEEP_CONTACT
 from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.reading import study_from
 from gradhesion.core import DOUBTFUL, FAILED, REPORTS, SENSITIVITIES
 from gradhesion.core.answers import flags as flags_module
-from gradhesion.core.answers.flags import FLAGS
+from gradhesion.core.answers.flags import FLAG_WORDS, FLAGS
 from gradhesion.core.problem import status as status_module
+from gradhesion.core.problem.inputs import INPUTS
+from gradhesion.core.problem.names import PARAMETERS
 from gradhesion.core.problem.status import OF_FITS
 
 MODULES: Final = (status_module, flags_module)
 """Where flags are defined: those of a scene, and those of answers."""
 
-NO_FLAGS: Final = ("FLAGS", "OF_EVERY_MAP", "OF_FITS", "DOUBTFUL", "FAILED", "ANSWER_FLAGS")
+NO_FLAGS: Final = (
+    "OF_SCENES", "OF_LOOPS", "FLAGS", "OF_EVERY_MAP", "OF_FITS", "DOUBTFUL", "FAILED", "ANSWER_FLAGS", "FLAG_WORDS",
+)  # fmt: skip
 """What `core.problem.status` defines beside its flags."""
 
 ATTRIBUTES: Final = {

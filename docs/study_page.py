@@ -1,31 +1,16 @@
 """The page of every key of a study, from the model that validation goes by."""
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Final
 
 from docs.tables import code, table
-from gradhesion.cli.keys import INPUTS, KEYS, PHYSICAL, REDUCED, SETTINGS, keys_of
 from gradhesion.cli.names.outputs import OUTPUTS
 from gradhesion.cli.study.fit.form import FitForm
-from gradhesion.cli.study.form.form import Form
-from gradhesion.cli.study.form.kinds import KINDS
-from gradhesion.cli.study.rules.between import LAYOUTS
-from gradhesion.cli.study.rules.roles import ABSENT
+from gradhesion.cli.study.rules.form import Form
 from gradhesion.cli.study.text.quantities import WORDS
-from gradhesion.core import CONTROLS, SOLVERS
-from gradhesion.core.problem.rate import CLOSINGS
-from gradhesion.core.problem.toughness import OF
-
-CHOICES: Final = {
-    "kind": tuple(KINDS),
-    "layout": LAYOUTS,
-    "solver": tuple(SOLVERS),
-    "control": tuple(CONTROLS),
-    "of": OF,
-    "closing": CLOSINGS,
-}
-"""The words that a key takes."""
+from gradhesion.core import SOLVERS
+from gradhesion.core.problem.inputs import INPUTS, PHYSICAL, REDUCED
 
 TYPES: Final = {"string": "string", "number": "number", "integer": "integer", "boolean": "true or false"}
 
@@ -52,24 +37,24 @@ def _sections() -> Iterator[str]:
         "Outputs of a map are listed under [variables of a map](dataset.md#variables-of-a-map), those of a curve study "
         "under [variables of curves](dataset.md#variables-of-curves)."
     )
-    yield from _of_parameters(tables["parameters"], schema["$defs"]["FileTable"])
+    yield from _of_parameters(tables["parameters"], schema["$defs"]["File"])
     yield from _of_quantities()
     yield from _of_table("profile", tables["profile"])
     yield "The formula is under [other punches and machines](../punches.md). Each item of `harmonics`:"
-    yield table(HEADS, _rows(schema["$defs"]["Wave"]))
+    yield table(HEADS, _rows(schema["$defs"]["Harmonic"]))
     yield "The table `spectrum` ([random roughness](../measured.md#random-roughness)):"
-    yield table(HEADS, _rows(schema["$defs"]["SpectrumTable"]))
+    yield table(HEADS, _rows(schema["$defs"]["Spectrum"]))
     yield from _of_table("loading", tables["loading"])
     yield from _of_table("toughness", tables["toughness"])
     yield (
         "The series multiplies the toughness or the work of both closing and opening "
         "([a moving edge](../moving_edge.md#a-pattern-of-toughness)). Each item of `harmonics`:"
     )
-    yield table(HEADS, _rows(schema["$defs"]["ToughnessWave"]))
+    yield table(HEADS, _rows(schema["$defs"]["ToughnessHarmonic"]))
     yield from _of_table("rate", tables["rate"])
     yield "[A moving edge](../moving_edge.md#a-speed) describes it."
     yield from _of_table("states", tables["states"])
-    yield from _of_optimum(tables["optimum"], schema["$defs"]["RequireTable"])
+    yield from _of_optimum(tables["optimum"], schema["$defs"]["Require"])
     yield from _of_uncertainty(tables["uncertainty"])
     yield from _of_table("method", tables["method"])
     yield from _of_fits()
@@ -94,12 +79,12 @@ def _of_fits() -> Iterator[str]:
         "because a fit has no axes."
     )
     yield "### [data]"
-    yield f"Required: {SETTINGS['data'].about}."
+    yield f"Required: {FitForm.model_fields['data'].description}."
     yield table(HEADS, _rows(own["DataTable"]))
     yield "A column as a table, instead of its name only:"
     yield table(HEADS, _rows(own["ColumnTable"]))
     yield "### [fit]"
-    yield f"Optional: {SETTINGS['fit'].about}."
+    yield f"Optional: {FitForm.model_fields['fit'].description}."
     yield table(HEADS, _rows(own["FitTable"]))
 
 
@@ -114,7 +99,7 @@ def _of_parameters(own: Mapping[str, Any] | None, files: Mapping[str, Any]) -> I
     """Write the table [parameters]."""
     assert own
     yield "## [parameters]"
-    yield f"Required: {SETTINGS['parameters'].about}."
+    yield f"Required: {Form.model_fields['parameters'].description}."
     rows = [_row(name, own) for name in own["properties"] if name not in REDUCED]
     yield table(HEADS, rows)
     yield "`points` as a table, instead of the name of the file ([scenes from a file](../measured.md)):"
@@ -130,7 +115,7 @@ def _of_quantities() -> Iterator[str]:
     """Write the table [physical]."""
     yield "## [physical]"
     yield (
-        f"Optional: {SETTINGS['physical'].about}. Each is a string with a number and a unit, a list of them, or a "
+        f"{_opens('physical')}. Each is a string with a number and a unit, a list of them, or a "
         "range from one to another. With this table, `R`, `E_star` (or `E`) and `work_of_adhesion` are "
         "required, and `modulus`, `c0_over_R`, `lambda_over_R` and `a_max_over_R` are not allowed under `[parameters]`."
     )
@@ -143,11 +128,16 @@ def _of_quantities() -> Iterator[str]:
     )
 
 
+def _opens(name: str) -> str:
+    """Say what a table is about that may be left out."""
+    return f"Optional: {Form.model_fields[name].description}"
+
+
 def _of_table(name: str, own: Mapping[str, Any] | None) -> Iterator[str]:
     """Write one of the other tables."""
     assert own
     yield f"## [{name}]"
-    yield f"Optional: {SETTINGS[name].about}."
+    yield f"{_opens(name)}."
     yield table(HEADS, _rows(own))
 
 
@@ -169,19 +159,22 @@ def _of_uncertainty(own: Mapping[str, Any] | None) -> Iterator[str]:
     """Write the table of uncertain inputs."""
     assert own
     yield "## [uncertainty]"
-    yield f"Optional: {SETTINGS['uncertainty'].about} ([uncertain inputs](../sensitivities.md#uncertain-inputs))."
+    yield f"{_opens('uncertainty')} ([uncertain inputs](../sensitivities.md#uncertain-inputs))."
     yield (
         "Any key of `[parameters]`, `[physical]` or `[loading]` that the study gives: a percentage of the value of "
         'each scene (`modulus = "5 %"`), a standard deviation in the unit of the key (`A = 0.002`, `c0 = "1 nm"`), or '
         "a uniform distribution (`nu = { low = 0.28, high = 0.32 }`). Normal distributions are truncated at the bounds "
         "of the key. Besides:"
     )
-    yield table(HEADS, _rows({"properties": {name: own["properties"][name] for name in keys_of("uncertainty")}}))
+    yield table(HEADS, _rows({"properties": {name: own["properties"][name] for name in ("samples", "seed")}}))
     yield "A uniform distribution:"
     allowed = "that of the key"
     yield table(
         HEADS,
-        ([code(name), "number or string", allowed, "required", KEYS[name].about] for name in keys_of("deviation")),
+        (
+            [code(name), "number or string", allowed, "required", f"{end} end of a uniform distribution"]
+            for name, end in (("low", "lower"), ("high", "upper"))
+        ),
     )
 
 
@@ -203,15 +196,16 @@ def _row(name: str, own: Mapping[str, Any]) -> list[str]:
 
 def _default(name: str, entry: Mapping[str, Any]) -> str:
     """Report what holds where a key is left out."""
-    if name in INPUTS and INPUTS[name].role:
+    if name in INPUTS and INPUTS[name].is_parameter and not INPUTS[name].group and name not in ("k", "nu"):
         tied = [code(key.name) for key in REDUCED.values() if key.gives == name]
         united = [code(key.name) for key in PHYSICAL.values() if key.gives == name and not key.instead_of]
         given = ", ".join(["this", *tied]) + f" or {' and '.join(united)} under `[physical]`"
         if name == "a_max_over_R":
             return f"`inf`; {given}"
-        return f"{given}; none where `{ABSENT[name][1]}` everywhere" if name in ABSENT else given
+        zero = INPUTS[name].idle_without
+        return f"{given}; none where `{zero} = 0` everywhere" if zero else given
     default = entry.get("default")
-    return "" if default in (None, "") else code(json.dumps(default))
+    return "" if default in (None, "", []) or isinstance(default, dict) else code(json.dumps(default))
 
 
 def _type(entry: Mapping[str, Any]) -> str:
@@ -226,11 +220,17 @@ def _type(entry: Mapping[str, Any]) -> str:
     return " or ".join(names[form.get("type", "")] for form in forms)
 
 
+def _enum(entry: Mapping[str, Any]) -> Iterable[str]:
+    """List the words that a key takes, if it takes some alone."""
+    forms = [entry, *entry.get("anyOf", ())]
+    return next((form["enum"] for form in forms if "enum" in form), ())
+
+
 def _allowed(name: str, entry: Mapping[str, Any]) -> str:
     """Report which values are allowed."""
     if name in INPUTS:
         return code(INPUTS[name].allowed)
-    words = CHOICES.get(name, entry.get("enum", ()))
+    words = SOLVERS if name == "solver" else _enum(entry)
     if words:
         return ", ".join(code(json.dumps(word)) for word in words)
     if name == "outputs":
@@ -241,4 +241,4 @@ def _allowed(name: str, entry: Mapping[str, Any]) -> str:
         return f"1 to {items[0]} waves" if name == "harmonics" else f"1 to {items[0]} values > 0"
     if least is None:
         return ""
-    return f"{least:,} or more" if most is None else f"{least:,} to {most:,}"
+    return f"{least:,} or more" if most is None or most >= 2**62 else f"{least:,} to {most:,}"

@@ -44,7 +44,7 @@ def schema() -> None:
     from pydantic.json_schema import models_json_schema
 
     from gradhesion.cli.study.fit.form import FitForm
-    from gradhesion.cli.study.form.form import Form
+    from gradhesion.cli.study.rules.form import Form
 
     places, own = models_json_schema([(Form, "validation"), (FitForm, "validation")])
     document = {

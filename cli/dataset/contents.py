@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.variable import Variable
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names.curves import (
     CURVES,
     EXTENTS,
@@ -36,6 +35,7 @@ from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.work.solve import curves
 from gradhesion.cli.work.solve.blocks import solved
+from gradhesion.core.problem.inputs import INPUTS
 
 Part = tuple[Block, dict[str, NDArray[Any]]]
 """A block of scenes with the values of its variables."""

@@ -7,14 +7,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.variable import Variable
-from gradhesion.cli.keys import INPUTS, REDUCED
 from gradhesion.cli.names.curves import NAMED_STATES, STATE, is_of_a_state
 from gradhesion.cli.names.scenes import IDLE, REALISATION, REALISATIONS, SOLVER, SOLVERS
 from gradhesion.cli.study.points import COMMENT
-from gradhesion.cli.study.rules.roles import ABSENT
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of
 from gradhesion.cli.work.solve.given import scenes_from
+from gradhesion.core.problem.inputs import INPUTS, REDUCED
 
 RMS: Final = {
     "A": "rms height over wavelength of the random waviness",
@@ -52,7 +51,7 @@ def coordinates(study: Study) -> dict[str, Variable]:
             continue
         attributes = {"units": key.unit, "long_name": key.about}
         if name in study.left_out:
-            attributes["comment"] = f"{IDLE} where {ABSENT[name][1]}; the study leaves it out"
+            attributes["comment"] = f"{IDLE} where {key.idle_without} = 0; the study leaves it out"
         if study.spectrum is not None:
             attributes["long_name"] = RMS.get(name, key.about)
         if name in study.points.columns:

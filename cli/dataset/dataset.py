@@ -15,9 +15,9 @@ from gradhesion.cli.dataset.contents import CONTENTS
 from gradhesion.cli.dataset.coordinates import coordinates
 from gradhesion.cli.dataset.variable import Variable
 from gradhesion.cli.names.curves import STATE, is_ragged
-from gradhesion.cli.names.outputs import CONTACT_SLOPE, SI
+from gradhesion.cli.names.outputs import SI
 from gradhesion.cli.names.scenes import REFERENCES, STATUS, STEEP, STEEP_CONTACT
-from gradhesion.cli.names.units import long_name_in_si, unit_of
+from gradhesion.cli.names.units import unit_of
 from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.study.shape_words import profile_table, rate_in_words, shape_in_words, toughness_in_words
 from gradhesion.cli.study.study import Study
@@ -25,6 +25,8 @@ from gradhesion.cli.terminal import messages
 from gradhesion.cli.work.compiling import prepare
 from gradhesion.core import FLAGS
 from gradhesion.core.answers.flags import FLAGS as ALL_FLAGS
+from gradhesion.core.problem.names import CONTACT_SLOPE
+from gradhesion.core.problem.outputs import without_scale
 from gradhesion.core.problem.status import OF_EVERY_MAP, TOO_MANY_WAVES
 
 if TYPE_CHECKING:
@@ -47,11 +49,12 @@ def variables(study: Study) -> dict[str, Variable]:
 
 def _output(study: Study, name: str) -> Variable:
     """Describe a result, perhaps in SI units."""
-    plain = CONTENTS[study.sort.name].described(study, name.removesuffix(SI))
+    plain = CONTENTS[study.sort].described(study, name.removesuffix(SI))
     if not name.endswith(SI):
         return plain
-    long_name = long_name_in_si(plain.attributes["long_name"])
-    return replace(plain, attributes=plain.attributes | {"units": unit_of(name), "long_name": long_name})
+    unit = unit_of(name)
+    long_name = without_scale(plain.attributes["long_name"], unit)
+    return replace(plain, attributes=plain.attributes | {"units": unit, "long_name": long_name})
 
 
 def _status(study: Study) -> Variable:
@@ -163,7 +166,7 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
 
     prepare(study)
     described = variables(study)
-    kind = CONTENTS[study.sort.name]
+    kind = CONTENTS[study.sort]
     found = kind.joined(study, kind.parts(study, threads))
     steep = found.pop(STEEP, np.zeros(1, np.int8))
     for sentence in cautions(study, flagged_in(found["status"]), int(np.count_nonzero(steep))):

@@ -24,7 +24,7 @@ POINTS: Final = 1024
 
 def define(file: netCDF4.Dataset, study: Study, history: str) -> None:
     """Write all of a dataset but the values of its outputs."""
-    filled = CONTENTS[study.sort.name].filled
+    filled = CONTENTS[study.sort].filled
     if filled:
         file.set_fill_off()
     file.setncatts(dataset.attributes(study, history))
@@ -57,7 +57,7 @@ def _create(file: netCDF4.Dataset, study: Study, name: str, described: Variable)
         settings["fill_value"] = described.blank
     dtype = str if described.dtype == "str" else described.dtype
     variable = file.createVariable(name, dtype, described.dimensions, **settings)
-    if CONTENTS[study.sort.name].filled and "chunksizes" in settings:
+    if CONTENTS[study.sort].filled and "chunksizes" in settings:
         variable.set_var_chunk_cache(CACHE)
     variable.setncatts(described.attributes)
     return variable

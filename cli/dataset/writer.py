@@ -236,10 +236,10 @@ def _solved(
     study: Study, path: Path, folder: Folder, threads: int | None, engine: Engine
 ) -> Generator[tuple[int, Solved], None, None]:
     """Give the blocks of a study with their values; of curves each scene is one."""
-    if study.sort.has_parts:
+    if study.in_blocks:
         yield from engine.results(Work(study, path, folder, range(len(study.tiling))))
     else:
-        yield from ((i, Solved(*part)) for i, part in enumerate(CONTENTS[study.sort.name].parts(study, threads)))
+        yield from ((i, Solved(*part)) for i, part in enumerate(CONTENTS[study.sort].parts(study, threads)))
 
 
 def _finished(folder: Folder, target: Path, study: Study) -> Written | None:

@@ -13,13 +13,13 @@ from gradhesion.cli.dataset.read.reader import is_turned
 from gradhesion.cli.dataset.read.sensitivities import PLAIN, part_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.plain import in_order, symbol, title, words
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names.curves import INTEGERS, curve_of
-from gradhesion.cli.names.scenes import FLAG_WORDS, SCENE, SOLVER, SOLVERS
+from gradhesion.cli.names.scenes import SCENE, SOLVER, SOLVERS
 from gradhesion.cli.picture.labels import Unit, unit_for
 from gradhesion.cli.picture.scales import scale
 from gradhesion.core import FAILED
-from gradhesion.core.answers.flags import FLAGS
+from gradhesion.core.answers.flags import FLAG_WORDS, FLAGS
+from gradhesion.core.problem.inputs import INPUTS
 
 DIGITS: Final = 6
 """Significant digits of a value: as many as single precision keeps of any decimal number."""

@@ -4,9 +4,9 @@ import re
 from typing import Final
 
 from gradhesion.cli.dataset.read.sensitivities import part_of
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names.outputs import SI, SPREADS
 from gradhesion.cli.names.symbols import SYMBOLS
+from gradhesion.core.problem.inputs import INPUTS
 
 _TEX: Final = (
     (r"\ln$ ", "ln "),

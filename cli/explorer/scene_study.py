@@ -9,10 +9,10 @@ import xarray
 
 from gradhesion.cli.dataset.read.reader import has_curves
 from gradhesion.cli.explorer.data import Entry
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names.outputs import SI
 from gradhesion.cli.picture.labels import given
 from gradhesion.cli.study.text.written import toml_of
+from gradhesion.core.problem.inputs import INPUTS
 
 OF_AXES: Final = ("parameters", "physical")
 """The tables whose keys are those of the scene."""

@@ -23,24 +23,6 @@ IDLE: Final = "without effect"
 STATUS: Final = "flags of a scene (0: nothing to report)"
 """The `long_name` of `status`."""
 
-FLAG_WORDS: Final = {
-    "loading_contact_not_one_disc": "contact on loading is not one disc",
-    "unloading_contact_not_one_disc": "contact on unloading is not one disc",
-    "pull_off_at_rim": "the pull-off is at the rim",
-    "jump_in_to_rim": "the jump-in reaches the rim",
-    "close_to_a_jump": "an input error of 1e-10 could change a number of jumps or the place of the pull-off",
-    "tolerance_not_met": "the requested accuracy is not reached",
-    "no_value": "a parameter is outside its range, or the scene cannot be resolved",
-    "linear_deviation_off": "a linear standard deviation is off: a kink is near",
-    "resolution_too_coarse": "a sweep finer than the resolution finds another optimum",
-    "nothing_feasible": "no point of the sweep meets the requirements",
-    "no_contact": "the cycle turns before first contact",
-    "too_many_waves": "the contact contains more waves than can be followed",
-    "poor_fit": "the residual exceeds the noise",
-    "another_minimum": "other values fit the loop as well within its noise",
-}
-"""Every flag of `status`, in words."""
-
 STEEP: Final = "steep_contact"
 """The coordinate that marks the scenes whose contact reaches a slope of the punch that is not small, if any does."""
 

@@ -14,8 +14,7 @@ from gradhesion.cli.dataset.read import doubtful
 from gradhesion.cli.dataset.read.doubtful import doubts_of
 from gradhesion.cli.dataset.read.model_range import LIMITS
 from gradhesion.cli.names.outputs import BEST, ON_BOUND
-from gradhesion.cli.names.scenes import FLAG_WORDS
-from gradhesion.core.answers.flags import FLAGS
+from gradhesion.core.answers.flags import FLAG_WORDS, FLAGS
 
 INK: Final = "0.25"
 """The colour of marks in a legend."""

@@ -7,10 +7,10 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names.scenes import IDLE
 from gradhesion.cli.names.symbols import SYMBOLS
 from gradhesion.cli.names.units import unit_of
+from gradhesion.core.problem.inputs import INPUTS
 
 UNIT_SYMBOLS: Final = {"m": "m", "Pa": "Pa", "J/m^2": "J/m$^2$", "N": "N", "J": "J", "N/m": "N/m"}
 """Units as a picture writes them."""

@@ -3,7 +3,7 @@
 import json
 import re
 import tomllib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final
@@ -11,18 +11,17 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli import keys
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names.outputs import OUTPUTS, SI
-from gradhesion.cli.study.form.axes import MOST_VALUES
-from gradhesion.cli.study.form.mistakes import Mistake
+from gradhesion.cli.study.rules.axes import MOST_VALUES
+from gradhesion.cli.study.rules.mistakes import Mistake
 from gradhesion.cli.study.text import places
 from gradhesion.cli.study.text.quantities import in_si
-from gradhesion.cli.tables.columns import Columns, ColumnsError
+from gradhesion.cli.tables.columns import Columns, ColumnsError, changed
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.wording import did_you_mean, shown
+from gradhesion.core.problem.inputs import INPUTS
 
-KEY: Final[keys.Path] = ("parameters", "points")
+KEY: Final[places.Path] = ("parameters", "points")
 
 COMMENT: Final = "a column of "
 """How the comment of a coordinate begins that is a column of a file."""
@@ -122,10 +121,8 @@ def points_of(
     except ColumnsError as error:
         return Points(written=written, mistakes=(Mistake(KEY, written, str(error)),))
     if expected and expected != found.sha256:
-        sentence = (
-            f"the file is not the one that this study was written for: its sha256 is {found.sha256[:12]}..., not "
-            f"{expected[:12]}...; put that file back, or write points = {json.dumps(file, ensure_ascii=False)}"
-        )
+        remedy = f"write points = {json.dumps(file, ensure_ascii=False)}"
+        sentence = changed(found.sha256, expected, remedy)
         return Points(written=written, mistakes=(Mistake(KEY, written, sentence),))
     mistakes = [Mistake(KEY, written, sentence) for sentence in _mistakes(data, found)]
     columns, wrong = {}, []
@@ -180,13 +177,7 @@ def _column(name: str, given: NDArray[np.float64], found: Columns) -> NDArray[np
         values = in_si(given, unit or key.unit, name)
     except ValueError as error:
         raise ColumnsError(f"its column {name} [{unit}]: {error}") from None
-    tests: dict[str, Callable[[Any, Any], Any]] = {"ge": np.less, "gt": np.less_equal, "le": np.greater}
-    bad = np.isnan(values) if key.infinite else ~np.isfinite(values)
-    for bound, value in key.bounds.items():
-        bad |= tests[bound](values, value)
-    if key.infinite and not key.bounds:
-        bad |= ~(values > 0.0)
-    rows = np.flatnonzero(bad)
+    rows = np.flatnonzero(~key.admits(values))
     if rows.size:
         more = f", and {rows.size - 1:,} more rows are as well" if rows.size > 1 else ""
         value = float(given[rows[0]])

@@ -9,20 +9,20 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli import keys
-from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.study.form.mistakes import Mistake
+from gradhesion.cli.study.rules.mistakes import Mistake, example
+from gradhesion.cli.study.text.places import Path as Key
 from gradhesion.cli.study.text.quantities import si_value
 from gradhesion.cli.study.text.written import with_fingerprint
-from gradhesion.cli.tables.columns import Columns, ColumnsError
+from gradhesion.cli.tables.columns import Columns, ColumnsError, changed
 from gradhesion.cli.tables.reading import read_columns
-from gradhesion.cli.terminal.wording import did_you_mean, example, shown
+from gradhesion.cli.terminal.wording import did_you_mean, shown
+from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.profile import Profile
 
 if TYPE_CHECKING:
     from gradhesion.core.answers.profile_fit import FittedProfile
 
-KEY: Final[keys.Path] = ("profile", "file")
+KEY: Final[Key] = ("profile", "file")
 COLUMNS: Final = ("r", "height")
 """The columns of a measured profile."""
 TERMS: Final = 16
@@ -95,7 +95,7 @@ def measured_in(data: Mapping[str, Any], folder: Path) -> Measured:
     try:
         places_, heights, sha256, dropped = read_profile(folder / file)
         if expected and expected != sha256:
-            mistakes.append(Mistake(KEY, file, _changed(sha256, expected)))
+            mistakes.append(Mistake(KEY, file, changed(sha256, expected, "remove sha256")))
             return Measured(file=file, mistakes=tuple(mistakes))
         fit = fitted(places_, heights, up_to=up_to, terms=terms, exponent=exponent)
     except ValueError as error:
@@ -180,14 +180,6 @@ def _in_metres(found: Columns, name: str) -> NDArray[np.float64]:
         return found.values[name] * si_value(f"1 {unit}", "up_to")
     except ValueError:
         raise ColumnsError(f"the unit of {name} [{unit}] is not a length; write for example {name} [nm]") from None
-
-
-def _changed(found: str, expected: str) -> str:
-    """Say that a file is another than it was."""
-    return (
-        f"the file is not the one that this study was written for: its sha256 is {found[:12]}..., not "
-        f"{expected[:12]}...; put that file back, or remove sha256"
-    )
 
 
 def _up_to(data: Mapping[str, Any], table: Mapping[str, Any]) -> float | None:

@@ -23,14 +23,8 @@ def shape_in_words(profile: Profile, spectrum: Spectrum | None = None) -> str:
         waves = f"random waves {spectrum.first} to {spectrum.last}, Hurst exponent {spectrum.hurst:.15g}"
         drawn = f"{spectrum.realisations:,} realisations, seed {spectrum.seed}"
         return f"{own} + lambda A [{waves}; {drawn}], x = r/lambda"
-    terms = [term for harmonic in profile.harmonics for term in _terms(harmonic)]
-    if not terms:
-        return own
-    first, *others = terms
-    written = ("-" if first[0] < 0.0 else "") + _term(*first, alone=len(terms) == 1)
-    for size, wave in others:
-        written += (" - " if size < 0.0 else " + ") + _term(size, wave, alone=False)
-    return f"{own} + lambda A [{written}], x = r/lambda"
+    written = _series([term for harmonic in profile.harmonics for term in _terms(harmonic)])
+    return f"{own} + lambda A [{written}], x = r/lambda" if written else own
 
 
 def profile_table(profile: Profile) -> str:
@@ -69,20 +63,10 @@ def toughness_in_words(toughness: Toughness) -> str:
     >>> toughness_in_words(Toughness((ToughnessHarmonic(n=1, cos=0.5), ToughnessHarmonic(n=2, sin=-0.1))))
     'K_c times 1 + t [0.5 cos(2 pi y) - 0.1 sin(4 pi y)], y = r/lambda_t'
     """
-    terms = [
-        (size, f"{wave}({2 * one.n} pi y)")
-        for one in toughness.harmonics
-        for size, wave in ((one.cos, "cos"), (one.sin, "sin"))
-        if size != 0.0
-    ]
+    waves = ((one.n, size, wave) for one in toughness.harmonics for size, wave in ((one.cos, "cos"), (one.sin, "sin")))
+    written = _series([(size, f"{wave}({2 * n} pi y)") for n, size, wave in waves if size != 0.0])
     what = {"toughness": "K_c", "work": "w"}[toughness.of]
-    if not terms:
-        return f"{what} times 1"
-    (size, wave), *others = terms
-    written = ("-" if size < 0.0 else "") + _term(size, wave, alone=True)
-    for size, wave in others:
-        written += (" - " if size < 0.0 else " + ") + _term(size, wave, alone=False)
-    return f"{what} times 1 + t [{written}], y = r/lambda_t"
+    return f"{what} times 1 + t [{written}], y = r/lambda_t" if written else f"{what} times 1"
 
 
 def rate_in_words(rate: Rate) -> str:
@@ -104,7 +88,13 @@ def _terms(harmonic: Harmonic) -> list[tuple[float, str]]:
     return [(size, wave) for size, wave in waves if size != 0.0]
 
 
-def _term(size: float, wave: str, *, alone: bool) -> str:
-    """Write a wave with its size, its sign apart."""
+def _series(terms: list[tuple[float, str]]) -> str:
+    """Write waves with their sizes as a sum."""
+    written = "".join((" - " if size < 0.0 else " + ") + _term(size, wave, len(terms)) for size, wave in terms)
+    return ("-" if written.startswith(" -") else "") + written[3:]
+
+
+def _term(size: float, wave: str, terms: int) -> str:
+    """Write one of so many waves with its size, its sign apart."""
     factor = "" if abs(size) == 1.0 else f"{abs(size):.15g} "
-    return factor + (f"({wave})" if wave.startswith("1") and not (alone and size == 1.0) else wave)
+    return factor + (f"({wave})" if wave.startswith("1") and not (terms == 1 and size == 1.0) else wave)

@@ -11,20 +11,18 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.keys import CLOSING, INPUTS, MACHINE, PATTERN, TURNS
 from gradhesion.cli.names.outputs import BEST, OF_PHYSICAL, ON_BOUND, PARAMETER, PHYSICAL_PARAMETER, SI, labels_of
 from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
 from gradhesion.cli.names.units import UNITS
-from gradhesion.cli.study.form.axes import Values
-from gradhesion.cli.study.form.kinds import KINDS, PARETO, Kind
 from gradhesion.cli.study.points import Points
 from gradhesion.cli.study.profile_file import Measured
-from gradhesion.cli.study.rules.search import Search
-from gradhesion.cli.study.rules.uncertainty import Uncertainty
+from gradhesion.cli.study.rules.answers import Search, Uncertainty
+from gradhesion.cli.study.rules.axes import Values
 from gradhesion.cli.study.tiling import CHUNK, Block, Tiling
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
 from gradhesion.core.problem.control import Loading
-from gradhesion.core.problem.names import PARAMETERS, RANGE, SENSITIVITIES
+from gradhesion.core.problem.inputs import INPUTS
+from gradhesion.core.problem.names import CLOSING, MACHINE, PARAMETERS, PATTERN, RANGE, SENSITIVITIES, TURNS
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.reach import depends_on_contact
@@ -188,9 +186,9 @@ class Study:
         return self.profile.exponent == 1.0
 
     @property
-    def sort(self) -> Kind:
-        """What studies like it have in common."""
-        return PARETO if self.search.is_front else KINDS[self.kind]
+    def sort(self) -> str:
+        """What its dataset is like: that of its kind, or of a front."""
+        return "pareto" if self.search.is_front else self.kind
 
     @cached_property
     def labels(self) -> dict[str, tuple[str, ...]]:
@@ -255,9 +253,14 @@ class Study:
         return math.prod(self.shape)
 
     @property
+    def in_blocks(self) -> bool:
+        """Whether it is computed in blocks, and finished ones are kept, so that a run resumes where it stopped."""
+        return self.sort in ("map", "optimum")
+
+    @property
     def has_parts(self) -> bool:
         """Whether finished blocks are kept: one block is done or not."""
-        return self.sort.has_parts and len(self.tiling) > 1
+        return self.in_blocks and len(self.tiling) > 1
 
     @cached_property
     def tiling(self) -> Tiling:

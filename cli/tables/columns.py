@@ -63,3 +63,10 @@ def tidy(unit: str) -> str:
     ('um', '', '')
     """
     return "" if unit in ("", "1", "-") else unit
+
+
+def changed(found: str, expected: str, remedy: str, *, several: bool = False) -> str:
+    """Say that a file is not the one that a study was written for, or that several are not, by their fingerprints."""
+    what, back = ("files are not the ones", "those") if several else ("file is not the one", "that file")
+    fingerprints = f"its sha256 is {found[:12]}..., not {expected[:12]}..."
+    return f"the {what} that this study was written for: {fingerprints}; put {back} back, or {remedy}"

@@ -1,40 +1,22 @@
-"""Words that messages share: suggestions, values as TOML writes them, and lines that would do."""
+"""Words that messages share: suggestions, and values as TOML writes them."""
 
 import difflib
 import json
 from collections.abc import Mapping, Sequence
 from typing import Final
 
-from gradhesion.cli.keys import KEYS, Path
+from gradhesion.core.problem.inputs import INPUTS
 
 SLIP: Final = 0.8
 """How like each other two words are, from 0 to 1, of which one is the other with a letter or two wrong."""
 
-MEANT: Final[Mapping[str, tuple[str, ...]]] = {
-    "work_of_adhesion": (
-        "gamma", "dgamma", "delta_gamma", "deltagamma", "w", "w_adh", "adhesion", "adhesion_energy", "surface_energy",
-    ),
-    "nu": ("poisson", "poisson_ratio", "poissons_ratio", "v"),
-    "E_star": ("e*", "estar", "e_eff", "reduced_modulus", "effective_modulus", "plane_strain_modulus"),
-    "E": ("young", "youngs_modulus", "young_modulus", "elastic_modulus", "e0"),
-    "R": ("radius", "tip_radius", "curvature_radius", "r0"),
-    "wavelength": ("lambda", "lam", "period"),
-    "lambda_over_R": ("wavelength_over_r", "lam_over_r", "lambda", "lam", "wavelength"),
-    "amplitude": ("height", "wave_height"),
-    "A": ("amplitude_over_wavelength", "amplitude_over_lambda", "a_over_lambda", "amplitude"),
-    "k": ("exponent", "gradient", "gradient_exponent"),
-    "c0": ("gradient_depth", "characteristic_depth"),
-    "spring_constant": ("stiffness", "spring", "spring_stiffness", "cantilever_stiffness"),
-    "machine_stiffness": ("stiffness", "machine"),
-    "preload": ("load", "maximum_load", "max_load", "setpoint"),
-    "indentation_max": ("depth", "indentation", "max_indentation", "max_depth"),
-    "a_max": ("contact_radius", "max_radius"),
-    "adhesion_range": ("z0", "range", "interaction_range"),
+CALLED: Final[Mapping[str, tuple[str, ...]]] = {
+    **{name: one.called for name, one in INPUTS.items()},
     "num": ("count", "n", "number", "points", "n_points", "steps", "size"),
     "spacing": ("scale", "space"),
     "start": ("from", "min", "low", "begin", "first"),
     "stop": ("to", "max", "high", "end", "last"),
-}  # fmt: skip
+}
 """What else keys are called, in small letters."""
 
 
@@ -64,7 +46,7 @@ def nearest(word: str, known: Sequence[str]) -> str | None:
     if word in known:
         return word
     lower = {name.lower(): name for name in known}
-    called = {other: name for name, others in MEANT.items() if name in known for other in others if other not in lower}
+    called = {other: name for name, others in CALLED.items() if name in known for other in others if other not in lower}
     for name in difflib.get_close_matches(word.lower(), [*called, *lower], n=1, cutoff=SLIP):
         return (called | lower)[name]
     parts = [name for name in lower if f"_{word.lower()}_" in f"_{name}_"] if word else []
@@ -92,21 +74,3 @@ def shown(value: object) -> str:
     else:
         text = str(value)
     return text if len(text) <= 80 else text[:76] + " ..."
-
-
-def example(path: Path) -> str:
-    """Show a line that would do."""
-    return f"write for example {line_of(path)}"
-
-
-def line_of(path: Path) -> str:
-    """
-    Write a line that would do.
-
-    >>> line_of(("parameters", "k", 3)), line_of(("physical", "R", "stop"))
-    ('k = 0.5 or k = [0.0, 0.5]', 'stop = "1 mm"')
-    """
-    named = [step for step in path if isinstance(step, str)]
-    if path[0] == "physical" and named[-1] in ("start", "stop"):
-        return KEYS[named[1]].example.replace(named[1], named[-1], 1)
-    return KEYS[named[-1]].example

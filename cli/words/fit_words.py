@@ -8,12 +8,12 @@ import numpy as np
 import xarray
 
 from gradhesion.cli.dataset.read.model_range import slope_warnings, tabor_warnings
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names.fits import MINIMUM, PARAMETER_UNITS
 from gradhesion.cli.names.outputs import PARAMETER
-from gradhesion.cli.names.scenes import FLAG_WORDS
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
+from gradhesion.core.answers.flags import FLAG_WORDS
 from gradhesion.core.loops.fitted import poor_from
+from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.status import FLAGS, POOR_FIT
 
 TOGETHER: Final = 0.9

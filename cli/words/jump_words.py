@@ -9,8 +9,8 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names.curves import EXTENTS, INTEGERS, RAGGED, curve_of, variables_of_curves
+from gradhesion.core.problem.inputs import INPUTS
 
 ITEMS: Final = 2**16
 """Jumps that are read at a time."""

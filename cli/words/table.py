@@ -10,10 +10,10 @@ import xarray
 from gradhesion.cli.dataset.read.reader import tiling_of
 from gradhesion.cli.dataset.read.sensitivities import parts_of, spread
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names.curves import INTEGERS, variables_of_curves
 from gradhesion.cli.names.scenes import REALISATION, SOLVER
 from gradhesion.cli.terminal.wording import did_you_mean
+from gradhesion.core.problem.inputs import INPUTS
 
 MOST: Final = 1_000_000
 """Lines of a table: what a spreadsheet takes."""

@@ -6,8 +6,6 @@ from contextlib import suppress
 
 import xarray
 
-from gradhesion.cli.keys import keys_of
-
 
 def uncertainty_lines(dataset: xarray.Dataset) -> Iterator[str]:
     """Say which inputs are uncertain, by how much, and how many samples were drawn; nothing of another dataset."""
@@ -20,7 +18,7 @@ def uncertainty_lines(dataset: xarray.Dataset) -> Iterator[str]:
     samples = table.get("samples", 0)
     yield "uncertain inputs" + (f", {samples:,} samples" if isinstance(samples, int) and samples else "")
     for name, value in table.items():
-        if name in keys_of("uncertainty"):
+        if name in ("samples", "seed"):
             continue
         if isinstance(value, Mapping):
             yield f"  {name:<17} uniform from {value.get('low')} to {value.get('high')}"

@@ -6,8 +6,8 @@ import xarray
 
 from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by, is_cone
 from gradhesion.cli.dataset.read.reader import tiling_of
-from gradhesion.cli.names.outputs import CONTACT_SLOPE
 from gradhesion.cli.terminal.amounts import counted, percent
+from gradhesion.core.problem.names import CONTACT_SLOPE
 
 
 def validity_lines(dataset: xarray.Dataset) -> Iterator[str]:

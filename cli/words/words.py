@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read.reader import has_curves, tiling_of
 from gradhesion.cli.dataset.read.sensitivities import parts_of
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names.outputs import ON_BOUND
-from gradhesion.cli.names.scenes import FLAG_WORDS, IDLE, REALISATION, SCENE, SOLVER
+from gradhesion.cli.names.scenes import IDLE, REALISATION, SCENE, SOLVER
 from gradhesion.cli.study.shape_words import control_in_words
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted, percent
 from gradhesion.cli.words.curve_words import curve_lines
@@ -22,8 +21,9 @@ from gradhesion.cli.words.uncertainty_words import uncertainty_lines
 from gradhesion.cli.words.validity_words import validity_lines
 from gradhesion.cli.words.value_words import is_of_one_scene, value_lines
 from gradhesion.core import FAILED
-from gradhesion.core.answers.flags import FLAGS
+from gradhesion.core.answers.flags import FLAG_WORDS, FLAGS
 from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.inputs import INPUTS
 
 FEW: Final = 8
 """Values of an axis that are listed one by one."""

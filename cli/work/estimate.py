@@ -68,7 +68,7 @@ class Estimate:
 def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate:
     """Find out what a run would do and cost; writes nothing."""
     folder = folder_of(output)
-    is_map = study.sort.has_parts
+    is_map = study.in_blocks
     count = len(study.tiling)
     of_block = bytes_of(study, study.tiling[0]) if is_map else 0
     foreign, old = folder.foreign(), folder.manifest()

@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from gradhesion.core.problem.status import FLAGS as OF_SCENES
+from gradhesion.core.problem.status import OF_LOOPS, OF_SCENES, Flag
 
 LINEAR_DEVIATION_OFF: Final = 128
 """The linear standard deviation is wrong, because a kink lies within the spread of the inputs or the value bends: by
@@ -13,11 +13,15 @@ only."""
 NOTHING_FEASIBLE: Final = 512
 """No point of the sweep meets the requirements. Optima only."""
 
-ANSWER_FLAGS: Final = {
-    "linear_deviation_off": LINEAR_DEVIATION_OFF,
-    "resolution_too_coarse": RESOLUTION_TOO_COARSE,
-    "nothing_feasible": NOTHING_FEASIBLE,
-}
+_OF_ANSWERS: Final = (
+    Flag(LINEAR_DEVIATION_OFF, "linear_deviation_off", "a linear standard deviation is off: a kink is near"),
+    Flag(RESOLUTION_TOO_COARSE, "resolution_too_coarse", "a sweep finer than the resolution finds another optimum"),
+    Flag(NOTHING_FEASIBLE, "nothing_feasible", "no point of the sweep meets the requirements"),
+)
+ANSWER_FLAGS: Final = {flag.name: flag.bit for flag in _OF_ANSWERS}
 """Name of every flag of answers, with its bit."""
-FLAGS: Final = dict(sorted((OF_SCENES | ANSWER_FLAGS).items(), key=lambda flag: flag[1]))
+_BY_BIT: Final = sorted((*OF_SCENES, *_OF_ANSWERS), key=lambda flag: flag.bit)
+FLAGS: Final = {flag.name: flag.bit for flag in _BY_BIT}
 """Name of every flag of a dataset, with its bit, in the order of the bits."""
+FLAG_WORDS: Final = {flag.name: flag.about for flag in (*_BY_BIT, *OF_LOOPS)}
+"""Every flag of `status`, in words."""

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gradhesion.core.problem.profile import HIGHEST, MOST_HARMONICS, Harmonic, Profile
+from gradhesion.core.problem.settings import check_settings, setting
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,8 +27,10 @@ class Spectrum:
         H, 0 to 1.
     first, last
         The longest and the shortest wave, in waves per wavelength: 1 <= first <= last <= 10,000, 64 of them at most.
-    realisations, seed
-        How many profiles are drawn, 1 or more; seed of the random phases, 0 or more.
+    realisations
+        How many profiles are drawn, 1 to 100,000.
+    seed
+        Seed of the random phases, 0 or more.
 
     Raises
     ------
@@ -40,20 +43,23 @@ class Spectrum:
     32
     """
 
-    hurst: float
-    first: int
-    last: int
-    realisations: int
-    seed: int
+    hurst: float = setting(
+        "Hurst exponent H: the amplitudes of the waves n fall as n^-(H + 1/2)", "0.8", ge=0.0, le=1.0
+    )
+    first: int = setting("number of the longest wave; its wavelength is lambda/first", "1", default=1, ge=1, le=HIGHEST)
+    last: int = setting("number of the shortest wave", "32", ge=1, le=HIGHEST)
+    realisations: int = setting(
+        "number of random profiles, along the last dimension of the dataset", "100", default=1, ge=1, le=100_000
+    )
+    seed: int = setting("seed of the random numbers", "1", default=0, ge=0, le=2**63 - 1)
 
     def __post_init__(self) -> None:
-        if not 0.0 <= self.hurst <= 1.0:
-            raise ValueError(f"hurst = {self.hurst}: the Hurst exponent is from 0 to 1")
-        if not 1 <= self.first <= self.last <= HIGHEST or self.terms > MOST_HARMONICS:
-            limits = f"1 <= first <= last <= {HIGHEST:,}, and {MOST_HARMONICS} waves at most"
-            raise ValueError(f"first = {self.first}, last = {self.last}: {limits}")
-        if self.realisations < 1 or self.seed < 0:
-            raise ValueError(f"realisations = {self.realisations} and seed = {self.seed}: 1 or more, and 0 or more")
+        check_settings(self)
+        if not self.first <= self.last or self.terms > MOST_HARMONICS:
+            raise ValueError(
+                f"first = {self.first}, last = {self.last}: 1 <= first <= last <= {HIGHEST:,}, and {MOST_HARMONICS} "
+                "waves at most"
+            )
 
     @property
     def terms(self) -> int:

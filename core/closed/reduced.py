@@ -7,65 +7,33 @@ loading, at the work of closing; all others are at work_of_adhesion, that of ope
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.closed.similarity import amplitude_of_ratio, jump_in_radius_of_envelope, similarity_length
-from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, RANGE, SPEED, TURNS
+from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
+from gradhesion.core.problem.names import CLOSING, PARAMETERS
 
 _Array = NDArray[np.float64]
-_MATERIAL: Final = PARAMETERS[:4]
-_MACHINE: Final = "machine_stiffness"
 
 
-def _over(value: _Array, unit: _Array) -> _Array:
-    """Return a quantity in a unit."""
-    return value / unit
+def _ways() -> dict[str, dict[str, tuple[str, ...]]]:
+    """Return for each parameter the inputs that can give it and what else that needs, reduced ones first."""
+    found: dict[str, dict[str, tuple[str, ...]]] = {}
+    for name, one in sorted(INPUTS.items(), key=lambda item: item[0] in PHYSICAL):
+        if one.follows:
+            found.setdefault(one.instead_of or one.gives, {})[name] = one.needs
+    return found
 
 
-def _of_length(ratio: _Array, *material: _Array) -> _Array:
-    """Return what is given over L."""
-    return ratio * similarity_length(*material)
-
-
-def _of_chi(chi: float, *scene: float) -> Any:
-    """Return the amplitude at which the waviness is chi times as strong as adhesion."""
-    k, nu, modulus, c0_over_R, lambda_over_R = scene
-    return amplitude_of_ratio(k, nu, modulus, c0_over_R, lambda_over_R, chi)
-
-
-_RULES: Final[dict[str, dict[str, tuple[tuple[str, ...], Callable[..., Any]]]]] = {
-    "E_star": {"E": (("nu",), lambda E, nu: E / ((1.0 - nu) * (1.0 + nu)))},
-    "modulus": {"E_star": (("R", "work_of_adhesion"), lambda E_star, R, work: E_star * R / work)},
-    "c0_over_R": {"c0": (("R",), _over)},
-    "lambda_over_R": {"lambda_over_L": (_MATERIAL, _of_length), "wavelength": (("R",), _over)},
-    "A": {
-        "chi": (PARAMETERS[:5], _of_chi),
-        "amplitude": (("R", "lambda_over_R"), lambda amplitude, R, ratio: amplitude / R / ratio),
-    },
-    "a_max_over_R": {
-        "a_max_over_L": (_MATERIAL, _of_length),
-        "a_max_over_a2": (PARAMETERS[:6], lambda ratio, *others: ratio * jump_in_radius_of_envelope(*others)),
-        "a_max": (("R",), _over),
-    },
-    _MACHINE: {"spring_constant": (("E_star", "R"), lambda spring, E_star, R: spring / (E_star * R))},
-    "indentation_max_over_R": {"indentation_max": (("R",), _over)},
-    "load_max": {"preload": (("R", "work_of_adhesion"), lambda load, R, work: load / scales_in_si(R, work)["N"])},
-    CLOSING: {"work_of_adhesion_closing": (("work_of_adhesion",), _over)},
-    PATTERN[0]: {"toughness_wavelength": (("R",), _over)},
-    SPEED: {"speed": (("reference_speed",), _over)},
-    RANGE: {"adhesion_range": (("R",), _over)},
-}
-"""For each parameter the variables that can give it; what else that needs, and how it follows."""
-WAYS: Final = {name: {way: needed for way, (needed, _) in ways.items()} for name, ways in _RULES.items()}
+_FORMULAS: Final = {name: one.follows for name, one in INPUTS.items() if one.follows}
+WAYS: Final = _ways()
 """Variables that can give a parameter, and what else that needs; in the order in which they follow from another."""
-
 _IN_WAYS: Final = {name for ways in WAYS.values() for way, needed in ways.items() for name in (way, *needed)}
 """Inputs from which parameters follow: left out of the result, unless they are wanted themselves."""
-_OPTIONAL: Final = (_MACHINE, *TURNS, CLOSING, *PATTERN, SPEED, RANGE)
+_OPTIONAL: Final = tuple(name for name, one in INPUTS.items() if one.is_parameter and one.group)
 """Parameters that not every scene has."""
 
 
@@ -109,7 +77,7 @@ def parameters_from(given: Mapping[str, ArrayLike]) -> dict[str, _Array]:
             with np.errstate(all="ignore"):  # what overflows has no value
                 if way == "a_max_over_a2" and closing:
                     others[needed.index("modulus")] = known["modulus"] / known[CLOSING]
-                known[parameter] = np.asarray(_RULES[parameter][way][1](known[way], *others))
+                known[parameter] = np.asarray(_FORMULAS[way](known[way], *others))
     return {name: known[name] for name in (*wanted, *(name for name in given if name not in _IN_WAYS | {*wanted}))}
 
 

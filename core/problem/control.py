@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import Final
 
+from gradhesion.core.problem.settings import check_settings, setting
+
 CONTROLS: Final = ("displacement", "load", "machine")
 """What is prescribed: the depth, the load, or the far end of a spring (its stiffness is a parameter of the scene)."""
 
@@ -27,11 +29,15 @@ class Loading:
     'displacement'
     """
 
-    control: str = "displacement"
+    control: str = setting(
+        "prescribed quantity: the depth, the load, or the displacement of the far end of a spring",
+        '"load"',
+        default="displacement",
+        choices=CONTROLS,
+    )
 
     def __post_init__(self) -> None:
-        if self.control not in CONTROLS:
-            raise ValueError(f"control = {self.control!r}: it is one of {', '.join(CONTROLS)}")
+        check_settings(self)
 
 
 BY_DISPLACEMENT: Final = Loading()

@@ -1,63 +1,49 @@
-"""The names that a study may use: importing them costs no compiler and no solver."""
+"""The names that a study may use, from what is declared of them: importing them costs no compiler and no solver."""
 
 from typing import Final
 
-PARAMETERS: Final = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
+from gradhesion.core.problem import outputs
+from gradhesion.core.problem.inputs import parameters_in
+from gradhesion.core.problem.outputs import outputs_in
+
+PARAMETERS: Final = parameters_in("")
 """The seven parameters of a scene, in the order of a dataset's dimensions."""
-RESULTS: Final = (
-    "pull_off_force",
-    "pull_off_radius",
-    "dissipated_energy",
-    "loading_jumps",
-    "unloading_jumps",
-    "delta_max",
-    "delta_jump_out",
-    "loading_energy",
-    "unloading_energy",
-)
+RESULTS: Final = outputs_in("cycle")
 """The results of a cycle, in the order of their rows."""
-INTEGERS: Final = ("loading_jumps", "unloading_jumps")
+INTEGERS: Final = tuple(name for name, one in outputs.OUTPUTS.items() if one.is_count)
 """Those of them that are counts."""
-EDGE: Final = ("front_energy", "snap_in_force", "pinned_depth")
+EDGE: Final = outputs_in("edge")
 """Further results of a cycle whose edge opens at a larger work of adhesion than it closes at (scenes/cycles.py)."""
-RATE: Final = ("edge_speed_at_pull_off", "rate_coefficient")
+RATE: Final = outputs_in("rate")
 """Further results of a cycle whose edge opens at a work that grows with its speed (rate/cycle.py)."""
-OUTPUTS: Final = (*RESULTS, "turning_radius")
+OUTPUTS: Final = outputs_in("cycle", "turn")
 """All results of a scene: those of its cycle, and where it turns."""
 REACH: Final = "reach"
 """The largest end of a jump of an unbounded punch, a/R: `contact_slope` is computed from it (problem/reach.py)."""
 CONTACT_SLOPE: Final = "contact_slope"
 """The slope (a/R)^(m-1) of the punch at the largest radius on which the other outputs depend (problem/reach.py)."""
-TURNS: Final = ("indentation_max_over_R", "load_max")
+TURNS: Final = parameters_in("turn")
 """Where the cycle turns before the rim, at most one of them: a depth in R, or a load in 1.5 pi R dgamma."""
-PATTERN: Final = ("toughness_wavelength_over_R", "toughness_amplitude")
+PATTERN: Final = parameters_in("toughness")
 """The parameters of a pattern of toughness (problem/toughness.py); the amplitude is 1 where it is not given."""
-SPEED: Final = "speed_over_reference"
+(SPEED,) = parameters_in("rate")
 """The parameter V/v* of an edge whose work grows with its speed (problem/rate.py); 0 where it is not given."""
-CLOSING: Final = "closing_ratio"
+(CLOSING,) = parameters_in("works")
 """The parameter w_c/w_o in [0, 1]: the work of adhesion of closing over that of opening; 1 where it is not given."""
+(MACHINE,) = parameters_in("machine")
+"""The parameter S/(E* R) of a machine of finite stiffness (problem/control.py)."""
 PULL_OFF: Final = ("pull_off_force", "pull_off_radius")
 """The results that need no path of loading and unloading."""
-REPORTS: Final = (
-    "energy_residual",
-    "roughness_parameter",
-    "saturation_radius",
-    "adhesion_gain",
-    "energy_gain",
-)
+REPORTS: Final = outputs_in("report")
 """All other outputs on request, in the order of their rows."""
-GIVEN_UP: Final = {
-    "pull_off_force_error": "its accuracy is promised in docs/accuracy.md and checked by `gradhesion verify`",
-    "dissipated_energy_error": "its accuracy is promised in docs/accuracy.md and checked by `gradhesion verify`; "
-    "energy_residual is a measure of it in every scene",
-}
-"""Outputs of earlier versions, with what stands in their place."""
-SENSITIVITIES: Final = ("pull_off_force_sensitivity", "dissipated_energy_sensitivity")
+SENSITIVITIES: Final = outputs_in("sensitivity")
 """How strongly a value depends on each parameter: along a last axis of parameters."""
-VALIDITY: Final = ("tabor_parameter", "wave_tabor_parameter", "wave_slope", "johnson_alpha")
+VALIDITY: Final = outputs_in("validity")
 """Measures of where the model applies (closed/applicability.py): they need no solution, whatever the solver."""
-RANGE: Final = "adhesion_range_over_R"
+(RANGE,) = parameters_in("range")
 """The parameter of the Tabor parameters: the range of the attraction."""
+GIVEN_UP: Final = outputs.GIVEN_UP
+"""Outputs of earlier versions, with what stands in their place."""
 SOLVERS: Final = ("exact", "asymptotic", "envelope")
 """The exact one; and for wavelengths far below the contact radius the leading term, and its envelopes."""
 WITHOUT_LOAD: Final[dict[str, str]] = {
@@ -68,31 +54,11 @@ WITHOUT_LOAD: Final[dict[str, str]] = {
     "recoil",
 }
 """Why the other solvers, and the curves of short waves, have displacement control only."""
-PATTERN_CURVES: Final = ("equilibrium", "closing_equilibrium", "path", "jumps")
+PATTERN_CURVES: Final = tuple(name for name, curve in outputs.CURVES.items() if curve.knows_pattern)
 """The curves of an interface whose toughness varies with the radius."""
-CURVES: Final[dict[str, tuple[str, ...]]] = {
-    "equilibrium": ("contact_radius", "indentation", "load", "stable"),
-    "closing_equilibrium": ("closing_contact_radius", "closing_indentation", "closing_load", "closing_stable"),
-    "path": ("path_contact_radius", "path_indentation", "path_load", "path_branch", "path_jump", "path_unloading"),
-    "asymptotic": ("asymptotic_contact_radius", "asymptotic_indentation", "asymptotic_load"),
-    "envelope": (
-        "envelope_contact_radius",
-        "loading_envelope_indentation",
-        "loading_envelope_load",
-        "unloading_envelope_indentation",
-        "unloading_envelope_load",
-    ),
-    "effective": ("effective_contact_radius", "effective_indentation", "effective_load", "effective_jump"),
-    "smooth": ("smooth_contact_radius", "smooth_indentation", "smooth_load"),
-    "jumps": (
-        "jump_indentation",
-        "jump_radius_before",
-        "jump_radius_after",
-        "jump_energy",
-        "jump_load_before",
-        "jump_load_after",
-        "jump_unloading",
-        "jump_at_rim",
-    ),
+CURVES: Final = {
+    name: tuple(one for one in curve.names if one != curve.count)
+    for name, curve in outputs.CURVES.items()
+    if not curve.of_a_state
 }
-"""The variables of every curve, in order; those of the jumps have an item a jump, the others a point."""
+"""The variables of every curve of a scene, in order; those of the jumps have an item a jump, the others a point."""

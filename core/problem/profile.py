@@ -8,11 +8,18 @@ m = 2 is a paraboloid. A sine gives the punch a tip; one cosine is the wave of t
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
+
+from gradhesion.core.problem.settings import check_settings, setting
 
 HIGHEST: Final = 10_000
 """Number of the highest harmonic."""
 MOST_HARMONICS: Final = 64
+
+
+def number_of_wave() -> Any:
+    """Declare the number of a wave."""
+    return setting("number of the wave; its wavelength is lambda/n", "1", ge=1, le=HIGHEST)
 
 
 def check_harmonic(name: str, n: float, cos: float, sin: float) -> None:
@@ -54,9 +61,11 @@ class Harmonic:
     (Harmonic(n=1, cos=1.0, sin=0.0), Harmonic(n=3, cos=0.0, sin=0.2))
     """
 
-    n: int
-    cos: float
-    sin: float
+    n: int = number_of_wave()
+    cos: float = setting(
+        "cosine of the wave, in units of the amplitude; 1 if cos and sin are both left out", "1.0", default=None
+    )
+    sin: float = setting("sine of the wave, in units of the amplitude", "0.3", default=None)
 
     def __init__(self, *, n: int, cos: float | None = None, sin: float | None = None) -> None:
         if cos is None:
@@ -88,12 +97,22 @@ class Profile:
     True
     """
 
-    exponent: float = 2.0
-    harmonics: tuple[Harmonic, ...] = (Harmonic(n=1),)
+    exponent: float = setting(
+        'power m of the punch without waves: 2 is a paraboloid, 1 a cone; "fit" fits it to the file',
+        "2.0",
+        default=2.0,
+        ge=1.0,
+    )
+    harmonics: tuple[Harmonic, ...] = setting(
+        "waves of the series [one cosine]",
+        "[{ n = 1, cos = 1.0 }, { n = 2, sin = 0.3 }]",
+        default=(Harmonic(n=1),),
+    )
 
     def __post_init__(self) -> None:
-        if not 1.0 <= self.exponent < math.inf:
-            raise ValueError(f"exponent = {self.exponent}: the power of the punch is a finite number from 1 on")
+        check_settings(self)
+        if not self.exponent < math.inf:
+            raise ValueError(f"exponent = {self.exponent}: the power of the punch is finite")
         object.__setattr__(self, "exponent", float(self.exponent))  # an int would compile other kernels
         check_numbers("harmonics", [harmonic.n for harmonic in self.harmonics])
 

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import Final
 
+from gradhesion.core.problem.settings import check_settings, setting
+
 CLOSINGS: Final = ("quasi-static", "same")
 """How the contact closes: at the work of closing whatever the speed, or at w_c/[1 + (v/v*)^n]."""
 MOST_WAVES: Final = 16_000.0
@@ -33,12 +35,15 @@ class Rate:
     'quasi-static'
     """
 
-    exponent: float
-    closing: str = "quasi-static"
+    exponent: float = setting(
+        "power n of the speed of the edge in its work, 1 + (v/v*)^n", "0.6", ge=EXPONENTS[0], le=EXPONENTS[1]
+    )
+    closing: str = setting(
+        "law of closing: quasi-static whatever the speed, or the same law as for opening",
+        '"same"',
+        default="quasi-static",
+        choices=CLOSINGS,
+    )
 
     def __post_init__(self) -> None:
-        low, high = EXPONENTS
-        if not low <= self.exponent <= high:
-            raise ValueError(f"exponent = {self.exponent}: the power of the speed is a number from {low} to {high:g}")
-        if self.closing not in CLOSINGS:
-            raise ValueError(f"closing = {self.closing!r}: it is one of {', '.join(CLOSINGS)}")
+        check_settings(self)

@@ -1,5 +1,6 @@
 """The status of a scene: a set of bit flags, 0 if there is nothing to report."""
 
+from dataclasses import dataclass
 from typing import Final
 
 LOADING_NOT_ONE_DISC: Final = 1
@@ -30,21 +31,42 @@ POOR_FIT: Final = 2048
 ANOTHER_MINIMUM: Final = 4096
 """Fits: other values fit the loop as well, within its noise."""
 
-FLAGS: Final = {
-    "loading_contact_not_one_disc": LOADING_NOT_ONE_DISC,
-    "unloading_contact_not_one_disc": UNLOADING_NOT_ONE_DISC,
-    "pull_off_at_rim": PULL_OFF_AT_RIM,
-    "jump_in_to_rim": JUMP_IN_TO_RIM,
-    "close_to_a_jump": CLOSE_TO_A_JUMP,
-    "tolerance_not_met": TOLERANCE_NOT_MET,
-    "no_value": NO_VALUE,
-    "no_contact": NO_CONTACT,
-    "too_many_waves": TOO_MANY_WAVES,
-}
-"""Name of every flag, with its bit; not every solver sets every one."""
+
+@dataclass(frozen=True)
+class Flag:
+    """A flag of `status`."""
+
+    bit: int
+    name: str
+    about: str
+
+
+OF_SCENES: Final = (
+    Flag(LOADING_NOT_ONE_DISC, "loading_contact_not_one_disc", "contact on loading is not one disc"),
+    Flag(UNLOADING_NOT_ONE_DISC, "unloading_contact_not_one_disc", "contact on unloading is not one disc"),
+    Flag(PULL_OFF_AT_RIM, "pull_off_at_rim", "the pull-off is at the rim"),
+    Flag(JUMP_IN_TO_RIM, "jump_in_to_rim", "the jump-in reaches the rim"),
+    Flag(
+        CLOSE_TO_A_JUMP,
+        "close_to_a_jump",
+        "an input error of 1e-10 could change a number of jumps or the place of the pull-off",
+    ),
+    Flag(TOLERANCE_NOT_MET, "tolerance_not_met", "the requested accuracy is not reached"),
+    Flag(NO_VALUE, "no_value", "a parameter is outside its range, or the scene cannot be resolved"),
+    Flag(NO_CONTACT, "no_contact", "the cycle turns before first contact"),
+    Flag(TOO_MANY_WAVES, "too_many_waves", "the contact contains more waves than can be followed"),
+)
+"""The flags of scenes; not every solver sets every one."""
+OF_LOOPS: Final = (
+    Flag(POOR_FIT, "poor_fit", "the residual exceeds the noise"),
+    Flag(ANOTHER_MINIMUM, "another_minimum", "other values fit the loop as well within its noise"),
+)
+"""The flags that only fits have."""
+FLAGS: Final = {flag.name: flag.bit for flag in OF_SCENES}
+"""Name of every flag of a scene, with its bit."""
 OF_EVERY_MAP: Final = {name: bit for name, bit in FLAGS.items() if bit < 2**7}
 """The flags that fit into a status of 8 bits: those of all studies except the ones that turn at a depth."""
-OF_FITS: Final = {"poor_fit": POOR_FIT, "another_minimum": ANOTHER_MINIMUM}
+OF_FITS: Final = {flag.name: flag.bit for flag in OF_LOOPS}
 """Name of every flag that only fits have, with its bit."""
 
 DOUBTFUL: Final = LOADING_NOT_ONE_DISC | UNLOADING_NOT_ONE_DISC | TOLERANCE_NOT_MET

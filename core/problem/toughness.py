@@ -13,7 +13,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core.problem.profile import check_harmonic, check_numbers
+from gradhesion.core.problem.profile import check_harmonic, check_numbers, number_of_wave
+from gradhesion.core.problem.settings import check_settings, setting
 
 OF: Final = ("toughness", "work")
 """What a pattern multiplies."""
@@ -47,9 +48,9 @@ class ToughnessHarmonic:
     ToughnessHarmonic(n=3, cos=0.0, sin=0.2)
     """
 
-    n: int
-    cos: float = 0.0
-    sin: float = 0.0
+    n: int = number_of_wave()
+    cos: float = setting("cosine of the wave, in units of the amplitude", "0.2", default=0.0)
+    sin: float = setting("sine of the wave, in units of the amplitude", "0.3", default=0.0)
 
     def __post_init__(self) -> None:
         check_harmonic("toughness harmonic", self.n, self.cos, self.sin)
@@ -77,12 +78,18 @@ class Toughness:
     'toughness'
     """
 
-    harmonics: tuple[ToughnessHarmonic, ...]
-    of: str = "toughness"
+    harmonics: tuple[ToughnessHarmonic, ...] = setting(
+        "waves of the series, a sum that is added to 1", "[{ n = 1, cos = 0.2 }]"
+    )
+    of: str = setting(
+        "what the series multiplies: the toughness K_c, or the work of adhesion",
+        '"work"',
+        default="toughness",
+        choices=OF,
+    )
 
     def __post_init__(self) -> None:
-        if self.of not in OF:
-            raise ValueError(f"of = {self.of!r}: it is one of {', '.join(OF)}")
+        check_settings(self)
         check_numbers("toughness harmonics", [harmonic.n for harmonic in self.harmonics])
 
 

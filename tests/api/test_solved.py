@@ -14,7 +14,7 @@ import gradhesion as gr
 from gradhesion import core
 from gradhesion.cli.dataset import compute, dataset
 from gradhesion.cli.study import study_from
-from gradhesion.cli.study.form import form
+from gradhesion.cli.study.rules import form
 from gradhesion.solved import sizes_of
 
 PUNCH: dict[str, Any] = {

@@ -279,7 +279,7 @@ def test_radii_of_states_are_ratios() -> None:
     for radius in (5 * um, [5 * um], -1.0):
         with pytest.raises(
             gr.StudyError,
-            match=r"contact_radius_over_R\[0\] = .*: a contact radius a/R is a number above 0, and finite",
+            match=r"contact_radius_over_R\[0\] = ",
         ):
             given_in(
                 "gr.curves", WAVY, {}, {"kind": "curve", "outputs": "pressure", "contact_radius_over_R": radius}

@@ -1,4 +1,4 @@
-"""What tests of commands share: a study that is refused, and a command on a full disk."""
+"""What tests of commands share: a command on a full disk."""
 
 import signal
 import subprocess
@@ -7,25 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from click.testing import Result
 
 Completed = subprocess.CompletedProcess[str]
-
-
-@pytest.fixture
-def refused_at_once(
-    gradhesion: Callable[..., Result], write_study: Callable[[str], Path]
-) -> Callable[[str, str], None]:
-    """Run a text as a study in which a sentence is said before anything is computed."""
-
-    def run(text: str, sentence: str) -> None:
-        path = write_study(text)
-        result = gradhesion("run", path, "-o", path.with_suffix(".nc"))
-        assert result.exit_code == 2
-        assert sentence in result.output
-        assert [*path.parent.iterdir()] == [path], "nothing is written"
-
-    return run
 
 
 @pytest.fixture

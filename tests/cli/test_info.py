@@ -59,7 +59,7 @@ def test_extremes_are_found_across_blocks(
 def test_every_flag_that_occurs_is_told_with_its_count_and_share_in_words(
     gradhesion: Call, dataset_file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from gradhesion.cli.names.scenes import FLAG_WORDS
+    from gradhesion.core.answers.flags import FLAG_WORDS
     from gradhesion.core.problem.status import OF_EVERY_MAP as FLAGS
 
     status = np.zeros(24, dtype=np.int8)

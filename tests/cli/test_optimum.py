@@ -1,6 +1,5 @@
 """Studies of optima: against brute force, in blocks, in units, with requirements, as fronts, and what is refused."""
 
-import re
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -294,77 +293,6 @@ def test_a_peak_between_the_points_is_flagged(
         assert not found.gr.valid("best_dissipated_energy").values.any()
     finer = gr.run(asked | {"optimum": asked["optimum"] | {"resolution": 200}})
     assert not finer.gr.flagged("resolution_too_coarse").any()
-
-
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        (
-            {"optimum": {"maximise": "loading_jumps", "over": ["lambda_over_R"]}},
-            "is a count, which changes in steps and has no optimum",
-        ),
-        ({"optimum": {"maximise": "pull_of_force", "over": ["lambda_over_R"]}}, 'did you mean "pull_off_force"'),
-        (
-            {"optimum": {"maximise": "pull_off_force", "over": ["A"]}},
-            r"has no bounds, parameters.A = 0.02; write A = {",
-        ),
-        (
-            {"optimum": {"maximise": "pull_off_force", "over": ["k", "lambda_over_R"]}},
-            r"has no bounds, parameters.k = ",
-        ),
-        ({"optimum": {"maximise": "pull_off_force", "over": ["chi", "lambda_over_R"]}}, "gives no chi to search"),
-        (
-            {"optimum": {"maximise": "pull_off_force", "over": []}},
-            "optimum.over = .*no input is searched; write for example over",
-        ),
-        ({"optimum": {"maximise": "pull_off_force"}}, "optimum.over: no input is searched"),
-        ({"optimum": {"over": ["lambda_over_R"]}}, "there is no goal; write for example maximise"),
-        ({"optimum": {"maximise": 3, "over": ["lambda_over_R"]}}, "must be the name of an output in quotes, or a list"),
-        (
-            {"optimum": {"maximise": ["pull_off_force"] * 2, "over": ["lambda_over_R"]}},
-            '"pull_off_force" is named twice',
-        ),
-        (
-            {"optimum": {"maximise": "pull_off_force", "over": ["lambda_over_R"], "resolution": 2}},
-            "the resolution is an integer from 3",
-        ),
-        (
-            {"optimum": {"maximise": "pull_off_force", "over": ["lambda_over_R"], "resolutoin": 20}},
-            'unknown key; did you mean "resolution"',
-        ),
-        (
-            {
-                "optimum": {
-                    "maximise": "pull_off_force",
-                    "over": ["lambda_over_R"],
-                    "require": {"minimum": {"energy": 1}},
-                }
-            },
-            'not an output; did you mean "dissipated_energy"',
-        ),
-        ({"outputs": ["pull_off_force"]}, "names the outputs; remove this key"),
-        ({"kind": "map", "outputs": ["pull_off_force"]}, "the study is of another kind; write kind = "),
-        ({"uncertainty": {"modulus": "5 %"}}, "only maps have uncertain inputs"),
-        ({"method": {"solver": ["exact", "envelope"]}}, "an optimum has one solver"),
-        ({"parameters": PUNCH | {"k": [0.3], "lambda_over_R": WAVES}}, "an axis of one value cannot be combined"),
-        (
-            {"parameters": PUNCH | {"lambda_over_R": WAVES | {"num": 9}}},
-            "a searched input has bounds only; remove num",
-        ),
-        ({"parameters": PUNCH | {"lambda_over_R": {"start": 0.2, "stop": 0.2}}}, "the bounds are the same"),
-        ({"parameters": PUNCH | {"lambda_over_R": {"start": -0.2, "stop": 0.2}}}, "lambda_over_R.start = -0.2"),
-    ],
-)
-def test_what_is_refused(change: dict[str, Any], words: str, study: dict[str, Any]) -> None:
-    with pytest.raises(StudyError) as caught:
-        study_from(study | change)
-    assert any(re.search(words, one) for one in caught.value.mistakes), caught.value.mistakes
-
-
-def test_a_study_without_the_table(study: dict[str, Any]) -> None:
-    del study["optimum"]
-    with pytest.raises(StudyError, match="optimum: this table is required"):
-        study_from(study)
 
 
 @pytest.mark.parametrize(

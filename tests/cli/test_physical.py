@@ -1,6 +1,5 @@
 """Studies in units: the same scenes as in ratios, and results in SI beside those without a unit."""
 
-import json
 import math
 import re
 from collections.abc import Callable
@@ -14,18 +13,18 @@ import xarray
 from click.testing import Result
 
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.errors import DatasetError, StudyError
+from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer import choice
 from gradhesion.cli.explorer.data import study_data
 from gradhesion.cli.explorer.lines import lines_of
 from gradhesion.cli.names.curves import CURVES
-from gradhesion.cli.names.outputs import CONTACT_SLOPE, OUTPUTS, SI
+from gradhesion.cli.names.outputs import OUTPUTS, SI
 from gradhesion.cli.names.symbols import SYMBOLS
 from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.picture.curves.picture import drawn_curves
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.core import SENSITIVITIES, VALIDITY
-from gradhesion.core.problem.names import RATE
+from gradhesion.core.problem.names import CONTACT_SLOPE, RATE
 
 Call = Callable[..., Result]
 EPS = 2.0**-52
@@ -260,37 +259,6 @@ def test_every_output_over_something_has_its_unit_and_every_variable_its_symbol(
     assert UNITS["jump_load_after"] == "N"
 
 
-MISTAKES = {
-    "modulus twice": ("parameters.modulus=500.0", "parameters.modulus = 500.0: a ratio, where [physical] gives quantities with units"),
-    "wavelength both ways": ("parameters.lambda_over_R=0.1", "give wavelength under [physical], or remove [physical]"),
-    "wavelength twice": ("parameters.lambda_over_L=0.1", "wavelength gives the wavelength already"),
-    "amplitude twice": ("physical.amplitude='1 nm'", "A gives the amplitude already"),
-    "unit": ("physical.R='1 kg'", 'physical.R = "1 kg": "kg" is not a unit of this quantity; a length (m) is expected; write for example R = "1 mm"'),
-    "unit in a list": ("physical.R=['1 m', '1']", 'physical.R[1] = "1": a number without a unit; a length (m) is expected'),
-    "unit in a range": ("physical.R={start='1 m', stop=2, num=3}", "physical.R.stop = 2: a number without a unit; a length (m) is expected; write for example R"),
-    "range": ("physical.R={start='1 m', stop='2 m', num=0}", "physical.R.num = 0: num is the number of values"),
-    "range to inf": ("physical.a_max={start='1 m', stop=inf, num=3}", "physical.a_max.stop = inf: a range must end at finite values"),
-    "one place": ("physical.R={start='1 m', stop='1 m', num=3}", 'the value "1 m" repeats; write ["1 m"] or another stop'),
-    "repeated": ("physical.R=['1 m', '1000 mm']", "the axis repeats the value 1.0 m (items 0 and 1)"),
-    "misspelt": ("physical.wave_length='1 m'", 'physical.wave_length = "1 m": unknown key; did you mean "wavelength"?'),
-    "wrong table": ("parameters.work_of_adhesion='1 J/m^2'", "this key belongs under [physical]; move it there"),
-    "no table": ("physical=3", "physical = 3: this must be a table; write for example a table [physical]"),
-    "empty": ("physical.R=[]", "physical.R = []: an axis needs at least one value"),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("name", MISTAKES)
-def test_each_mistake_has_its_sentence(
-    name: str, physical: dict[str, Any], gradhesion: Call, write_study: Callable[[str], Path], tmp_path: Path
-) -> None:
-    override, message = MISTAKES[name]
-    result = gradhesion("run", write_study(study_from(physical).text), "-o", tmp_path / "x.nc", "--set", override)
-    assert result.exit_code == 2
-    assert message in result.stderr
-    assert f"--set {override}" in result.stderr
-    assert not (tmp_path / "x.nc").exists()
-
-
 def test_what_is_missing_is_told_at_once(
     physical: dict[str, Any], gradhesion: Call, write_study: Callable[[str], Path]
 ) -> None:
@@ -299,10 +267,9 @@ def test_what_is_missing_is_told_at_once(
     lines = gradhesion("run", text).stderr.splitlines()
     assert len(lines) == 5
     for name in ("R", "E_star", "work_of_adhesion", "c0", "wavelength"):
-        assert any(f"physical.{name}: " in line and "this quantity is required; " in line for line in lines)
-        assert any(f"; write for example {name} = " in line for line in lines)
-    assert any('E_star = "50 kPa", or instead E = "46 kPa"' in line for line in lines)
-    assert json.dumps("20 um") + ", or instead lambda_over_L = 0.5 under [parameters]" in "\n".join(lines)
+        (line,) = [line for line in lines if f"physical.{name}: " in line]
+        assert f" {name} = " in line, "an example"
+    assert any("E_star = " in line and " E = " in line for line in lines), "what may stand instead"
 
 
 def test_a_machine_has_its_spring_constant_in_newtons_per_metre() -> None:
@@ -325,41 +292,3 @@ def test_a_machine_has_its_spring_constant_in_newtons_per_metre() -> None:
     )
     for name in table["outputs"]:
         np.testing.assert_allclose(with_units[name].values, plain[name].values, rtol=64 * EPS)
-
-
-@pytest.mark.parametrize(
-    ("loading", "physical", "sentence"),
-    [
-        (
-            {"control": "machine"},
-            {},
-            'a machine needs its stiffness S; write for example spring_constant = "0.2 N/m" under',
-        ),
-        (
-            {},
-            {"spring_constant": "3 N/m"},
-            'control = "displacement" has no machine; remove this key, or write control',
-        ),
-        (
-            {"control": "machine", "machine_stiffness": 2.0},
-            {"spring_constant": "3 N/m"},
-            "machine_stiffness gives the stiffness",
-        ),
-        (
-            {"control": "machine"},
-            {"spring_constant": "3 N"},
-            '"N" is not a unit of this quantity; a force per length (N/m) is expected',
-        ),
-        (
-            {"control": "machine"},
-            {"spring_constant": "0 N/m"},
-            "out of range; choose a force per length (N/m) with spring_constant > 0",
-        ),
-    ],
-)
-def test_a_wrong_spring_constant_is_told(loading: dict[str, Any], physical: dict[str, Any], sentence: str) -> None:
-    R, _, _, written = SCALES["microscope"]
-    table = {"outputs": ["pull_off_force"], "parameters": {"k": 0.31, "nu": 0.27, "A": 0.023}, "loading": loading}
-    with pytest.raises(StudyError) as error:
-        study_from(table | {"physical": written | lengths(R) | physical})
-    assert [sentence in mistake for mistake in error.value.mistakes] == [True]

@@ -73,11 +73,11 @@ def test_another_value_than_the_one_asked_for_is_named(gradhesion: Call, dataset
 @pytest.mark.parametrize(
     ("override", "answer"),
     [
-        ("A=0.1", "--set A=0.1: A belongs under [parameters]; write --set parameters.A=0.1"),
+        ("A=0.1", "belongs under [parameters]; write --set parameters.A=0.1"),
         ("lambda_over_r=0.1", 'did you mean "lambda_over_R", under [parameters]?'),
         ("sovler='exact'", 'did you mean "solver", under [method]?'),
-        ("solver='envelope'", "solver belongs under [method]; write --set"),
-        ("R='1 mm'", "R belongs under [physical]; write --set"),
+        ("solver='envelope'", "belongs under [method]; write --set"),
+        ("R='1 mm'", "belongs under [physical]; write --set"),
         ("machine_stiffness=2.0", "write --set loading.machine_stiffness=2.0"),
         ('outputs=["energy"]', 'did you mean "dissipated_energy"?'),
         ('outputs=["force"]', 'did you mean "pull_off_force"?'),

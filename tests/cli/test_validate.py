@@ -7,9 +7,9 @@ from pathlib import Path
 
 from click.testing import Result
 
-from gradhesion.cli.keys import keys_of
 from gradhesion.cli.study.fit.form import FitForm
-from gradhesion.cli.study.form.form import Form
+from gradhesion.cli.study.rules.form import Form
+from gradhesion.core.problem.inputs import INPUTS
 
 Call = Callable[..., Result]
 
@@ -41,7 +41,10 @@ def test_the_schema_is_that_of_validation(gradhesion: Call, root: Path) -> None:
         assert {name: own[name] for name in expected.pop("$defs")} | {form.__name__: own[form.__name__]} == (
             form.model_json_schema()["$defs"] | {form.__name__: expected}
         )
-    assert set(own["Parameters"]["properties"]) == {*keys_of("parameters")}
+    assert set(own["Parameters"]["properties"]) == {
+        "points",
+        *(name for name, one in INPUTS.items() if one.table == "parameters"),
+    }
     assert own["Parameters"]["additionalProperties"] is False
     for config in (root / "configs").glob("*.toml"):
         keys = tomllib.loads(config.read_text())

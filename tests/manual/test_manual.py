@@ -15,8 +15,8 @@ from click.testing import CliRunner
 
 from gradhesion.cli.main import cli
 from gradhesion.cli.study.fit.form import REQUIRED, FitForm
-from gradhesion.cli.study.form.mistakes import checked
 from gradhesion.cli.study.reading import study_from
+from gradhesion.cli.study.rules.mistakes import checked
 
 from .pages import PAGES, ROOT, Block, blocks_of, commands_of, made_smaller, same
 from .plain import HIDE, hidden

@@ -17,11 +17,14 @@ if str(ROOT) not in sys.path:
 from docs import notebooks  # noqa: E402
 from docs.__main__ import FOLDER, PAGES  # noqa: E402
 from gradhesion.cli import errors, main  # noqa: E402
-from gradhesion.cli.keys import INPUTS, SETTINGS  # noqa: E402
 from gradhesion.cli.names.curves import CURVES  # noqa: E402
 from gradhesion.cli.names.fits import FIT, FIT_POINTS  # noqa: E402
 from gradhesion.cli.names.outputs import OUTPUTS  # noqa: E402
+from gradhesion.cli.study.fit.form import FitForm  # noqa: E402
+from gradhesion.cli.study.rules.form import Form  # noqa: E402
+from gradhesion.cli.study.rules.mistakes import tables_of  # noqa: E402
 from gradhesion.core import FLAGS  # noqa: E402
+from gradhesion.core.problem.inputs import INPUTS  # noqa: E402
 
 SYNONYMS = (
     "young modulus", "colormap", "mont carlo", "afm", "slurm", "tabor", "hysteresi", "indent", "snap", "export", "uncertainti",
@@ -62,9 +65,10 @@ def test_every_key_output_and_flag_stands_in_the_manual() -> None:
         "method",
     )
     of_a_fit = ("data", "fit")
-    within = [name for name, key in SETTINGS.items() if key.table == "offsets"]  # told with the table that they are in
-    assert all(f"\n| `{key}` |" in study for key in (*INPUTS, *SETTINGS) if key not in (*tables, *of_a_fit, *within))
-    assert all(f"`{key}`" in study for key in within)
+    of_forms = [*tables_of(Form).values(), *tables_of(FitForm).values()]
+    keys = {key for table in of_forms for key in table.model_fields} - {*tables, *of_a_fit}
+    assert keys >= {*INPUTS}
+    assert all(f"\n| `{key}` |" in study for key in keys)
     assert all(f"\n## [{name}]\n" in study for name in tables)
     assert all(f"\n### [{name}]\n" in study for name in of_a_fit)
     assert all(f"| `{name}` |" in dataset for name in (*FIT, *(name for own in FIT_POINTS.values() for name in own)))

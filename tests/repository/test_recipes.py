@@ -14,7 +14,6 @@ ROOMS = ("cli", "configs", "core", "twin")
 
 OUTPUT = {
     "core/problem/names.py": [
-        ('    "unloading_energy",\n', '    "unloading_energy",\n    "pull_off_area",\n'),
         (
             'PULL_OFF: Final = ("pull_off_force", "pull_off_radius")',
             'PULL_OFF: Final = ("pull_off_force", "pull_off_radius", "pull_off_area")',
@@ -35,16 +34,13 @@ OUTPUT = {
             ),
         ),
     ],
-    "cli/names/outputs.py": [
+    "core/problem/outputs.py": [
         (
-            '    "pull_off_radius": "contact radius a/R at pull-off",\n',
-            '    "pull_off_radius": "contact radius a/R at pull-off",\n    "pull_off_area": "contact area at pull-off, in R^2",\n',
-        ),
-    ],
-    "cli/names/symbols.py": [
-        (
-            '    "pull_off_radius": "radius at pull-off $a/R$",\n',
-            '    "pull_off_radius": "radius at pull-off $a/R$",\n    "pull_off_area": "area at pull-off $/R^2$",\n',
+            '    Output("turning_radius",',
+            (
+                '    Output("pull_off_area", "contact area at pull-off, in R^2", "area at pull-off $/R^2$", "cycle"),\n'
+                '    Output("turning_radius",'
+            ),
         ),
     ],
 }

@@ -6,7 +6,7 @@ from importlib.machinery import PathFinder
 from pathlib import Path
 
 import gradhesion as gr
-from gradhesion.cli.keys import INPUTS
+from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.names import Given
 
 ROOT = Path(__file__).parents[2]

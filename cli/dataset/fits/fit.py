@@ -9,7 +9,6 @@ import numpy as np
 from gradhesion.cli.dataset.dataset import origin
 from gradhesion.cli.dataset.fits.rows import refuse_size, rows_of, side_by_side
 from gradhesion.cli.disk import replacement, writing
-from gradhesion.cli.keys import INPUTS, INTERACTION
 from gradhesion.cli.names.fits import (
     FIT,
     FIT_MORE,
@@ -27,6 +26,7 @@ from gradhesion.cli.study.fit.study import FitStudy, unit_of_parameter
 from gradhesion.cli.study.shape_words import rate_in_words, shape_in_words, toughness_in_words
 from gradhesion.cli.work.compiling import prepare
 from gradhesion.cli.work.solve.fitting import Fit, fits_of, range_words
+from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.status import FLAGS, OF_FITS
 
 if TYPE_CHECKING:
@@ -77,7 +77,7 @@ def dataset_of(study: FitStudy, fits: Sequence[Fit], history: str) -> "xarray.Da
     fixed = {
         name: xarray.Variable((), value, {"units": key.unit, "long_name": key.about})
         for name, key in INPUTS.items()
-        if (value := study.adhesion_range if name == INTERACTION else study.fixed.get(name)) is not None
+        if (value := study.adhesion_range if name == "adhesion_range" else study.fixed.get(name)) is not None
     }
     attributes = {"long_name": "fitted quantity"}
     coordinates = {

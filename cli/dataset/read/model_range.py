@@ -9,11 +9,10 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read.reader import tiling_of
-from gradhesion.cli.keys import ADHESION_RANGE
-from gradhesion.cli.names.outputs import CONTACT_SLOPE
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.terminal.amounts import counted
+from gradhesion.core.problem.names import CONTACT_SLOPE, RANGE
 from gradhesion.core.problem.reach import SMALL, is_steep
 
 
@@ -82,7 +81,7 @@ def is_beyond(part: xarray.DataArray) -> xarray.DataArray:
     name = str(part.name)
     beyond = part.copy(data=LIMITS[name].beyond(part.values))
     if name == "wave_tabor_parameter":  # waves shallower than the range are not felt
-        beyond = beyond & (part["A"] * part["lambda_over_R"] > part[ADHESION_RANGE])
+        beyond = beyond & (part["A"] * part["lambda_over_R"] > part[RANGE])
     return beyond
 
 

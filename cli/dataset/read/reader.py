@@ -13,9 +13,9 @@ import xarray
 from gradhesion.cli.dataset.read.soundness import check_form, check_size
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.files import is_file, kind_of
-from gradhesion.cli.keys import TURNS
 from gradhesion.cli.names.curves import EXTENTS, RAGGED
 from gradhesion.cli.study.tiling import CHUNK, Tiling
+from gradhesion.core.problem.names import TURNS
 
 if TYPE_CHECKING:
     from xarray import Dataset

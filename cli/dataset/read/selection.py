@@ -21,10 +21,10 @@ from gradhesion.cli.dataset.read.reductions import (
     without_failed,
 )
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.keys import INPUTS, PHYSICAL
 from gradhesion.cli.names.scenes import SCENE, SOLVER
 from gradhesion.cli.study.text.quantities import si_value
 from gradhesion.cli.terminal.wording import did_you_mean
+from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
 
 SLACK: Final = 1e-9
 """How far beyond an end of an axis a value may be, over the end: it is typed with fewer digits than it has."""

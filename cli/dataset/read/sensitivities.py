@@ -7,7 +7,8 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.names.outputs import BEST, OF_PHYSICAL, SENSITIVITIES, labels_of
+from gradhesion.cli.names.outputs import BEST, OF_PHYSICAL, labels_of
+from gradhesion.core.problem.names import SENSITIVITIES
 
 PLAIN: Final = ("k", "nu")
 """What has no logarithm: the strongest is looked for among the others."""

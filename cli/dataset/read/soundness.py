@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names.curves import EXTENTS, RAGGED, STATE, STATE_CURVES, variables_of_curves
 from gradhesion.cli.names.fits import FIT, FIT_MORE, FIT_POINTS, FIT_WORDS, LOOP, OTHER_PARAMETER, PARAMETER_UNITS
 from gradhesion.cli.names.outputs import BEST, OUTPUTS, PARAMETER, PARETO_POINT, PHYSICAL_PARAMETER, SI, labels_of
 from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
 from gradhesion.core.problem.control import CONTROLS
+from gradhesion.core.problem.inputs import INPUTS
 
 if TYPE_CHECKING:
     import netCDF4

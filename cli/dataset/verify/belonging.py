@@ -12,12 +12,12 @@ import xarray
 from gradhesion.cli.dataset.coordinates import following
 from gradhesion.cli.dataset.read.reader import study_text
 from gradhesion.cli.errors import DatasetError, StudyError
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names.outputs import labels_of
 from gradhesion.cli.names.scenes import SOLVER
 from gradhesion.cli.study.points import COMMENT, points_of
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
+from gradhesion.core.problem.inputs import INPUTS
 
 CLOSE: Final = 16 * 2.0**-52
 """Of a coordinate: logarithmic spacing may differ by some units in the last place from one numpy to the next."""

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.engines import Work
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.work.parts.resume import Solved, blank
+from gradhesion.core.problem.inputs import INPUTS
 
 if TYPE_CHECKING:
     import xarray

@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 from gradhesion.cli.dataset.read.model_range import slope_warnings
 from gradhesion.cli.dataset.read.selection import Selection
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names.outputs import BEST, PARETO_POINT, SI
 from gradhesion.cli.picture.labels import effective, equation, equations, label, unit_for
 from gradhesion.cli.picture.looks import Looks
@@ -20,6 +19,7 @@ from gradhesion.cli.picture.scales import limit
 from gradhesion.cli.picture.spans import Span
 from gradhesion.cli.picture.values.panels import DASHES
 from gradhesion.cli.terminal.wording import did_you_mean
+from gradhesion.core.problem.inputs import INPUTS
 
 MOST: Final = 10
 """Lines of one picture."""

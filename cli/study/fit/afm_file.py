@@ -18,7 +18,7 @@ from gradhesion.cli.study.fit.loop_columns import PAUSE, LoopFileError, Raw
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 
 if TYPE_CHECKING:
-    from gradhesion.cli.study.fit.data_form import ColumnTable, DataTable
+    from gradhesion.cli.study.fit.form import ColumnTable, DataTable
 
 INSTRUMENTS: Final = (".ibw", ".jpk-force", ".jpk-force-map", ".jpk-qi-data", ".jpk-qi-series", ".zip")
 """How the names of files end that are of an instrument, and no tables."""
@@ -34,7 +34,7 @@ def is_force_file(file: str, table: "DataTable") -> bool:
     """
     Tell whether a file is an instrument's, by its name and whether columns are named.
 
-    >>> from gradhesion.cli.study.fit.data_form import DataTable
+    >>> from gradhesion.cli.study.fit.form import DataTable
     >>> is_force_file("curve.jpk-force", DataTable(file="x")), is_force_file("curve.csv", DataTable(file="x"))
     (True, False)
     """

@@ -10,7 +10,7 @@ from gradhesion.core.loops.measured.plausible import fault_of, has_order
 from gradhesion.core.loops.measured.points import ways
 
 if TYPE_CHECKING:
-    from gradhesion.cli.study.fit.data_form import DataTable
+    from gradhesion.cli.study.fit.form import DataTable
 
 
 def refuse_order(depth: NDArray[np.float64], cycle: NDArray[np.int32] | None) -> None:

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.study.fit.data_form import PAUSES
+from gradhesion.cli.study.fit.form import PAUSES
 from gradhesion.cli.study.text.quantities import si_value
 from gradhesion.cli.tables.columns import Columns, ColumnsError
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 
 if TYPE_CHECKING:
-    from gradhesion.cli.study.fit.data_form import ColumnTable, DataTable
+    from gradhesion.cli.study.fit.form import ColumnTable, DataTable
 
 BRANCHES: Final = {
     "loading": 0.0,
@@ -61,7 +61,7 @@ def words_of(table: "DataTable") -> dict[str, float]:
     """
     Give the words of a column of branches, with their numbers.
 
-    >>> from gradhesion.cli.study.fit.data_form import DataTable
+    >>> from gradhesion.cli.study.fit.form import DataTable
     >>> words = words_of(DataTable(file="a.csv", leave_out=["Wait"]))
     >>> words["retract"], words["dwell"], words["wait"]
     (1.0, 2.0, 2.0)

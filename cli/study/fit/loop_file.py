@@ -17,8 +17,7 @@ from gradhesion.core.loops.measured.averaging import MOST, averaged
 from gradhesion.core.loops.measured.noise import noise_of
 
 if TYPE_CHECKING:
-    from gradhesion.cli.study.fit.data_form import DataTable
-    from gradhesion.cli.study.fit.form import FitForm
+    from gradhesion.cli.study.fit.form import DataTable, FitForm
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

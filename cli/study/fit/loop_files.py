@@ -9,13 +9,13 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.cli.keys import Path as Key
 from gradhesion.cli.study.fit.form import FitForm, Search
 from gradhesion.cli.study.fit.loop_columns import LoopFileError
 from gradhesion.cli.study.fit.loop_file import LoopFile, nothing, read_loops
-from gradhesion.cli.study.fit.rules import form_of
-from gradhesion.cli.study.form.mistakes import Checked, Mistake
+from gradhesion.cli.study.rules.mistakes import Checked, Mistake
+from gradhesion.cli.study.text.places import Path as Key
 from gradhesion.cli.study.text.source import Source
+from gradhesion.cli.tables.columns import changed
 from gradhesion.cli.terminal.amounts import counted
 
 FILE: Final[Key] = ("data", "file")
@@ -38,7 +38,7 @@ def names_of(folder: Path, file: str) -> list[str]:
 
 def loops_of(source: Source, found: Checked) -> tuple[tuple[LoopFile, ...], list[Mistake]]:
     """Read all loops; one of several that cannot be read is kept with its problem, unless none can."""
-    form, written = form_of(found), _table(found.data)
+    form = found.form
     file, table = form.data.file, form.data
     names = names_of(source.folder, file)
     if not names or len(names) > MOST:
@@ -51,7 +51,7 @@ def loops_of(source: Source, found: Checked) -> tuple[tuple[LoopFile, ...], list
             own = [_enough(loop, form) for loop in read_loops(source.folder / name, name, form)]
         except LoopFileError as error:
             path: Key = ("data", error.key)
-            wrong.append(Mistake(path, written.get(error.key), str(error)))
+            wrong.append(Mistake(path, found.at(path), str(error)))
             own = [nothing(name, str(error), _digest(source.folder / name))]
         loops += own
     problems = [loop for loop in loops if loop.problem]
@@ -62,11 +62,7 @@ def loops_of(source: Source, found: Checked) -> tuple[tuple[LoopFile, ...], list
         return tuple(loops), [replace(first, sentence=f"{where}{first.sentence}{more}")]
     sha256 = fingerprint(loops)
     if table.sha256 and table.sha256 != sha256:
-        what = "the file is not the one" if file in names else "the files are not the ones"
-        sentence = (
-            f"{what} that this study was written for: its sha256 is {sha256[:12]}..., not "
-            f"{table.sha256[:12]}...; put {'that file' if file in names else 'those'} back, or remove sha256"
-        )
+        sentence = changed(sha256, table.sha256, "remove sha256", several=file not in names)
         return tuple(loops), [Mistake(FILE, file, sentence)]
     return tuple(loops), []
 
@@ -116,9 +112,3 @@ def _enough(loop: LoopFile, form: FitForm) -> LoopFile:
             "file", f"all values of the {row} are the same, so that there is no loop; name another column"
         )
     return loop
-
-
-def _table(data: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Give the table [data] of a study, empty where it is none."""
-    table = data.get("data")
-    return table if isinstance(table, Mapping) else {}

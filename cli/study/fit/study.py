@@ -8,12 +8,12 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.study.fit.loop_file import LoopFile, notes_of
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.loops.paths.offsets import Offsets
 from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.toughness import Toughness

@@ -1,1 +1,1 @@
-"""What the keys of a study have to do with each other, a module for each subject."""
+"""The form of a study, and what its keys have to do with each other: a module a subject."""

@@ -1,230 +1,167 @@
-"""What the edge of a contact meets: a toughness that varies with the radius, and a work that grows with its speed."""
+"""What the edge of a contact meets: unequal works, a toughness that varies with the radius, a speed."""
 
-from collections.abc import Iterator, Mapping
-from typing import Final
+import math
+from collections.abc import Mapping
+from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.cli.keys import CLOSING, INPUTS, PATTERN, SPEED, Path
-from gradhesion.cli.names.curves import CURVES, STATE_CURVES
-from gradhesion.cli.study.form.axes import Values
-from gradhesion.cli.study.form.edge import RateTable, ToughnessTable
-from gradhesion.cli.study.form.mistakes import Checked, Mistake
-from gradhesion.cli.study.rules.roles import has_units, is_given, mixed
-from gradhesion.cli.study.rules.turn import KEYS as TURN_KEYS
-from gradhesion.cli.terminal.wording import did_you_mean, line_of
-from gradhesion.core.problem.names import PATTERN_CURVES, RATE, REPORTS, SENSITIVITIES
-from gradhesion.core.problem.rate import CLOSINGS, MOST_WAVES, Rate
-from gradhesion.core.problem.toughness import OF, Toughness, ToughnessHarmonic, violation
+from gradhesion.cli.names.outputs import SI
+from gradhesion.cli.study.rules.asked import Asked, curve_of
+from gradhesion.cli.study.rules.axes import Found, home
+from gradhesion.core.problem.inputs import INPUTS
+from gradhesion.core.problem.outputs import CURVES, OUTPUTS
+from gradhesion.core.problem.rate import MOST_WAVES
+from gradhesion.core.problem.toughness import violation
 
-_WITHOUT_RATE: Final = (
-    *("loading_jumps", "unloading_jumps", *SENSITIVITIES, *REPORTS),
-    *(name for curve in ("jumps", *STATE_CURVES) for name in (curve, *CURVES[curve])),
-)
-"""What is known of an edge without a speed alone."""
-_PATTERN_PATHS: Final[tuple[Path, ...]] = (
-    ("physical", "toughness_wavelength"),
-    *(("parameters", name) for name in PATTERN),
-)
-_SPEED_PATHS: Final[tuple[Path, ...]] = (
-    ("physical", "speed"),
-    ("physical", "reference_speed"),
-    ("parameters", SPEED),
-)
-_MOST: Final = 1000
+_MOST_AMPLITUDES: Final = 1000
 """Different amplitudes of points up to which each is looked at."""
 
 
-def toughness_of(table: ToughnessTable | None) -> Toughness | None:
-    """
-    Make the pattern of toughness of a valid table.
-
-    >>> toughness_of(ToughnessTable.model_validate({"harmonics": [{"n": 1, "cos": 0.5}]})).of
-    'toughness'
-    """
-    if table is None:
-        return None
-    return Toughness(tuple(ToughnessHarmonic(n=one.n, cos=one.cos, sin=one.sin) for one in table.harmonics), table.of)
-
-
-def rate_of(table: RateTable | None) -> Rate | None:
-    """Make the law of a moving edge of a valid table."""
-    return None if table is None else Rate(exponent=table.exponent, closing=table.closing)
-
-
-def _tables(checked: Checked, name: str) -> bool:
-    """Report whether a table is there and right."""
-    return name in checked.data and not any(path[:1] == (name,) for path in checked.wrong)
-
-
-def _stray(checked: Checked, paths: tuple[Path, ...], table: str, example: str) -> Iterator[Mistake]:
-    """Say which keys have no effect without a table."""
-    for path in paths:
-        if is_given(checked, path):
-            sentence = f"without [{table}] this has no effect; remove it, or add a table [{table}] with {example}"
-            yield Mistake(path, checked.data[str(path[0])][path[1]], sentence)
-
-
-def _exact_alone(checked: Checked, table: str) -> Iterator[Mistake]:
-    """Check that the exact solver is the only one."""
-    other = next((one for one in checked.form.method.solvers if one in ("asymptotic", "envelope")), None)
-    if other:
-        sentence = f'the solver "{other}" does not support [{table}]; write solver = "exact", or remove [{table}]'
-        yield Mistake(("method", "solver"), checked.form.method.solver, sentence)
-
-
-def _one_of(checked: Checked, paths: tuple[Path, Path], table: str) -> Iterator[Mistake]:
-    """Check that a quantity or its ratio is there, and not both."""
-    given = [path for path in paths if is_given(checked, path)]
-    if has_units(checked) and paths[1] in given:
-        own = [key.name for key in INPUTS.values() if key.gives == paths[1][1] and key.table == "physical"]
-        yield mixed(paths[1], checked, own)
-    elif not given and not checked.meant & {*paths}:
-        path = paths[0] if has_units(checked) else paths[1]
-        yield Mistake((table,), None, f"it needs {line_of(path)} under [{path[0]}]; add it, or remove [{table}]")
-
-
-def mistakes_of_toughness(checked: Checked, sound: Mapping[str, Values], *, points: bool) -> Iterator[Mistake]:
-    """Check a pattern of toughness: its keys, each wave once, and its sign everywhere on the punch."""
-    if "toughness" not in checked.data:
-        yield from _stray(checked, _PATTERN_PATHS, "toughness", "harmonics = [{ n = 1, cos = 0.2 }]")
+def works(asked: Asked) -> Found:
+    """Check that no edge closes at more work than it opens at, and that it turns."""
+    key = "work_of_adhesion_closing"
+    if asked.given(key) and not asked.given("work_of_adhesion"):
+        words = "it closes at this work and opens at work_of_adhesion; write for example "
+        yield home(key), words + INPUTS["work_of_adhesion"].example
+    elif {key, "work_of_adhesion"} <= asked.values.keys() and not asked.given("closing_ratio"):
+        closing, opening = (np.atleast_1d(asked.values[name]) for name in (key, "work_of_adhesion"))
+        together = asked.points and (1 in (closing.size, opening.size) or closing.size == opening.size)
+        above = np.any(closing > opening) if together else not asked.points and closing.max() > opening.min()
+        if above:
+            words = f"an edge cannot close at more work than it opens at, but {closing.max():g} J/m^2 exceeds "
+            yield home(key), f"{words}{opening.min():g} J/m^2; lower it, or raise work_of_adhesion"
+    if asked.turns or not (asked.given(key) or asked.given("closing_ratio")) or asked.ends:
         return
-    if not _tables(checked, "toughness"):
+    wrong = asked.checked.wrong  # and perhaps the radius of the punch
+    if ("outputs",) in wrong or any(path[-1] == "a_max" or path[0] == "parameters" for path in wrong):
         return
-    table = checked.form.toughness
-    assert table is not None  # noqa: S101 (it is there, and right)
-    yield from _exact_alone(checked, "toughness")
-    yield from _one_of(checked, (_PATTERN_PATHS[0], _PATTERN_PATHS[1]), "toughness")
-    if table.of not in OF:
-        yield Mistake(("toughness", "of"), table.of, f"not what a pattern multiplies; {did_you_mean(table.of, OF)}")
+    if "closing_ratio" in asked.values and np.all(np.asarray(asked.values["closing_ratio"]) == 1.0):
         return
-    numbers = [one.n for one in table.harmonics]
-    for i, n in enumerate(numbers):
-        if n in numbers[:i]:
-            sentence = f"the wave n = {n} is given already, as item {numbers.index(n)}; join the two"
-            yield Mistake(("toughness", "harmonics", i, "n"), n, sentence)
+    wanted = [(f"outputs[{i}]", name) for i, name in enumerate(asked.form.outputs)]
+    if asked.form.optimum is not None:
+        wanted = [(f"optimum.{way}", name) for way, name in asked.form.optimum.goals]
+    for at, name in wanted:
+        own = OUTPUTS.get(name.removesuffix(SI))
+        if own and own.needs_turn:
+            words = (
+                f"an unbounded punch that does not turn opens from ever larger radii, and {own.about.split(',')[0]} "
+            )
+            words += f"has no bound where it closes at less work; give {asked.turn} or a finite radius of the punch"
+            yield at, f"{words}, or remove this output"
             return
-    if "rate" in checked.data:
-        sentence = (
-            "a toughness that varies with the radius cannot be combined with a speed; remove [toughness] or [rate]"
-        )
-        yield Mistake(("toughness",), None, sentence)
-    if checked.form.kind == "curve":
-        own = {name for curve in PATTERN_CURVES for name in (curve, *CURVES[curve])}
-        for i, name in enumerate(checked.form.outputs):
-            if name not in own:
-                sentence = f"with [toughness] the only curves are {', '.join(PATTERN_CURVES)}; remove this one"
-                yield Mistake(("outputs", i), name, sentence)
-    yield from _mistakes_of_sign(checked, sound, points=points)
 
 
-def _mistakes_of_sign(checked: Checked, sound: Mapping[str, Values], *, points: bool) -> Iterator[Mistake]:
-    """Check that the toughness is not negative, and the work positive, anywhere on a punch."""
-    lengths = ("toughness_wavelength", "a_max") if has_units(checked) else (PATTERN[0], "a_max_over_R")
-    toughness = toughness_of(checked.form.toughness)
-    if toughness is None or lengths[0] not in sound:
+def _needs_table(asked: Asked, table: str, line: str) -> Found:
+    """Say which inputs have no effect without a table, and what the table needs."""
+    names = [name for name, own in INPUTS.items() if own.group == table and name != "toughness_amplitude"]
+    if table not in asked.checked.data:
+        for name in (*names, *(("toughness_amplitude",) if table == "toughness" else ())):
+            if asked.given(name):
+                words = f"without [{table}] this has no effect; remove it, or add a table [{table}] with {line}"
+                yield home(name), words
+    elif isinstance(asked.checked.data[table], Mapping) and not any(
+        asked.meant(name) for name in names if name != "reference_speed"
+    ):
+        own = INPUTS[names[0] if asked.units else names[-1]]
+        yield table, f"it needs {own.example} under [{own.table}]; add it, or remove [{table}]"
+
+
+def toughness(asked: Asked) -> Found:
+    """Check a pattern of toughness: its keys, each wave once, and its sign everywhere on the punch."""
+    yield from _needs_table(asked, "toughness", "harmonics = [{ n = 1, cos = 0.2 }]")
+    if (table := asked.form.toughness) is None:
         return
-    amplitudes = np.atleast_1d(sound.get(PATTERN[1], 1.0))
-    wavelengths = np.atleast_1d(sound[lengths[0]])
-    rims = np.atleast_1d(sound.get(lengths[1], np.inf))
-    if points and len({one.size for one in (amplitudes, wavelengths, rims)} - {1}) > 1:
-        return  # which is said of the lists
-    if points:
+    twice = list(each_once("toughness", {i: {"n": wave.n} for i, wave in enumerate(table.harmonics)}))
+    if twice:
+        yield twice[0]
+        return
+    if "rate" in asked.checked.data:
+        words = "a toughness that varies with the radius cannot be combined with a speed"
+        yield "toughness", f"{words}; remove [toughness] or [rate]"
+    known = [name for name, curve in CURVES.items() if curve.knows_pattern]
+    for i, name in enumerate(asked.form.outputs if asked.kind == "curve" else ()):
+        if curve_of(name) not in known:
+            yield f"outputs[{i}]", f"with [toughness] the only curves are {', '.join(known)}; remove this one"
+    yield from _sign(asked)
+
+
+def _sign(asked: Asked) -> Found:
+    """Check that the toughness is not negative, and the work positive, anywhere on a punch."""
+    length, rim = ("toughness_wavelength", "a_max") if asked.units else ("toughness_wavelength_over_R", "a_max_over_R")
+    if length not in asked.values:
+        return
+    pattern, key = asked.form.toughness.made(), "toughness_amplitude"
+    given = (asked.values.get(key, 1.0), asked.values[length], asked.values.get(rim, math.inf))
+    amplitudes, wavelengths, rims = map(np.atleast_1d, given)
+    if asked.points:
+        if len({one.size for one in (amplitudes, wavelengths, rims)} - {1}) > 1:
+            return  # which is said of the lists
         amplitudes, wavelengths, rims = np.broadcast_arrays(amplitudes, wavelengths, rims)
     unique = np.unique(amplitudes)
-    chosen = unique if points and unique.size <= _MOST else np.unique(unique[[0, -1]])
-    for amplitude in chosen.tolist():
-        own = amplitudes == amplitude if points and unique.size <= _MOST else slice(None)
-        least = float((wavelengths[own] if points else wavelengths).min())
-        ends = rims[own] / wavelengths[own] if points else np.array([rims.max() / least])
-        radius = violation(toughness, amplitude, least, float(ends.max()) * least)
-        if radius is None:
-            continue
-        what = {"toughness": "toughness is negative", "work": "work of adhesion is not positive"}[toughness.of]
-        given = f"{PATTERN[1]} = {amplitude:g}" if PATTERN[1] in sound else "these waves"
-        unit = " m" if has_units(checked) else " R"
-        sentence = f"with {given} the {what} at the radius {radius:.6g}{unit}; use smaller waves"
-        path: Path = ("parameters", PATTERN[1]) if PATTERN[1] in sound else ("toughness", "harmonics")
-        yield Mistake(path, checked.data[str(path[0])][path[1]], sentence)
-        return
+    each = asked.points and unique.size <= _MOST_AMPLITUDES
+    for amplitude in (unique if each else np.unique(unique[[0, -1]])).tolist():
+        own = amplitudes == amplitude if each else np.ones(amplitudes.size, bool)
+        least = float((wavelengths[own] if asked.points else wavelengths).min())
+        end = float((rims[own] / wavelengths[own]).max()) * least if asked.points else float(rims.max())
+        radius = violation(pattern, amplitude, least, end)
+        if radius is not None:
+            what = {"toughness": "toughness is negative", "work": "work of adhesion is not positive"}[pattern.of]
+            said = f"{key} = {amplitude:g}" if key in asked.values else "these waves"
+            words = f"with {said} the {what} at the radius {radius:.6g}{' m' if asked.units else ' R'}"
+            yield home(key) if key in asked.values else "toughness.harmonics", f"{words}; use smaller waves"
+            return
 
 
-def mistakes_of_rate(checked: Checked, sound: Mapping[str, Values]) -> Iterator[Mistake]:
+def rate(asked: Asked) -> Found:
     """Check the law of a moving edge: its keys, what drives it, and what is known of it."""
-    if "rate" not in checked.data:
-        yield from _stray(checked, _SPEED_PATHS, "rate", "exponent = 0.6")
-        for i, name in enumerate(checked.form.outputs):
-            if name in RATE:
-                sentence = "this belongs to an edge with a speed; add a table [rate], or remove it"
-                yield Mistake(("outputs", i), name, sentence)
+    form = asked.form
+    yield from _needs_table(asked, "rate", "exponent = 0.6")
+    if "rate" in asked.checked.data and not asked.sound("rate"):
         return
-    if not _tables(checked, "rate"):
-        return
-    form, table = checked.form, checked.form.rate
-    assert table is not None  # noqa: S101 (it is there, and right)
-    yield from _exact_alone(checked, "rate")
-    yield from _one_of(checked, (_SPEED_PATHS[0], _SPEED_PATHS[2]), "rate")
-    if is_given(checked, _SPEED_PATHS[0]) != is_given(checked, _SPEED_PATHS[1]):
-        absent = _SPEED_PATHS[1 if is_given(checked, _SPEED_PATHS[0]) else 0]
-        sentence = f"the two speeds go together; add {line_of(absent)} under [physical]"
-        other = _SPEED_PATHS[0 if absent == _SPEED_PATHS[1] else 1]
-        yield Mistake(other, checked.data["physical"][other[1]], sentence)
-    if table.closing not in CLOSINGS:
-        yield Mistake(
-            ("rate", "closing"), table.closing, f"not a way to close; {did_you_mean(table.closing, CLOSINGS)}"
-        )
-    if form.loading.control == "load":
-        sentence = (
-            "under a falling load the energy of this law has no bound; "
-            'write control = "machine" with a soft spring, or remove [rate]'
-        )
-        yield Mistake(("loading", "control"), "load", sentence)
     for i, name in enumerate(form.outputs):
-        if name in _WITHOUT_RATE:
-            sentence = "an edge with a speed passes every radius once and has no jumps, so that this is not available"
-            sentence = sentence if "jump" in name else "this is not available for an edge with a speed"
-            yield Mistake(("outputs", i), name, f"{sentence}; remove it, or remove [rate]")
-    yield from _mistakes_of_closing(checked, table, sound)
-    yield from _mistakes_of_waves(checked, sound)
-    turned = any(is_given(checked, path) for path in TURN_KEYS)
-    rims = [values for name, values in sound.items() if INPUTS[name].gives == "a_max_over_R"]
-    if not turned and not (rims and np.all(np.isfinite(rims[0]))) and not checked.wrong:
-        turn = "indentation_max" if has_units(checked) else "indentation_max_over_R"
-        sentence = f"an edge with a speed opens from a radius; give {turn} or a finite radius of the punch"
-        yield Mistake(("rate",), None, sentence)
-
-
-def _mistakes_of_waves(checked: Checked, sound: Mapping[str, Values]) -> Iterator[Mistake]:
-    """Check that waves can be followed in some scene, where an edge opens from the rim."""
-    lengths = ("wavelength", "a_max") if has_units(checked) else ("lambda_over_R", "a_max_over_R")
-    smooth = all(np.all(np.asarray(sound.get(name, 0.0)) == 0.0) for name in ("A", "chi", "amplitude"))
-    if smooth or not {*lengths} <= sound.keys() or any(is_given(checked, path) for path in TURN_KEYS):
+        own, curve = OUTPUTS.get(name), curve_of(name)
+        if form.rate is None and own and own.needs == "rate":
+            yield f"outputs[{i}]", "this belongs to an edge with a speed; add a table [rate], or remove it"
+        known = not own or not (own.is_count or own.group in ("report", "sensitivity"))
+        if form.rate is not None and not (known and (not curve or CURVES[curve].knows_rate)):
+            yield f"outputs[{i}]", "this is not available for an edge with a speed; remove it, or remove [rate]"
+    if form.rate is None:
         return
-    series = checked.form.profile.harmonics
-    shortest = max((wave.n for wave in series or ()), default=1)
-    least = float(np.min(sound[lengths[1]])) / float(np.max(sound[lengths[0]])) * shortest
-    if MOST_WAVES < least < np.inf:
-        name = lengths[1]
-        sentence = (
-            f"{least:,.0f} waves within the punch are more than the {MOST_WAVES:,.0f} that can be followed at a speed"
-        )
-        path: Path = (INPUTS[name].table, name)
-        yield Mistake(path, checked.data[str(path[0])][name], f"{sentence}; use a smaller punch or longer waves")
+    if asked.given("speed") != asked.given("reference_speed"):
+        there, absent = ("speed", "reference_speed") if asked.given("speed") else ("reference_speed", "speed")
+        yield home(there), f"the two speeds go together; add {INPUTS[absent].example} under [physical]"
+    if form.loading.control == "load":
+        words = 'under a falling load the energy of this law has no bound; write control = "machine" with a soft spring'
+        yield "loading.control", f"{words}, or remove [rate]"
+    if form.rate.closing == "same":
+        for name in ("closing_ratio", "work_of_adhesion_closing"):
+            if np.any(np.asarray(asked.values.get(name, 1.0)) == 0.0):
+                words = 'without adhesion on approach there is no such law; write closing = "quasi-static"'
+                yield home(name), f"{words}, or a larger value"
+        for name in asked.turns:
+            if INPUTS[name].gives == "load_max":
+                yield home(name), f'with closing = "same" a cycle turns at a depth; give {asked.turn} instead'
+    lengths = ("wavelength", "a_max") if asked.units else ("lambda_over_R", "a_max_over_R")
+    waved = any(np.any(np.asarray(asked.values.get(name, 0.0)) != 0.0) for name in ("A", "chi", "amplitude"))
+    if waved and {*lengths} <= asked.values.keys() and not asked.turns:
+        longest, least = float(np.max(asked.values[lengths[0]])), float(np.min(asked.values[lengths[1]]))
+        count = least / longest * max((wave.n for wave in form.profile.harmonics or ()), default=1)
+        if MOST_WAVES < count < math.inf:
+            words = (
+                f"{count:,.0f} waves within the punch are more than the {MOST_WAVES:,.0f} that can be followed at a "
+            )
+            yield home(lengths[1]), words + "speed; use a smaller punch or longer waves"
+    if not asked.ends and not asked.checked.wrong:
+        words = f"an edge with a speed opens from a radius; give {asked.turn} or a finite radius of the punch"
+        yield "rate", words
 
 
-def _mistakes_of_closing(checked: Checked, table: RateTable, sound: Mapping[str, Values]) -> Iterator[Mistake]:
-    """Check what closing by the same law needs."""
-    if table.closing != "same":
-        return
-    zero = [name for name in (CLOSING, "work_of_adhesion_closing") if np.any(np.asarray(sound.get(name, 1.0)) == 0.0)]
-    for name in zero:
-        path: Path = (INPUTS[name].table, name)
-        sentence = (
-            'without adhesion on approach there is no such law; write closing = "quasi-static", or a larger value'
-        )
-        yield Mistake(path, checked.data[str(path[0])][name], sentence)
-    for path in TURN_KEYS:
-        if is_given(checked, path) and INPUTS[str(path[1])].gives == "load_max":
-            turn = "indentation_max" if has_units(checked) else "indentation_max_over_R"
-            sentence = f'with closing = "same" a cycle turns at a depth; give {turn} instead'
-            yield Mistake(path, checked.data[str(path[0])][path[1]], sentence)
+def each_once(table: str, series: Mapping[int, Mapping[str, Any]]) -> Found:
+    """Check that no wave of a series is given twice."""
+    first: dict[int, int] = {}
+    for i, wave in series.items():
+        if wave["n"] in first:
+            words = f"the wave n = {wave['n']} is given already, as item {first[wave['n']]}; join the two"
+            yield f"{table}.harmonics[{i}].n", words
+        first.setdefault(wave["n"], i)

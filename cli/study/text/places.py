@@ -9,7 +9,8 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
-from gradhesion.cli.keys import Path
+Path = tuple[str | int, ...]
+"""A key as the steps to it: `("parameters", "k", 3)` is item 3 of `parameters.k`."""
 
 DEEPEST: Final = 32
 """Levels of tables and lists: a study has four."""

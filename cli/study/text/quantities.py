@@ -14,12 +14,24 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.keys import KEYS, PHYSICAL
-from gradhesion.cli.terminal.wording import example
+from gradhesion.core.problem.inputs import ANY, INPUTS, PHYSICAL, Input
 
 if TYPE_CHECKING:
     from pint import UnitRegistry
 
+QUANTITIES: Final = INPUTS | {
+    "up_to": Input(
+        "up_to",
+        "distance from the centre up to which heights are fitted [a_max]",
+        "",
+        '"2 um"',
+        unit="m",
+        table="profile",
+    ),
+    "indentation": Input("indentation", "a depth", "", '"1 um"', ANY, unit="m", table="data"),
+    "load": Input("load", "a load", "", '"1 nN"', ANY, unit="N", table="data"),
+}
+"""Every quantity that a study may have: its inputs, and those of files."""
 LONGEST: Final = 60
 """Characters of a quantity: above any that is meant as one."""
 
@@ -69,7 +81,7 @@ def si_value(value: object, name: str) -> float:
     >>> si_value("1 um", "R"), si_value("20 mJ/m^2", "work_of_adhesion"), si_value("20 mN m-1", "work_of_adhesion")
     (1e-06, 0.02, 0.02)
     """
-    key = KEYS[name]
+    key = QUANTITIES[name]
     text = str(value) if isinstance(value, str | float) else ""
     parts = _QUANTITY.fullmatch(text.strip()) if len(text) <= LONGEST else None
     number, written = parts.groups() if parts else ("", "")
@@ -85,8 +97,7 @@ def si_value(value: object, name: str) -> float:
     if problem:
         raise ValueError(f"{problem}; {_expected(name)}")
     result = float(Decimal(number) * (factor_of(written, name) if written else 1)) + 0.0
-    inside = result > 0.0 or result == key.bounds.get("ge") or not key.bounds
-    if not inside or (math.isinf(result) and not key.infinite) or math.isnan(result):
+    if not key.admits(result):
         allowed = f"{WORDS[key.unit]} with {key.allowed}" if key.bounds else f"{WORDS[key.unit]} that is finite"
         unpressed = '; for a turn at zero depth write indentation_max = "0 nm"' if name == "preload" else ""
         raise ValueError(f"out of range; choose {allowed}{unpressed}")
@@ -122,7 +133,7 @@ def in_si(numbers: NDArray[Any], written: str, name: str) -> NDArray[np.float64]
     >>> in_si(np.array([1.0, 25.0]), "um", "R"), in_si(np.array([5.0]), "percent", "A")
     (array([1.0e-06, 2.5e-05]), array([0.05]))
     """
-    same = written == KEYS[name].unit  # without asking pint
+    same = written == QUANTITIES[name].unit  # without asking pint
     return np.asarray(numbers, dtype=np.float64) + 0.0 if same else scaled(numbers, factor_of(written, name))
 
 
@@ -135,7 +146,7 @@ def factor_of(written: str, name: str) -> Decimal:
     ValueError
         It is not known, or has another dimension; the message says what to write.
     """
-    factor = factor_between(written, KEYS[name].unit)
+    factor = factor_between(written, QUANTITIES[name].unit)
     if not factor:
         unknown = factor is None
         problem = f'the unit "{written}" is not known' if unknown else f'"{written}" is not a unit of this quantity'
@@ -186,8 +197,8 @@ def ratio_sentence(text: str, name: str) -> str:
 
 def _expected(name: str) -> str:
     """Say what is expected of a key, and under which other one a quantity would stand."""
-    key = KEYS[name]
-    sentence = f"{WORDS[key.unit]} is expected; {example((key.table, name))}"
+    key = QUANTITIES[name]
+    sentence = f"{WORDS[key.unit]} is expected; write for example {key.example}"
     others = [one for one in PHYSICAL.values() if key.unit == "1" and one.gives == name]
     return f"{sentence}, or give {others[0].name} in {others[0].unit}" if len(others) == 1 else sentence
 

@@ -3,18 +3,15 @@
 import json
 import os
 import re
-import shlex
 import tomllib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any, Final
 
-from gradhesion.cli import keys
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.files import kind_of
-from gradhesion.cli.keys import KEYS
 from gradhesion.cli.study.text import places
 from gradhesion.cli.terminal import wording
 
@@ -30,7 +27,7 @@ class Source:
     data: dict[str, Any]
     text: str
     """The text that gives just this data, or nothing if there is none."""
-    place: Callable[[keys.Path], str]
+    place: Callable[[places.Path], str]
     """Tells where a key comes from."""
     mistakes: tuple[str, ...] = ()
     """What was wrong with the overrides."""
@@ -47,28 +44,17 @@ def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) ->
     StudyError
         The file cannot be read, or is not TOML.
     """
-    text = _text(path, most)
-    deep = f"{path}: not a study, tables or lists are nested more than {places.DEEPEST} deep; remove some levels"
-    try:
-        data = {} if places.is_deep_text(text) else tomllib.loads(text)
-    except RecursionError:
-        raise StudyError(deep) from None
-    except ValueError as error:
-        _check_kind(path)
-        raise StudyError([_syntax_sentence(path, text, str(error))]) from None
-    if places.is_deep_text(text) or places.is_deep(data):
-        raise StudyError(deep)
+    data, lines, text = _read(path, most, ())
     sources, mistakes = _override(data, overrides)
-    lines = cache(lambda: places.lines_of(text))
 
-    def place(key: keys.Path) -> str:
+    def place(key: places.Path) -> str:
         above = [key[:depth] for depth in range(len(key), 0, -1)]
         for origin in above:
             if origin in sources:
                 return f"--set {sources[origin]}"
         for origin in above:
             if origin in lines():
-                return f"{path}:{lines()[origin]}"
+                return lines()[origin]
         made = next((source for steps, source in sources.items() if steps[: len(key)] == key), None)
         return f"--set {made}" if made else str(path)
 
@@ -82,6 +68,71 @@ def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) ->
         mistakes=tuple(mistakes),
         folder=path.absolute().parent,
     )
+
+
+_Lines = Callable[[], Mapping[places.Path, str]]
+"""Finds the file and the line of each key."""
+
+
+def _read(path: Path, most: int, above: tuple[Path, ...]) -> tuple[dict[str, Any], _Lines, str]:
+    """Read the keys of a file and of what it includes, their places, and a text of just these keys if there is one."""
+    text = _text(path, most)
+    deep = f"{path}: not a study, tables or lists are nested more than {places.DEEPEST} deep; remove some levels"
+    try:
+        data = {} if places.is_deep_text(text) else tomllib.loads(text)
+    except RecursionError:
+        raise StudyError(deep) from None
+    except ValueError as error:
+        _check_kind(path)
+        raise StudyError([_syntax_sentence(path, text, str(error))]) from None
+    if places.is_deep_text(text) or places.is_deep(data):
+        raise StudyError(deep)
+    lines = cache(lambda: {key: f"{path}:{line}" for key, line in places.lines_of(text).items()})
+    if "include" not in data:
+        return data, lines, text
+    where = f"{lines().get(('include',), path)}: include = {wording.shown(data['include'])}"
+    merged, below = included(data, path.parent, where, (*above, path), most)
+    return merged, cache(lambda: {**below(), **lines()}), ""
+
+
+def included(
+    data: Mapping[str, Any], folder: Path, where: str, above: tuple[Path, ...] = (), most: int = MOST_BYTES
+) -> tuple[dict[str, Any], _Lines]:
+    """
+    Give the keys of a study with those of the one that it includes, and the places of these.
+
+    The keys of the study win; tables at the top are merged key by key, and all other values replaced.
+
+    Parameters
+    ----------
+    data, folder
+        The keys, with `include`, and where that file is looked for.
+    where
+        What a message begins with: the place of `include`, and its value.
+    above
+        The files that include this one.
+    most
+        Bytes of the longest study.
+
+    Raises
+    ------
+    StudyError
+        There is no such study, or it includes this one.
+    """
+    name = data["include"]
+    if not isinstance(name, str) or not name:
+        raise StudyError(
+            f'{where}: this must be the path of a study in quotes; write for example include = "base.toml"'
+        )
+    base = folder / name
+    if base.resolve() in {path.resolve() for path in above}:
+        raise StudyError(f"{where}: {base} includes {above[-1]} in turn; remove one of the two")
+    if not base.is_file():
+        raise StudyError(f"{where}: there is no file {base}; name a study that is there, from the folder of this one")
+    found, lines, _ = _read(base, most, above)
+    own = {key: value for key, value in data.items() if key != "include"}
+    tables = {key for key in own if isinstance(own[key], Mapping) and isinstance(found.get(key), Mapping)}
+    return found | own | {key: {**found[key], **own[key]} for key in tables}, lines
 
 
 def _text(path: Path, most: int) -> str:
@@ -137,11 +188,6 @@ def _syntax_sentence(path: Path, text: str, problem: str) -> str:
     return f"{path}:{line}: not valid TOML, {what[0].lower()}{what[1:]}{column}{shown}; {remedy}"
 
 
-_TABLES: Final = ("parameters", "physical", "profile", "loading", "method")
-_HOMES: Final = {name: key.table for name, key in KEYS.items() if key.table in _TABLES}
-"""The table of each key that is not at the top."""
-
-
 def _is_list(value: str) -> bool:
     """Report whether a value would be a list, in brackets."""
     try:
@@ -150,9 +196,9 @@ def _is_list(value: str) -> bool:
         return False
 
 
-def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[keys.Path, str], list[str]]:
+def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[places.Path, str], list[str]]:
     """Set keys by their dotted paths in place; report which text set each, and what was wrong."""
-    sources: dict[keys.Path, str] = {}
+    sources: dict[places.Path, str] = {}
     mistakes = []
     for override in overrides:
         key, equals, value = override.partition("=")
@@ -161,11 +207,6 @@ def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[keys
             parsed = tomllib.loads(f"value = {value.strip()}")
         except (ValueError, RecursionError):
             parsed = {}
-        if equals and len(steps) == 1 and key.strip() in _HOMES:
-            home = _HOMES[key.strip()]
-            again = shlex.quote(f"{home}.{override.strip()}")
-            mistakes.append(f"--set {override}: {key.strip()} belongs under [{home}]; write --set {again}")
-            continue
         if not equals or not all(steps):
             mistakes.append(f"--set {override}: not of the form KEY=VALUE; write for example --set parameters.A=0.02")
             continue
@@ -182,6 +223,9 @@ def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[keys
                 mistakes.append(f"--set {override}: the value is not TOML; {sentence}, as in --set '{key}={quoted}'")
                 continue
             mistakes.append(f"--set {override}: the value is not TOML; quote strings, as in --set '{key}={quoted}'")
+            continue
+        if steps[0] == "include":
+            mistakes.append(f"--set {override}: a study is included by its file alone; write this at its top")
             continue
         table: Any = data
         for depth, step in enumerate(steps[:-1]):

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from gradhesion.cli.errors import DatasetError, OutputError
-from gradhesion.cli.study.form.axes import Values
 from gradhesion.cli.study.points import Points, points_of
 from gradhesion.cli.study.reading import study_from
+from gradhesion.cli.study.rules.axes import Values
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.work.parts.folder import Folder

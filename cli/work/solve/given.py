@@ -6,13 +6,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names.outputs import OF_PHYSICAL, PARAMETER, PHYSICAL_PARAMETER, SI
 from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.work.solve.scenes import solve
 from gradhesion.core import PARAMETERS, RANGE, SENSITIVITIES
+from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.profile import Profile
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.names.outputs import BEST, ON_BOUND, PARAMETER, SI
 from gradhesion.cli.names.scenes import STEEP
-from gradhesion.cli.study.rules.search import Search
+from gradhesion.cli.study.rules.answers import Search
 from gradhesion.cli.study.study import Method, Study
 from gradhesion.cli.study.tiling import Block, shape_of
 from gradhesion.cli.work.solve.given import solve_given

@@ -7,10 +7,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.keys import CLOSING_WORK
 from gradhesion.cli.names.outputs import PARAMETER, SI, SPREADABLE
 from gradhesion.cli.names.scenes import STEEP
-from gradhesion.cli.study.rules.uncertainty import Uncertainty
+from gradhesion.cli.study.rules.answers import Uncertainty
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, shape_of
 from gradhesion.cli.work.solve.given import solve_given
@@ -154,7 +153,7 @@ def _samples_of(
     for part in _pieces(centre, count):
         given = {key: _cut(values, part)[None] for key, values in centre.given.items()}
         for (key, spread), own in zip(centre.spreads.items(), shares, strict=True):
-            if key == CLOSING_WORK:  # an edge opens at no less than it closes at
+            if key == "work_of_adhesion_closing":  # an edge opens at no less than it closes at
                 spread = replace(spread, high=np.minimum(spread.high, given["work_of_adhesion"]))
             given[key] = spread.quantiles(given[key], own.reshape(-1, *(1 for _ in part)))
         found = centre.solve(given, outputs)

@@ -15,13 +15,13 @@ from matplotlib.figure import Figure
 from matplotlib.path import Path
 
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.names.scenes import FLAG_WORDS
 from gradhesion.cli.picture.curves.picture import drawn_curves
 from gradhesion.cli.picture.doubts import BEYOND, CROSS, DOUBTS, GAP, GREY, Doubt, doubts_in
 from gradhesion.cli.picture.pictured import save
 from gradhesion.cli.picture.values.picture import drawn
 from gradhesion.cli.study.reading import study_from
 from gradhesion.core import CURVES, DOUBTFUL, FLAGS, OUTPUTS, REPORTS, solve
+from gradhesion.core.answers.flags import FLAG_WORDS
 from gradhesion.core.answers.flags import FLAGS as ALL_FLAGS
 from gradhesion.core.problem.status import OF_FITS
 

@@ -170,11 +170,11 @@ def test_several_rows_are_counted(study: Path, tmp_path: Path) -> None:
 def test_what_is_no_file(study: Path) -> None:
     for value, words in {
         '"absent.csv"': "cannot be read (No such file",
-        "3": "this must be the name of a file in quotes",
-        '""': "this must be the name of a file in quotes",
-        "{ file = 3 }": "this must be the name of a file in quotes",
-        '{ file = "samples.csv", sha256 = "abc" }': "a sha256 has 64 digits",
-        '{ sha256 = "' + 64 * "0" + '" }': "the name of the file is required",
+        "3": "parameters.points = 3: ",
+        '""': 'parameters.points = "": ',
+        "{ file = 3 }": "parameters.points.file = 3: ",
+        '{ file = "samples.csv", sha256 = "abc" }': 'parameters.points.sha256 = "abc": ',
+        '{ sha256 = "' + 64 * "0" + '" }': "parameters.points.file: ",
         '{ file = "samples.csv", sha265 = "" }': 'did you mean "sha256"',
     }.items():
         assert any(words in line for line in mistakes(study, f"parameters.points={value}")), value

@@ -12,9 +12,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradhesion.cli.study.form.axes import expanded
-from gradhesion.cli.study.form.inputs import Range
 from gradhesion.cli.study.reading import load_study, study_from
+from gradhesion.cli.study.rules.axes import expanded
+from gradhesion.cli.study.rules.form import Range
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.text.places import lines_of
 from gradhesion.cli.study.tiling import Tiling, size_of, tile

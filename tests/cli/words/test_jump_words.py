@@ -13,11 +13,11 @@ from click.testing import Result
 
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.dataset.read.reader import opened
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names.curves import CURVES, INTEGERS
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.words.jump_words import jump_lines, jumps_listed
 from gradhesion.core import draw_curves, solve
+from gradhesion.core.problem.inputs import INPUTS
 
 Call = Callable[..., Result]
 VARIABLES = [name for name in CURVES["jumps"] if name != "jump_count"]

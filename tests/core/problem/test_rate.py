@@ -15,7 +15,7 @@ def test_what_is_admitted() -> None:
 
 @pytest.mark.parametrize("exponent", [0.0, 0.0999, 2.0001, math.nan, math.inf])
 def test_an_exponent_out_of_range(exponent: float) -> None:
-    with pytest.raises(ValueError, match=r"a number from 0\.1 to 2"):
+    with pytest.raises(ValueError, match=r"exponent = "):
         Rate(exponent=exponent)
 
 

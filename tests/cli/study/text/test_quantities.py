@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradhesion.cli.keys import INPUTS, PHYSICAL
-from gradhesion.cli.study.form.inputs import Range
-from gradhesion.cli.study.form.mistakes import checked
+from gradhesion.cli.study.rules.form import Range
+from gradhesion.cli.study.rules.mistakes import checked
 from gradhesion.cli.study.text.quantities import si_value
+from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
 
 UNITS = {
     "m": "a length (m)",

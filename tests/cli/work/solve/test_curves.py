@@ -13,13 +13,15 @@ from click.testing import Result
 
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.dataset.read.reader import opened
-from gradhesion.cli.keys import INPUTS, PARAMETERS
-from gradhesion.cli.names.curves import CURVES, EXTENTS, GENERAL_CURVES, INTEGERS, MEANINGS, RAGGED, STATE_CURVES
+from gradhesion.cli.names.curves import CURVES, EXTENTS, INTEGERS, MEANINGS, RAGGED, STATE_CURVES
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.words.curve_words import curve_lines
 from gradhesion.core import FAILED, FLAGS, draw_curves, solve
 from gradhesion.core.draw import draw
 from gradhesion.core.problem import names
+from gradhesion.core.problem.inputs import INPUTS
+from gradhesion.core.problem.names import PARAMETERS
+from gradhesion.core.problem.outputs import CURVES as DECLARED
 
 Call = Callable[..., Result]
 
@@ -52,7 +54,8 @@ def test_the_names_are_those_of_the_core() -> None:
     counts = {*RAGGED.values()}
     of_core = {curve: tuple(name for name in own if name not in counts) for curve, own in OWN.items()}
     assert of_core == names.CURVES
-    assert (*draw.GENERAL_CURVES, *STATE_CURVES) == GENERAL_CURVES
+    general = tuple(name for name, curve in DECLARED.items() if not curve.needs_depth)
+    assert (*draw.GENERAL_CURVES, *STATE_CURVES) == general
     assert set(INTEGERS) - counts == set(draw.INTEGERS)
     assert list(EXTENTS) == list(CURVES)
     assert set(MEANINGS) < set(INTEGERS)

@@ -8,7 +8,7 @@ import pytest
 import xarray
 
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.errors import DatasetError, StudyError
+from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.picture.curves.picture import drawn_curves
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
@@ -62,24 +62,6 @@ def test_in_units() -> None:
     np.testing.assert_allclose(dataset["pressure_radius_si"], dataset["pressure_radius"] * 2e-6)
     figure = drawn_curves(dataset, [])
     assert "Pa" in figure.axes[0].get_ylabel()
-
-
-@pytest.mark.parametrize(
-    ("outputs", "radii", "more", "sentence"),
-    [
-        (["pressure"], [0.1, 0.5], {}, r"states.contact_radius_over_R\[1\] = 0.5: .* in \(0, 0.45\]"),
-        (["pressure"], [0.1, 0.3], {"a_max_over_R": [0.2, 0.5]}, r"in \(0, 0.2\]"),
-        (["pressure"], [0.1, 0.1], {}, "given twice; remove one"),
-        (["pressure"], [0.0], {}, r"contact_radius_over_R\[0\] = 0.0"),
-        (["pressure"], [], {}, "contact_radius_over_R"),
-        (["path"], [0.1], {}, 'add "pressure" or "surface"'),
-        (["pressure", "pressure"], None, {}, "listed twice"),
-        (["surface", "surface_gap"], None, {}, 'a variable of "surface"'),
-    ],
-)
-def test_mistakes(outputs: list[str], radii: list[float] | None, more: dict[str, Any], sentence: str) -> None:
-    with pytest.raises(StudyError, match=sentence):
-        study(outputs, radii, **more)
 
 
 def test_words_and_picture(tmp_path: Path) -> None:

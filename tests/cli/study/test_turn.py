@@ -11,9 +11,7 @@ import xarray
 from click.testing import Result
 
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.reading import study_from
-from gradhesion.cli.study.rules.turn import KEYS
 from gradhesion.core import TURNS, solve
 from gradhesion.core.problem.status import doubts_about
 
@@ -25,13 +23,6 @@ OUTPUTS = ["pull_off_force", "dissipated_energy", "delta_max", "turning_radius"]
 
 def study(parameters: dict[str, Any], **more: Any) -> dict[str, Any]:
     return {"outputs": OUTPUTS, "parameters": SCENE | parameters} | more
-
-
-def test_the_keys_are_those_of_the_core() -> None:
-    from gradhesion.cli import keys
-
-    assert keys.TURNS == TURNS
-    assert {name for _, name in KEYS} == {*TURNS, "indentation_max", "preload"}
 
 
 @pytest.mark.parametrize(("turn", "values"), [*zip(TURNS, ([-0.01, 0.02, 0.2], [0.5, 5.0, 50.0]), strict=True)])
@@ -101,48 +92,6 @@ def test_commands(gradhesion: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert gradhesion("plot", "turn.nc", "-o", "turn.png").exit_code == 0
     with xarray.open_dataset(tmp_path / "turn.nc") as dataset:
         assert dataset.sizes["indentation_max_over_R"] == 12
-
-
-@pytest.mark.parametrize(
-    ("data", "sentences"),
-    [
-        (
-            study({"indentation_max_over_R": 0.1, "load_max": 1.0}),
-            [
-                "parameters.load_max = 1.0: a cycle turns at one depth or load, and indentation_max_over_R gives it already"
-            ],
-        ),
-        (study({"load_max": 0.0}), ["parameters.load_max = 0.0: out of range; choose a value with load_max > 0"]),
-        (study({"load_max": math.inf}), ["parameters.load_max = inf: out of range"]),
-        (study({"indentation_max_over_R": math.nan}), ["-inf < indentation_max_over_R < inf"]),
-        (study({"indentation_max_over_R": "deep"}), ["this must be a number"]),
-        (
-            study({"load_max": 1.0}, method={"solver": ["exact", "envelope"]}),
-            ['the solver "envelope" turns only at the rim; write solver = "exact", or remove load_max'],
-        ),
-        (
-            {"outputs": OUTPUTS, "parameters": {"k": 0, "nu": 0.3, "A": 0.1, "load_max": 1.0}, "physical": PROBE},
-            ["parameters.load_max = 1.0: a ratio, where [physical] gives quantities with units"],
-        ),
-        (
-            {"outputs": OUTPUTS, "parameters": {"k": 0, "nu": 0.3, "A": 0.1}, "physical": PROBE | {"preload": "3 nm"}},
-            ['physical.preload = "3 nm": "nm" is not a unit of this quantity; a force (N) is expected'],
-        ),
-        (
-            {
-                "outputs": OUTPUTS,
-                "parameters": {"k": 0, "nu": 0.3, "A": 0.1},
-                "physical": PROBE | {"indentation_max": "inf"},
-            },
-            ["physical.indentation_max = ", "choose a length (m) that is finite"],
-        ),
-    ],
-)
-def test_what_is_refused(data: dict[str, Any], sentences: list[str]) -> None:
-    with pytest.raises(StudyError) as raised:
-        study_from(data)
-    for sentence in sentences:
-        assert sentence in str(raised.value)
 
 
 def test_doubt_is_cast_on_all_that_loading_leads_to() -> None:

@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pytest
 from click.testing import Result
 
 import gradhesion as gr
@@ -104,45 +103,6 @@ def test_an_optimum_may_be_sought_over_the_ratio() -> None:
     grid = np.linspace(0.1, 1.0, 2001)
     energies = solve(PLAIN | {"a_max_over_R": 0.5, "closing_ratio": grid}, ["dissipated_energy"])["dissipated_energy"]
     assert float(found["best_dissipated_energy"]) >= energies.max() * (1.0 - 1e-12)
-
-
-@pytest.mark.parametrize(
-    ("text", "sentence"),
-    [
-        (
-            OUTPUTS + PARAMETERS + "modulus = 500.0\nlambda_over_R = 0.1\na_max_over_R = 0.5\nclosing_ratio = 1.5\n",
-            "parameters.closing_ratio = 1.5: out of range; choose a value with 0 <= closing_ratio <= 1",
-        ),
-        (
-            OUTPUTS + PARAMETERS + "modulus = 500.0\nlambda_over_R = 0.1\nclosing_ratio = 0.5\n",
-            "give indentation_max_over_R or a finite radius of the punch, or remove this output",
-        ),
-        (
-            OUTPUTS + PARAMETERS + PHYSICAL + 'a_max = "0.5 mm"\nwork_of_adhesion_closing = "60 mJ/m^2"\n',
-            "work_of_adhesion_closing = 0.06 J/m^2 exceeds work_of_adhesion = 0.05 J/m^2",
-        ),
-        (
-            OUTPUTS
-            + PARAMETERS
-            + "closing_ratio = 0.5\n"
-            + PHYSICAL
-            + 'a_max = "0.5 mm"\nwork_of_adhesion_closing = "1 mJ/m^2"\n',
-            "closing_ratio gives the work of closing already; keep one of the two and remove the other",
-        ),
-        (
-            OUTPUTS + PARAMETERS + "modulus = 500.0\nlambda_over_R = 0.1\na_max_over_R = 0.5\nclosing_ratioo = 0.5\n",
-            'unknown key; did you mean "closing_ratio"?',
-        ),
-        (  # a slip at the top of the study hides nothing of what is wrong further down, and breaks nothing
-            "titel = 1\n" + OUTPUTS + PARAMETERS + "modulus = 500.0\nlambda_over_R = 0.1\nclosing_ratio = 0.5\n",
-            "give indentation_max_over_R or a finite radius of the punch, or remove this output",
-        ),
-    ],
-)
-def test_what_is_wrong_is_said_before_anything_is_computed(
-    text: str, sentence: str, refused_at_once: Callable[[str, str], None]
-) -> None:
-    refused_at_once(text, sentence)
 
 
 def test_a_forced_pull_alone_needs_no_turn() -> None:

@@ -11,7 +11,6 @@ from click.testing import Result
 
 import gradhesion as gr
 from gradhesion.cli.dataset import compute
-from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study import study_from
 from gradhesion.core import VALIDITY, validity
 
@@ -65,36 +64,6 @@ def test_a_scene_without_value_has_none_of_them() -> None:
     )
     assert found["status"].item() == 64
     assert all(np.isnan(found[name].item()) for name in VALIDITY[2:])
-
-
-def test_units_are_given_once(study: dict[str, Any]) -> None:
-    physical = {"R": "1 um", "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "10 nm", "wavelength": "0.1 um"}
-    parameters = {"k": 0.5, "nu": 0.3, "A": 0.02}
-    units = {
-        "outputs": ["tabor_parameter"],
-        "parameters": parameters,
-        "physical": physical | {"adhesion_range": "0.3 nm"},
-    }
-    assert study_from(units).sizes == {}
-    for change, words in (
-        (
-            {"physical": physical},
-            'outputs[0] = "tabor_parameter": this output needs the range of the attraction; add adhesion_range =',
-        ),
-        (
-            {"parameters": parameters | {"adhesion_range_over_R": 1e-4}},
-            "parameters.adhesion_range_over_R = 0.0001: a ratio",
-        ),
-        ({"outputs": ["wave_slope"]}, 'physical.adhesion_range = "0.3 nm": no output needs this key'),
-        ({"physical": physical | {"adhesion_range": "0.3 N"}}, '"N" is not a unit of this quantity'),
-        ({"physical": physical | {"adhesion_range": "0 nm"}}, "out of range"),
-    ):
-        with pytest.raises(StudyError) as caught:
-            study_from(units | change)
-        assert any(words in line for line in caught.value.mistakes), caught.value.mistakes
-    del study["parameters"]["adhesion_range_over_R"]
-    with pytest.raises(StudyError, match=r"outputs\[1\] = \"tabor_parameter\": .*add adhesion_range_over_R = "):
-        study_from(study)
 
 
 def test_info_counts_what_is_beyond_the_model(

@@ -1,0 +1,94 @@
+"""The values that an input expands to, and what is wrong with those of one input."""
+
+from collections.abc import Iterator
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.cli.study.rules.form import Entry, Range
+from gradhesion.core.problem.inputs import INPUTS
+
+Values = float | NDArray[np.float64]
+"""The values of a parameter: a float is fixed, an array is an axis."""
+Found = Iterator[tuple[str, str]]
+"""Dotted keys, and what is wrong with each."""
+MOST_VALUES: Final = 10_000_000
+"""Values of one axis: it is held in memory, and so are its kin."""
+DIGITS: Final = 12
+"""Significant digits of the decimals that the values of a range are moved to, where these are within rounding."""
+
+
+def home(name: str) -> str:
+    """Write an input with its table."""
+    return f"{INPUTS[name].table}.{name}"
+
+
+def expanded(entry: Entry) -> Values:
+    """
+    Expand a valid input of a study; a range begins and ends at exactly its `start` and `stop`.
+
+    >>> expanded(0.3)
+    0.3
+    >>> expanded(Range(start=0.01, stop=1.0, num=3, spacing="log"))
+    array([0.01, 0.1 , 1.  ])
+    """
+    if isinstance(entry, Range):
+        space = np.geomspace if entry.spacing == "log" else np.linspace
+        low, high = sorted((entry.start, entry.stop))
+        values = space(entry.start, entry.stop, entry.num)
+        values = _shortest(values, np.abs(values) if entry.spacing == "log" else max(abs(entry.start), abs(entry.stop)))
+        values = np.clip(values, low, high)
+        values[0], values[-1] = entry.start, entry.stop
+        return values + 0.0  # no negative zeros
+    if isinstance(entry, list):
+        return np.array(entry, dtype=np.float64) + 0.0
+    return float(entry) + 0.0
+
+
+def _shortest(values: NDArray[np.float64], size: NDArray[np.float64] | float) -> NDArray[np.float64]:
+    """
+    Move values to decimals of a few digits that are within the rounding of a range of this `size`.
+
+    So that a value can be selected by what one would write: 0.69 and not 0.6900000000000001.
+
+    >>> float(_shortest(np.array([0.6900000000000001]), 1.0)[0])
+    0.69
+    """
+    with np.errstate(all="ignore"):
+        places = np.clip(DIGITS - 1 - np.floor(np.log10(size)), -22, 22)
+        power = 10.0 ** np.abs(places)  # exact to 10^22
+        decimals = np.where(places >= 0, np.rint(values * power) / power, np.rint(values / power) * power)
+        near = np.abs(decimals - values) <= 4 * np.finfo(float).eps * size  # of a few roundings in making the range
+    moved = np.where(near & np.isfinite(decimals), decimals, values)
+    return moved if np.unique(moved).size == np.unique(values).size else values
+
+
+def range_mistakes(name: str, entry: Entry, *, searched: bool) -> Found:
+    """Check that a range makes sense as a whole, and that an axis can be held in memory."""
+    at = home(name)
+    if isinstance(entry, list) and len(entry) > MOST_VALUES:
+        yield at, f"more than {MOST_VALUES:,} values in one list; split the study"
+    if not isinstance(entry, Range):
+        return
+    start, stop = entry.start, entry.stop
+    if entry.num > MOST_VALUES:
+        yield f"{at}.num", f"more than {MOST_VALUES:,} values in one axis; split the study"
+    elif entry.num == 1 and start != stop:
+        yield f"{at}.num", "one value cannot be at both start and stop; use num = 2 or more, or a list of one value"
+    elif entry.num > 1 and start == stop and not searched:
+        yield at, f"start and stop are the same, so that the value repeats; write [{start:g}] or another stop"
+    elif entry.spacing == "log" and min(start, stop) <= 0.0:
+        end = "start" if start <= 0.0 else "stop"
+        yield f"{at}.{end}", 'log spacing needs values > 0; raise it, or use spacing = "linear"'
+
+
+def repeated(name: str, values: Values) -> Found:
+    """Check that an axis has no value twice."""
+    if isinstance(values, np.ndarray):
+        unique, counts = np.unique(values, return_counts=True)
+        if np.any(counts > 1):
+            value = float(unique[np.argmax(counts > 1)])
+            first, second = np.flatnonzero(values == value)[:2].tolist()
+            unit = "" if INPUTS[name].unit == "1" else f" {INPUTS[name].unit}"
+            yield home(name), f"the axis repeats the value {value!r}{unit} (items {first} and {second}); remove one"

@@ -1,0 +1,285 @@
+"""Every mistake of a study gives its sentence, with exit 2, and nothing is written."""
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import Result
+
+from gradhesion.cli.terminal.printable import printable_line
+
+GOOD = """\
+title = "Good"
+kind = "map"
+layout = "grid"
+outputs = ["pull_off_force"]
+
+[parameters]
+k = [0.0, 0.5]
+nu = 0.3
+modulus = 500.0
+c0_over_R = 0.01
+lambda_over_R = { start = 0.1, stop = 0.5, num = 3, spacing = "log" }
+A = 0.1
+a_max_over_R = inf
+
+[method]
+solver = "exact"
+"""
+
+CURVE = (
+    'kind = "map"\nlayout = "grid"\noutputs = ["pull_off_force"]',
+    'kind = "curve"\nlayout = "grid"\noutputs = ["pull_off_force"]',
+)
+
+NOT_TOML = {  # what is replaced, by what, and the line that is named
+    "no equals sign": ("kind = ", "kind ", 2),
+    "decimal comma": ("nu = 0.3", "nu = 0,3", 8),
+    "decimal comma in a range": ("start = 0.1", "start = 0,1", 11),
+    "key twice": ("nu = 0.3", "nu = 0.3\nnu = 0.4", 9),
+    "table twice": ("nu = 0.3", "nu = 0.3\n[parameters]", 9),
+    "unfinished": ("R = inf", "R = [", None),
+    "nested too deeply": ("R = inf", "R = " + 3000 * "[", None),
+    "digits without end": ("R = inf", "R = " + 5000 * "1", None),
+}
+LINES = {  # what is replaced, by what, the key of the mistake and its line
+    "at the top": ('kind = "map"', 'kind = "mop"', "kind", 2),
+    "in a list at the top": ('["pull_off_force"]', '["delta_max", "delta_max"]', "outputs[1]", 4),
+    "of a table that is missing": ("[parameters]", "[parameter]", "parameter", 6),
+    "missing in a table": ("nu = 0.3\n", "", "parameters.nu", 6),
+    "in a list": ("[0.0, 0.5]", "[0.0, -2.0]", "parameters.k[1]", 7),
+    "a date": ("nu = 0.3", "nu = 2020-01-01", "parameters.nu", 8),
+    "an integer of many digits": ("modulus = 500.0", "modulus = 1" + 400 * "0", "parameters.modulus", 9),
+    "in a range": ("num = 3", "num = 0", "parameters.lambda_over_R.num", 11),
+    "misspelt in a range": ("num = 3", "num = 3, base = 2", "parameters.lambda_over_R.base", 11),
+    "in another table": ("A = 0.1", 'A = 0.1\nR = "1 mm"', "parameters.R", 13),
+    "too many scenes": ("nu = 0.3", "nu = { start = 0, stop = 0.4, num = 1000000000 }", "parameters.nu.num", 8),
+}
+
+BOUNDS = {
+    "k": ("-0.001", "1.001", "0 <= k <= 1"),
+    "nu": ("-1.0", "0.5000000001", "-1 < nu <= 0.5"),
+    "modulus": ("0.0", "-5", "modulus > 0"),
+    "c0_over_R": ("0", "-1e-300", "c0_over_R > 0"),
+    "lambda_over_R": ("0.0", "-1", "lambda_over_R > 0"),
+    "A": ("-1e-9", "-inf", "A >= 0"),
+    "a_max_over_R": ("0", "-3", "a_max_over_R > 0"),
+}
+
+
+@pytest.fixture
+def refused(
+    gradhesion: Callable[..., Result], write_study: Callable[[str], Path], tmp_path: Path
+) -> Callable[..., list[str]]:
+    """Run a text as a study that must be refused, and give the lines of the message."""
+
+    def run(text: str, *arguments: str) -> list[str]:
+        path = write_study(text)
+        result = gradhesion("run", path, "-o", tmp_path / "out.nc", *arguments)
+        assert result.exit_code == 2
+        assert not result.stdout
+        assert "Traceback" not in result.stderr
+        assert [item.name for item in tmp_path.iterdir()] == ["study.toml"], "nothing is written"
+        return [line.replace(str(path), "study.toml") for line in result.stderr.splitlines()]
+
+    return run
+
+
+@pytest.mark.parametrize("name", NOT_TOML)
+def test_what_is_not_toml_is_refused_at_its_line(name: str, refused: Callable[..., list[str]]) -> None:
+    old, new, line = NOT_TOML[name]
+    assert old in GOOD
+    (sentence,) = refused(GOOD.replace(old, new, 1))
+    assert sentence.startswith(f"study.toml:{line}: " if line else "study.toml")
+    assert ";" in sentence
+
+
+@pytest.mark.parametrize("name", LINES)
+def test_each_mistake_names_its_line_and_key(name: str, refused: Callable[..., list[str]]) -> None:
+    old, new, key, line = LINES[name]
+    assert old in GOOD
+    sentences = refused(GOOD.replace(old, new, 1))
+    assert any(re.match(rf"study.toml:{line}: {re.escape(key)}[ :]", sentence) for sentence in sentences), sentences
+
+
+@pytest.mark.parametrize("name", BOUNDS)
+@pytest.mark.parametrize("form", ["{}", "[{}]", "{{ start = {}, stop = 0.4, num = 2 }}"])
+def test_each_bound_of_each_parameter(name: str, form: str, refused: Callable[..., list[str]]) -> None:
+    *outside, allowed = BOUNDS[name]
+    for value in outside:
+        if "inf" in value and "start" in form:
+            continue
+        text = re.sub(rf"(?m)^{name} = .*$", f"{name} = {form.format(value)}", GOOD)
+        (line,) = refused(text)
+        assert f"parameters.{name}" in line
+        assert f"= {value.rstrip('0') if '.' in value else value}"[:4] in line
+        assert allowed in line
+
+
+@pytest.mark.parametrize(("k", "nu"), [("0.0", "-0.9999999999999999"), ("1.0", "0.5")])
+def test_the_closed_ends_are_allowed(k: str, nu: str, write_study: Callable[[str], Path]) -> None:
+    from gradhesion.cli.study.reading import load_study
+
+    study = load_study(write_study(GOOD.replace("[0.0, 0.5]", k).replace("nu = 0.3", f"nu = {nu}")))
+    assert study.parameters["k"] == float(k)
+
+
+@pytest.mark.parametrize("layout", ["grid", "points"])
+def test_a_thousand_curves_are_allowed(layout: str, write_study: Callable[[str], Path]) -> None:
+    from gradhesion.cli.study.reading import load_study
+
+    text = GOOD.replace(*CURVE).replace("pull_off_force", "path").replace("[0.0, 0.5]", "0.5").replace("grid", layout)
+    assert load_study(write_study(text.replace("num = 3", "num = 1000"))).scenes == 1000
+
+
+@pytest.mark.parametrize("old", ["num = 3", "num = 1001"])
+def test_points_are_counted_by_their_longest_list(old: str, refused: Callable[..., list[str]]) -> None:
+    text = GOOD.replace(*CURVE).replace("pull_off_force", "path").replace("[0.0, 0.5]", "0.5").replace("grid", "points")
+    text = text.replace("num = 3", "num = 1001").replace(
+        "nu = 0.3", "nu = [0.1, 0.2]" if old == "num = 3" else "nu = 0.3"
+    )
+    assert any("at most 1,000 scenes, and this one has 1,001" in line for line in refused(text))
+
+
+def test_all_mistakes_are_told_at_once_in_the_order_of_their_lines(refused: Callable[..., list[str]]) -> None:
+    text = GOOD.replace('"map"', '"mop"').replace('"grid"', '"gird"').replace("pull_off", "pull_of")
+    text = text.replace("nu = 0.3", 'nu = "0.3"').replace("num = 3", "num = 3, base = 2").replace("exact", "exakt")
+    text = text.replace("A = 0.1", "A = [0.1, 0.2, 0.1]").replace("[0.0, 0.5]", "[0.0, -2.0, 7.0]")
+    lines = refused(text, "--set", "parameters.modulus=-1")
+    assert lines[0].startswith("--set parameters.modulus=-1: parameters.modulus = -1: out of range")
+    numbers = [int(line.split(":")[1]) for line in lines[1:]]
+    assert numbers == [2, 3, 4, 7, 7, 8, 11, 12, 16]
+
+
+def test_a_misplaced_key_does_not_excuse_a_wrong_one(refused: Callable[..., list[str]]) -> None:
+    lines = refused(GOOD.replace('title = "Good"', "title = nan").replace("[method]", 'title = "Good"\n[method]'))
+    assert ["title = nan: this must be a string" in lines[0], "belongs at the top" in lines[1]] == [True, True]
+
+
+def test_a_thousand_mistakes_do_not_flood_the_screen(refused: Callable[..., list[str]]) -> None:
+    lines = refused(GOOD.replace("[0.0, 0.5]", str([-1.0 - i for i in range(1000)])))
+    assert len(lines) == 31
+    assert "970 more mistakes" in lines[-1]
+
+
+@pytest.mark.parametrize(
+    ("override", "message"),
+    [
+        ("parameters.k", "not of the form KEY=VALUE"),
+        ("=3", "not of the form KEY=VALUE"),
+        ("parameters..k=3", "not of the form KEY=VALUE"),
+        ("layout=points", "the value is not TOML; quote strings, as in --set 'layout=\"points\"'"),
+        ("parameters.k=", "the value is not TOML"),
+        ("parameters.k=0.1\nA=3", "the value is not TOML"),
+        ("title.x=3", "title is not a table; set it as a whole"),
+        ("parameters.kk=0.1", 'parameters.kk = 0.1: unknown key; did you mean "k"?'),
+        ("parameters.k=2", "parameters.k = 2: out of range"),
+        ("parameters.lambda_over_R={start=1, stop=2, num=0}", "parameters.lambda_over_R.num = 0: "),
+        ("parameters.lambda_over_R.num=0", "parameters.lambda_over_R.num = 0: "),
+        ('include="base.toml"', "a study is included by its file alone"),
+        ("nothing.at.all=1", "nothing = { at = { all = 1 } }: unknown key"),
+    ],
+)
+def test_a_wrong_override_is_named_by_its_own_text(
+    override: str, message: str, refused: Callable[..., list[str]]
+) -> None:
+    text = "\n".join(refused(GOOD, "--set", override))
+    assert f"--set {printable_line(override)}" in text
+    assert message in text
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (None, "cannot be read (No such file or directory)"),
+        ("folder", "cannot be read (Is a directory)"),
+        (b'title = "\xff"', ":1: not text in UTF-8"),
+        (b"\x00\x01\x02", "not valid TOML"),
+        (b"\n\n\nk = \n", ":4: not valid TOML"),
+    ],
+)
+def test_a_file_that_is_no_study(
+    content: bytes | str | None, message: str, gradhesion: Callable[..., Result], tmp_path: Path
+) -> None:
+    path = tmp_path / "study.toml"
+    if content == "folder":
+        path.mkdir()
+    elif isinstance(content, bytes):
+        path.write_bytes(content)
+    result = gradhesion("run", path)
+    assert result.exit_code == 2
+    assert str(path) in result.stderr
+    assert message in result.stderr
+
+
+def test_an_endless_file_is_not_read_for_ever() -> None:
+    from gradhesion.cli.errors import StudyError
+    from gradhesion.cli.study.text.source import read_source
+
+    with pytest.raises(StudyError, match="larger than 1 MiB"):
+        read_source(Path("/dev/zero"), (), most=2**20)
+
+
+def test_a_study_made_in_python_is_checked_alike() -> None:
+    from gradhesion.cli.errors import StudyError
+    from gradhesion.cli.study.reading import study_from
+
+    with pytest.raises(StudyError) as caught:
+        study_from({"outputs": ["delta_max"], "parameters": {"k": (0.1, 2.0)}}, name="mine")
+    assert caught.value.mistakes[0] == "mine: parameters.k[1] = 2.0: out of range; choose a value with 0 <= k <= 1"
+    assert len(caught.value.mistakes) == 6
+
+
+BASE = """outputs = ["pull_off_force"]
+[parameters]
+k = 0.3
+nu = 0.3
+modulus = 500.0
+c0_over_R = 0.01
+lambda_over_R = { start = 0.1, stop = 1.0, num = 3 }
+A = 0.1
+"""
+
+
+def test_a_study_may_include_another(tmp_path: Path) -> None:
+    from gradhesion.cli.study.reading import load_study, study_from
+
+    (tmp_path / "base.toml").write_text(BASE)
+    below = tmp_path / "below"
+    below.mkdir()
+    (below / "study.toml").write_text('include = "../base.toml"\n[parameters]\nk = [0.0, 0.5]\nlambda_over_R = 0.2\n')
+    study = load_study(below / "study.toml", ["parameters.A=0.02"])
+    assert study.name == "study"
+    assert (study.parameters["nu"], study.parameters["lambda_over_R"], study.parameters["A"]) == (0.3, 0.2, 0.02)
+    assert study.sizes == {"k": 2}, "a value is replaced, a table is merged"
+    (tmp_path / "again.toml").write_text(study.text)
+    assert "include" not in study.text
+    assert load_study(tmp_path / "again.toml").sha256 == study.sha256
+    mapping = {"include": "base.toml", "parameters": {"k": [0.0, 0.5], "lambda_over_R": 0.2, "A": 0.02}}
+    assert study_from(mapping, "study", folder=tmp_path).text == study.text
+
+
+@pytest.mark.parametrize(
+    ("text", "base", "place", "words"),
+    [
+        ('include = "base.toml"\n', BASE.replace("A = 0.1", "A = -1"), "base.toml:8", "parameters.A = -1"),
+        ('include = "base.toml"\nlayout = "gird"\n', BASE, "study.toml:2", "layout"),
+        ('include = "base.toml"\n', "include = 'study.toml'", "base.toml:1", "study.toml includes"),
+        ('include = "study.toml"\n', "", "study.toml:1", "study.toml includes"),
+        ('include = "other.toml"\n', "", "study.toml:1", "other.toml"),
+        ("include = 3\n", "", "study.toml:1", "include = 3"),
+        ('include = "base.toml"\n', "k = ", "base.toml:1", "not valid TOML"),
+    ],
+)
+def test_what_is_wrong_with_an_included_study(text: str, base: str, place: str, words: str, tmp_path: Path) -> None:
+    from gradhesion.cli.errors import StudyError
+    from gradhesion.cli.study.reading import load_study
+
+    (tmp_path / "study.toml").write_text(text)
+    (tmp_path / "base.toml").write_text(base)
+    with pytest.raises(StudyError) as refused:
+        load_study(tmp_path / "study.toml")
+    (sentence,) = refused.value.mistakes
+    assert sentence.startswith(f"{tmp_path / place}: ")
+    assert words in sentence
