@@ -44,6 +44,8 @@ INTERVALS: Final = ("linear", "profile")
 """Methods for intervals."""
 _BLUR: Final = 6.0
 """Standard deviations of the depth by which the path continues beyond the deepest point."""
+_LEVEL: Final = 3.0
+"""Standard deviations of the points of a base line within which the fitted path has it."""
 _MISSED: Final = 0.03
 """Part of the span by which the furthest point may miss the turn."""
 
@@ -178,8 +180,11 @@ def fit_loop(
         if misfit.nearest(found[0].x).drawn is None:
             raise ValueError("no combination within the ranges has a path; widen them")
         fitted = results_at(misfit, found, intervals, ranges, widened=not noise_is_given)
-    loading_path, unloading_path = fitted.loading + zero, fitted.unloading + zero
-    return replace(fitted, base_line=line, contact=contact, loading=loading_path, unloading=unloading_path)
+    if line is not None:  # points in contact may be flat, as those before the pull-off are: at another load
+        level = fitted.values.get(LOAD_ZERO, 0.0) + fitted.values.get(TILT, 0.0) * line.middle
+        line = line if abs(line.level - level) < _LEVEL * line.spread else None
+    paths = {"loading": fitted.loading + zero, "unloading": fitted.unloading + zero}
+    return replace(fitted, base_line=line, contact=contact, **paths)
 
 
 def _zeros(points: Floats, back: Truths, line: BaseLine | None, *, known: bool) -> tuple[float, float]:
@@ -215,6 +220,8 @@ def _searched(
 def _refuse_locked(misfit: Misfit, begun: list[Floats]) -> None:
     """Refuse numbers that no start can tell apart."""
     for vector in begun:
+        if misfit.nearest(vector).drawn is None:
+            return
         try:
             covariance_of(misfit, vector)
         except ValueError as error:

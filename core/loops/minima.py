@@ -91,17 +91,7 @@ def _beside(misfit: Misfit, vector: Floats) -> list[Floats]:
 
 
 def others(found: list[Any], covariance: Floats, unit: float) -> list[Any]:
-    """Return the minima other than the first that the noise allows.
-
-    Parameters
-    ----------
-    found
-        Minima, the best first.
-    covariance
-        Of the best, in the numbers that are searched.
-    unit
-        The variance of a residual.
-    """
+    """Return the minima after the first that noise allows, by the covariance of the first and a residual's variance."""
     best, inverse = found[0], np.linalg.pinv(covariance)
     allowed = float(chdtri(best.x.size, 1.0 - _ALLOWED)) * unit
     kept: list[Any] = []

@@ -131,30 +131,10 @@ def profile_interval(
 ) -> tuple[float, float]:
     """Return how low and how high one number may be by its profile likelihood, all others fitted anew.
 
-    For a linear problem the rise of the sum of squares grows as the square of the displacement; an interval ends where
-    it has grown to the square of a quantile of Student's t. Its root is nearly linear in the displacement, so that a
-    secant finds the end in a few steps.
-
-    Parameters
-    ----------
-    misfit
-        The loop.
-    best
-        The minimum, shape (unknown,).
-    number
-        Which of its numbers is moved.
-    along
-        How all numbers move with it in the linear problem: standard deviation times correlation; its own item
-        is its standard deviation. Shape (unknown,).
-    factor
-        The quantile at which an interval ends, in standard deviations.
-    unit
-        The variance of a residual, by which sums of squares are divided.
-
-    Returns
-    -------
-    The ends, as numbers are searched; an end of the range where the misfit does not grow enough within it. Where the
-    misfit is lower than at `best` on the way, it counts as that of `best`.
+    An interval ends where the sum of squares, over the variance `unit` of a residual, has risen by the square of
+    `factor`, a quantile of Student's t, or at the end of the range. The root of the rise is nearly linear in the
+    displacement, so that a secant finds it in a few steps. `along` is how all numbers move with this one in the linear
+    problem, standard deviation times correlation, (unknown,). A misfit lower than at `best` counts as that of `best`.
     """
     least, ends = float(np.sum(misfit.residual(best) ** 2)), []
     for sign in (-1.0, 1.0):
@@ -199,16 +179,8 @@ def alternatives(model: Model, path: LoopPath, noise: Floats, spread: Floats) ->
     """Return a sentence on what else would explain a loop; none where the jumps decide.
 
     Waves of a strength chi that are fine against the contact act as a smooth punch that opens at the work of adhesion
-    (1 + chi)^2 dgamma and closes at (1 - chi)^2 dgamma: toughnesses add (docs/theory.md).
-
-    Parameters
-    ----------
-    model, path
-        What was fitted, and the path of the best numbers.
-    noise
-        Standard deviations of depth and load, in m and N; shape (2,).
-    spread
-        Standard deviations of the numbers, as they are searched; shape (unknown,).
+    (1 + chi)^2 dgamma and closes at (1 - chi)^2 dgamma: toughnesses add (docs/theory.md). `noise` are the standard
+    deviations of depth and load, in m and N, `spread` those of the numbers, as they are searched.
     """
     scene = path.scene
     if not model.has_waves:

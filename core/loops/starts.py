@@ -48,18 +48,10 @@ _WORSE: Final = 0.5
 
 
 def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: int) -> list[Floats]:
-    """Return starts for all numbers of a loop, refined by some of its points, the best first.
+    """Return `count` starts at most for all numbers of a loop, refined by some of its points, the best first.
 
-    Parameters
-    ----------
-    misfit
-        The loop.
-    load_zero, contact
-        Load of the base line in N, and the depth in m at which it ends (NaN if it has none).
-    count
-        How many are returned at most.
-    seed
-        Of the Sobol set of what no feature of the loop determines.
+    `load_zero` is the load of the base line in N, `contact` the depth in m at which it ends (NaN if it has none), and
+    `seed` that of the Sobol set of what no feature of the loop determines.
     """
     if misfit.model.by_differences:
         rest = misfit.without(SPEEDS)

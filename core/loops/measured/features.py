@@ -44,6 +44,8 @@ class BaseLine:
     """Its tilt and the standard deviation of that, in N/m."""
     ends: tuple[float, float]
     """The depth in m at which it ends on loading and on unloading; NaN where a branch has none."""
+    middle: float = 0.0
+    """The mean depth of its points, in m."""
 
 
 @dataclass(frozen=True)
@@ -136,7 +138,7 @@ def base_line(points: Floats, back: Truths, noise: float) -> BaseLine | None:
     slope = float(away[:, 0] @ away[:, 1]) / across if across > 0.0 else 0.0
     rest = away[:, 1] - slope * away[:, 0]
     error = float(rest.std()) / across**0.5 if across > 0.0 else float("inf")
-    return BaseLine(float(mean[1]), float(away[:, 1].std()), slope, error, (ends[0], ends[1]))
+    return BaseLine(float(mean[1]), float(away[:, 1].std()), slope, error, (ends[0], ends[1]), float(mean[0]))
 
 
 def contact_point(points: Floats, back: Truths, noise: tuple[float, float]) -> ContactPoint | None:

@@ -24,20 +24,9 @@ class Walk(NamedTuple):
 
 
 def crossing(radius: Floats, level: Floats, rate: Floats, at: Integers, target: Floats | float) -> Floats:
-    """Return where a level is met between places of a grid and those before.
+    """Return the radii at which targets are met before the places `at` (m,) of a grid, and behind those before.
 
-    Parameters
-    ----------
-    radius, level, rate
-        A grid of radii, the level there, and its derivative; shape (n,).
-    at
-        Places in it, above 0, whose level is not below the target while that of the place before is; shape (m,).
-    target
-        The levels that are met; shape (m,) or a number.
-
-    Returns
-    -------
-    The radii, by the cubics that have the levels and their derivatives at both ends; shape (m,).
+    By the cubics that have the levels and their derivatives at both; radius, level and rate are of shape (n,).
     """
     start, width, low, rise = radius[at - 1], np.diff(radius)[at - 1], level[at - 1], np.diff(level)[at - 1]
     begin, end = rate[at - 1] * width, rate[at] * width
@@ -60,20 +49,10 @@ def met(walk: Walk, level: Floats, rate: Floats, target: float) -> float | None:
 
 
 def climb(radius: Floats, level: Floats, rate: Floats, start: float) -> Walk:
-    """Return the radii that the contact passes as a level grows.
+    """Return the radii that the contact passes as a level grows from a start; above it a branch is reached by a jump.
 
-    Parameters
-    ----------
-    radius
-        In the order in which the edge moves, rising or falling, the extrema of the level among them; shape (n,).
-    level, rate
-        What is prescribed, at these, and its derivative with respect to the radius; shape (n,).
-    start
-        The level from which it grows. A branch that begins above it is reached by a jump.
-
-    Examples
-    --------
-    Of a cubic with a maximum of 2 at -1, which is passed again at 2:
+    `radius` (n,) is in the order in which the edge moves, rising or falling, the extrema of the level among it; `rate`
+    is the derivative of the level. Of a cubic with a maximum of 2 at -1, which is passed again at 2:
 
     >>> a = np.linspace(-2.0, 3.0, 51)
     >>> radii, jump = climb(a, a**3 - 3.0 * a, 3.0 * a**2 - 3.0, -10.0)
