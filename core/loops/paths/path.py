@@ -4,11 +4,12 @@ Vertices lie on the curve itself, at radii through which the path passes on a gr
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from scipy.interpolate import CubicHermiteSpline
 
 from gradhesion.core.loops.paths.model import TURN, Model, Scenes
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
@@ -151,17 +152,18 @@ class LoopModel(Model):
         place = (max(target, 0.0) / (scene.rise * factor)) ** (1.0 / (power + m if by_load else m))
         return float(scene.R * (place + (swell / scene.rise) ** (1.0 / m)))
 
-    def _curves(self, scene: Scenes, radius: Floats) -> tuple[Floats, Floats]:
-        """Return radii with the extrema of what is prescribed among them, and states of closing and opening there."""
-        edges, drive = np.array([[scene.root], [1.0]]), self.driven
-        rows = self.states(scene, radius, edges)
-        rate = rows[drive + 2]
+    def _curves(self, scene: Scenes, radius: Floats) -> tuple[Floats, Callable[[Floats], Floats]]:
+        """Return radii with the extrema of what is prescribed among them, and states at radii within: cubics.
+
+        These are as those of `states`, along their second axis for closing and opening.
+        """
+        rows = self.states(scene, radius, np.array([[scene.root], [1.0]]))
+        rate = rows[self.driven + 2]
         side, at = np.nonzero(rate[:, 1:] * rate[:, :-1] < 0.0)
         share = rate[side, at] / (rate[side, at] - rate[side, at + 1])
-        extrema = np.unique(radius[at] + share * (radius[at + 1] - radius[at]))
-        both = np.concatenate([radius, extrema])
-        order = np.argsort(both, kind="stable")
-        return both[order], np.concatenate([rows, self.states(scene, extrema, edges)], axis=2)[:, :, order]
+        extrema = radius[at] + share * (radius[at + 1] - radius[at])
+        curve = CubicHermiteSpline(radius, rows[:2], rows[2:], axis=2)
+        return np.union1d(radius, extrema), lambda where: np.concatenate([curve(where), curve(where, 1)])
 
     def _drawn(self, scene: Scenes, target: float, aim: tuple[float, float], first: float) -> LoopPath | None:
         """Draw a path without offsets, whose line of no load begins at a depth.
@@ -182,46 +184,46 @@ class LoopModel(Model):
             if grid is None:
                 return None
             grid, curves = self._curves(scene, grid)
-            up = climb(grid, curves[self.driven, 0], curves[self.driven + 2, 0], 0.0)
-            rows = self.states(scene, up.radius, scene.root)
-
+            level, rate = curves(grid)[self.driven :: 2, 0]
+            way, jumped = climb(grid, level, rate, 0.0)
+            rows = curves(way)[:, 0]
             levels, rates = (aim[0] * rows[i] + aim[1] * rows[i + 1] for i in (0, 2))
-            turn = met(up, levels, rates, target)
-            if turn is None and end < scene.rim:
+            turn = met(way, jumped, levels, rates, target)
+            if math.isnan(turn) and end < scene.rim:
                 continue
-            if turn is not None and self.blur > 0.0 and aim == (1.0, 0.0):
-                jumps = np.flatnonzero(up.jump & (up.radius > turn))
-                last = float(up.radius[jumps[0] - 1 if jumps.size else -1])
-                further = met(up, levels, rates, target + self.blur)
-                turn, aim = (last, (0.0, 0.0)) if further is None or further > last else (further, aim)
+            if self.blur > 0.0 and aim == (1.0, 0.0) and turn <= way[-1]:
+                jumps = np.flatnonzero(jumped & (way > turn))
+                last = float(way[jumps[0] - 1 if jumps.size else -1])
+                further = met(way, jumped, levels, rates, target + self.blur)
+                turn, aim = (further, aim) if further <= last else (last, (0.0, 0.0))
             break
         else:
             return None
-        at_rim = turn is None
-        turn = scene.rim if turn is None else turn
-        within, inner = up.radius < turn, grid < turn
-        if np.count_nonzero(inner) < _FEWEST:
-            grid = turn * np.linspace(0.1, 0.9, _FEWEST)
-            inner, curves = np.ones(_FEWEST, bool), self.states(scene, grid, np.ones((2, 1)))
-        ends = self.states(scene, np.array([turn]), np.array([[scene.root], [1.0]]))
-        opening = -np.append(curves[:, 1, inner], ends[:, 1], axis=1)[:, ::-1]
-        down = climb(np.append(grid[inner], turn)[::-1], opening[self.driven], opening[self.driven + 2], -math.inf)
+        at_rim = math.isnan(turn)
+        turn = scene.rim if at_rim else turn
+        within, inside = way < turn, grid[grid < turn]
+        if inside.size < _FEWEST:
+            inside, curves = self._curves(scene, turn * np.linspace(0.1, 1.0, _FEWEST + 1))
+            inside = inside[:-1]
+        ends, inside = curves(np.array([turn])), np.append(inside, turn)[::-1].copy()
+        level, rate = -curves(inside)[self.driven :: 2, 1]
+        back, leapt = climb(inside, level, rate, -math.inf)
         split = int(np.count_nonzero(within))
-        landed = bool(up.jump[split]) if split < up.jump.size and up.radius[split] == turn else split == 0
-        way = [rows[:, within], ends[:, 0], ends[:, 0], self.states(scene, down.radius, 1.0)]
+        landed = bool(jumped[split]) if split < way.size and way[split] == turn else split == 0
+        parts = [rows[:, within], ends[:, 0], ends[:, 0], curves(back)[:, 1]]
         pressed = None
         if at_rim and target < math.inf:
             flat = self.flat(scene, turn)
-            pressed = max(0.0, (target - aim[0] * way[1][0, 0] - aim[1] * way[1][1, 0])
+            pressed = max(0.0, (target - aim[0] * parts[1][0, 0] - aim[1] * parts[1][1, 0])
                           / (aim[0] * flat[0] + aim[1] * flat[1]))  # fmt: skip
-            way[2] = way[2] + pressed * np.array([[flat[0]], [flat[1]], [0.0], [0.0]])
+            parts[2] = parts[2] + pressed * np.array([[flat[0]], [flat[1]], [0.0], [0.0]])
         else:
-            del way[2]
-        more = len(way) - 3
+            del parts[2]
+        more = len(parts) - 3
         split += more
-        x, load, *rates = np.concatenate(way, axis=1)
-        radius = np.concatenate([up.radius[within], np.full(1 + more, turn), down.radius])
-        jump = np.concatenate([up.jump[within], [landed], np.zeros(more + 1, bool), down.jump[1:]])
+        x, load, *rates = np.concatenate(parts, axis=1)
+        radius = np.concatenate([way[within], np.full(1 + more, turn), back])
+        jump = np.concatenate([jumped[within], [landed], np.zeros(more + 1, bool), leapt[1:]])
         curved = ~jump
         curved[[0, split + 1, *([split] * more)]] = False
         # under a falling load nothing holds the punch once contact is lost

@@ -39,13 +39,13 @@ def test_what_is_below_all_before_is_passed_over() -> None:
 def test_a_level_is_met_on_a_branch_or_where_a_jump_over_it_ends() -> None:
     a = np.union1d(np.linspace(-2.0, 3.0, 41), [-1.0, 1.0])
     walk = climb(a, *cubic(a), -10.0)
-    level, rate = cubic(walk.radius)
-    assert met(walk, level, rate, 8.125) == pytest.approx(2.5, abs=1e-12)
-    assert met(walk, level, rate, -2.0) == -2.0
-    assert met(walk, level, rate, 18.1) is None
-    depth = np.arange(walk.radius.size, dtype=float)  # another coordinate, which a jump passes over
-    landing = int(np.flatnonzero(walk.jump)[1])
-    assert met(walk, depth, 0.0 * depth + 1.0, landing - 0.5) == walk.radius[landing]
+    level, rate = cubic(walk[0])
+    assert met(*walk, level, rate, 8.125) == pytest.approx(2.5, abs=1e-12)
+    assert met(*walk, level, rate, -2.0) == -2.0
+    assert np.isnan(met(*walk, level, rate, 18.1))
+    depth = np.arange(walk[0].size, dtype=float)  # another coordinate, which a jump passes over
+    landing = int(np.flatnonzero(walk[1])[1])
+    assert met(*walk, depth, 0.0 * depth + 1.0, landing - 0.5) == walk[0][landing]
 
 
 def test_a_level_that_starts_high_lands_on_the_first_that_is_higher() -> None:
@@ -53,4 +53,4 @@ def test_a_level_that_starts_high_lands_on_the_first_that_is_higher() -> None:
     radii, jump = climb(a, a**2, 2.0 * a, 4.0)
     assert jump[0]
     assert radii[0] == pytest.approx(2.0, abs=1e-9)
-    assert climb(a, a**2, 2.0 * a, 100.0).radius.size == 0
+    assert climb(a, a**2, 2.0 * a, 100.0)[0].size == 0
