@@ -104,7 +104,7 @@ def fit_loop(
         speed_over_reference, are fixed or free, and its exponent may be free under that name. Every derivative is a
         difference of paths then: fits take minutes.
     intervals
-        "linear", those of the linear problem at the minimum, or "profile", by profile likelihoods (intervals.py).
+        "linear", those of the linear problem at the minimum, or "profile", by profile likelihoods.
     starts
         How many starts are refined.
     seed

@@ -58,30 +58,13 @@ def averaged(
     noise: tuple[float, float],
     most: int = MOST,
 ) -> Averaged:
-    """Average neighbouring points of one cycle and branch.
+    """Average neighbouring points of one cycle and branch, unless there are no more than `most`.
 
     Blocks of one length give about `most` means. A block whose points are not on a straight line along the branch, as
     far as noise shows, is halved until they are, so that no mean lies across a jump or beside a bend of the curve by
-    more than about its own noise. Points that are in no order are sorted by depth.
+    more than about its own noise. Points, (n,), are as to `noise_of`, whose result `noise` is; those in no order are
+    sorted by depth. Where noise about short parabolas is larger, it is not white, and that larger value is used.
 
-    Parameters
-    ----------
-    depth, load
-        In the order in which the points were measured, in any unit; shape (n,).
-    unloading, cycle
-        The way and the cycle of each point; shape (n,).
-    noise
-        Standard deviations of depth and load of a point (`noise_of` of noise.py), both > 0. If that about short
-        parabolas is larger, noise is not white, and that larger value is used.
-    most
-        About how many means there are if the curve has no jumps.
-
-    Returns
-    -------
-    The means; the points themselves if there are no more than `most`.
-
-    Examples
-    --------
     >>> depth = np.linspace(0.0, 1.0, 100_000)
     >>> load = np.where(depth < 0.5003, 0.0, 1.0)
     >>> found = averaged(depth, load, np.zeros(100_000, bool), np.ones(100_000, np.int32), (1e-6, 1e-3))

@@ -22,22 +22,12 @@ _TINY: Final = float(np.finfo(float).tiny)
 def noise_of(depth: Floats, load: Floats, unloading: Truths, cycle: NDArray[np.int32]) -> tuple[float, float]:
     """Estimate the standard deviations of depth and load from the points alone.
 
-    Parameters
-    ----------
-    depth, load
-        In the order in which the points were measured, in any unit; shape (n,).
-    unloading, cycle
-        The way and the cycle of each point, shape (n,): differences are taken within one.
+    Depths and loads are in the order in which the points were measured, in any unit; `unloading` and `cycle` are the
+    way and the cycle of each, within which differences are taken; all of shape (n,). White noise is that of the median
+    of second differences, which neither drift nor jumps move, and of a coarse digit at least (its step over the root of
+    12). Where the points of a branch are in no order, that of load is found where the curve is flat and that of depth
+    where it is steep. At least a millionth of the span; too high of points further apart than the curve bends.
 
-    Returns
-    -------
-    Standard deviations: of white noise by the median of second differences, which neither drift nor jumps move, and of
-    a coarse digit at least (its step over the root of 12). Where the points of a branch are in no
-    order, that of load is found where the curve is flat and that of depth where it is steep. They are at least a
-    millionth of the span. Of points that are further apart than the curve bends they are too high.
-
-    Examples
-    --------
     >>> rng = np.random.default_rng(0)
     >>> depth, load = np.linspace(0.0, 1.0, 2000), np.linspace(0.0, 5.0, 2000)
     >>> rows = (depth + 0.01 * rng.standard_normal(2000), load + 0.2 * rng.standard_normal(2000))

@@ -16,25 +16,13 @@ _FLAT: Final = 0.03
 
 
 def fault_of(depth: Floats, load: Floats, noise: Floats, unloading: Truths) -> str:
-    """Test by the ends of their depths whether points can be those of a contact.
+    """Test by the ends of their depths whether points can be those of a contact; return "" if they can.
 
-    Parameters
-    ----------
-    depth, load
-        In any unit, in any order; shape (n,).
-    noise
-        The standard deviation of each load, shape (n,).
-    unloading
-        Whether each point unloads; signs are tested on one branch.
+    Depths and loads are in any unit and order, `noise` is the standard deviation of each load, and `unloading` its
+    branch, on which signs are tested; all (n,). "straight": the load is a straight line of the depth and noise, without
+    contact. "load": it falls towards the deepest points and is farthest from the other end there, so that its sign is
+    wrong. "depth": it does so rising towards the shallowest points, so that the sign of the depth is wrong. "both".
 
-    Returns
-    -------
-    "" if they can. "straight": the load is a straight line of the depth and noise, without contact. "load": it falls
-    towards the deepest points and is farthest from the other end there, so that its sign is wrong. "depth": it does so
-    rising towards the shallowest points, so that the sign of the depth is wrong. "both".
-
-    Examples
-    --------
     >>> depth = np.linspace(-1.0, 1.0, 200)
     >>> load, noise = np.maximum(depth, 0.0) ** 1.5, np.full(200, 1e-3)
     >>> up = np.zeros(200, bool)

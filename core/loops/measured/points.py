@@ -33,22 +33,12 @@ _STEP: Final = 0.05
 
 
 def ways(depth: Floats, cycle: _Ints | None = None) -> tuple[Truths, _Ints]:
-    """Find which points unload, from their order.
+    """Find which points unload, from their order, and the number of the cycle of each.
 
-    Parameters
-    ----------
-    depth
-        In the order in which the points were measured, any unit; shape (n,).
-    cycle
-        The number of the cycle of each point, if known; one cycle loads up to its deepest point. If not known, a new
-        one begins where the depth has fallen and rises again, each time by a fifth of its span.
+    Depths, (n,), are in the order in which they were measured, in any unit. A cycle that is known loads up to its
+    deepest point. If none is, they count from 1, and a new one begins where the depth has fallen and rises again, each
+    time by a fifth of its span.
 
-    Returns
-    -------
-    Whether each point unloads, and the number of its cycle, from 1 if these were found here; both of shape (n,).
-
-    Examples
-    --------
     >>> unloading, cycle = ways(np.array([0.0, 1.0, 2.0, 1.0, 0.0, 1.0, 2.0, 1.0]))
     >>> unloading.astype(int).tolist(), cycle.tolist()
     ([0, 0, 0, 1, 1, 0, 0, 1], [1, 1, 1, 1, 1, 2, 2, 2])
@@ -110,14 +100,8 @@ def has_order(depth: Floats, cycle: _Ints | None = None) -> bool:
 
 
 def pieces(unloading: Truths, cycle: _Ints) -> tuple[_Places, _Places]:
-    """Sort points by cycle and branch, in their own order within these.
+    """Sort points by cycle and branch, in their own order within these; return their places, and where branches begin.
 
-    Returns
-    -------
-    The places of the points, branch by branch, (n,), and where each branch begins among them.
-
-    Examples
-    --------
     >>> order, begin = pieces(np.array([False, True, False]), np.ones(3, np.int32))
     >>> order.tolist(), begin.tolist()
     ([0, 2, 1], [0, 2])
@@ -146,19 +130,9 @@ def along(depth: Floats, load: Floats, unloading: Truths, cycle: _Ints) -> tuple
 def of_differences(row: Floats, begin: _Places, order: int = 2, sound: Truths | None = None) -> float:
     """Estimate the standard deviation of white noise by the median of differences of neighbours; 0 without any.
 
-    Parameters
-    ----------
-    row
-        Sorted as by `pieces`, shape (n,).
-    begin
-        Where its pieces begin: differences are taken within one.
-    order
-        Of the differences: the higher, the less bends of the curve affect them, and the more jumps do.
-    sound
-        Whether each value may be used, shape (n,); all if not given.
+    Differences are taken within the pieces of a row (n,) that begin at some places, of values that are `sound`. The
+    higher their order, the less bends of the curve affect them, and the more jumps do.
 
-    Examples
-    --------
     >>> row = np.random.default_rng(0).standard_normal(1000) + 5.0 * np.sin(np.arange(1000) / 10.0)
     >>> round(of_differences(row, np.array([0]), order=6), 1)
     1.0

@@ -41,17 +41,7 @@ class Nearest(NamedTuple):
 
 
 class Misfit:
-    """The points of a loop in units of their noise.
-
-    Parameters
-    ----------
-    data
-        The points.
-    model
-        The model that draws the path.
-    low, high
-        Ends of the range of each number, as it is searched.
-    """
+    """The points of a loop in units of their noise, the model of its path, and the ends of the range of each number."""
 
     def __init__(self, data: Data, model: LoopModel, low: Floats, high: Floats) -> None:
         self.data, self.scale = data, np.array(data.noise)
@@ -126,12 +116,7 @@ class Misfit:
     def refined(
         self, start: Floats, *, loss: str = "linear", most: int = 60, held: Sequence[int] = (), tolerance: float = 1e-8
     ) -> Any:
-        """Refine a start within the ranges, the numbers `held` fixed.
-
-        Returns
-        -------
-        The result of `scipy.optimize.least_squares`, `x` with all numbers.
-        """
+        """Refine a start within the ranges, the numbers `held` fixed; as of `least_squares`, `x` with all numbers."""
         searched = np.setdiff1d(np.arange(start.size), held)
         low, high = self.low[searched], self.high[searched]
 

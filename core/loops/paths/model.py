@@ -93,16 +93,10 @@ def _units(k: Any, nu: Any, m: float) -> tuple[Any, ...]:
 
 
 class Model:
-    """A loop as a function of the numbers that are searched.
+    """A loop as a function of the numbers that are searched: its curves of equilibrium.
 
-    Parameters
-    ----------
-    fixed
-        Numbers by name, in SI units (`fit_loop`).
-    names
-        What is searched, in order; those of `OFFSETS` may be the last.
-    profile, loading, toughness
-        The shape of the punch, what is prescribed, and a pattern of the toughness.
+    `fixed` are numbers by name, in SI units (`fit_loop`); `names` is what is searched, in order, those of `OFFSETS` and
+    `TURN` last. The rest is the shape of the punch, what is prescribed, and a pattern of the toughness.
     """
 
     def __init__(

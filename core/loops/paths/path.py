@@ -63,17 +63,9 @@ class LoopPath:
 class LoopModel(Model):
     """The path of a loop as a function of the numbers that are searched.
 
-    Parameters
-    ----------
-    fixed, names, profile, loading, toughness
-        As of `Model`.
-    furthest
-        The largest depth in m and the largest load in N of the data, at which they turn.
-    blur
-        How far it goes on beyond that depth, in m, on the branch where it is: points at the turn have noise. Where
-        works of adhesion differ the edge is pinned at the turn, which is then searched as `TURN`, with no blur.
-    first
-        Where the line of no load begins, in m.
+    It turns at the largest depth in m, or load in N, of the data (`furthest`), unless told otherwise, and goes on by
+    `blur` in m on the branch where it is, since points at the turn have noise. Where works of adhesion differ the edge
+    is pinned at the turn, which is then searched as `TURN`. The line of no load begins at the depth `first`.
     """
 
     by_differences = False
