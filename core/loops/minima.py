@@ -21,6 +21,8 @@ _ALLOWED: Final = 0.95
 """Quantile of the rise of chi square: the noise allows other minima below it."""
 _WAVES: Final = (-1.0, -0.5, 0.5, 1.0)
 """Differences of the number of waves within the contact that are tried."""
+_HOPELESS: Final = 25.0
+"""Half the sum of squares of some of the points by which a minimum may be worse than one that leaves only noise."""
 _FEWEST: Final = 0.2
 """Least number of waves that is tried."""
 _HOPS: Final = 5
@@ -46,6 +48,8 @@ def minima(misfit: Misfit, begun: list[Floats]) -> list[Any]:
 
     def best(vectors: list[Floats], count: int) -> list[Any]:
         rough = sorted((robust(few, vector) for vector in vectors), key=_COST)
+        if rough and is_noise(few, rough[0].x):
+            rough = [done for done in rough if done.cost < rough[0].cost + _HOPELESS]
         return [misfit.refined(vector, most=100) for vector in distinct([done.x for done in rough], misfit)[:count]]
 
     whole = sorted(best(begun, _WHOLE), key=_COST)

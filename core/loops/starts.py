@@ -43,8 +43,9 @@ _LEAST, _MOST = 8, 14
 """How many they are at least and at most."""
 _SPEEDS: Final = 4
 """Speeds that are tried."""
-_WORSE: Final = 0.5
-"""Robust size of a misfit for each point: a start worse than the best by more is refined no further."""
+_WORSE, _CLOSE = 0.5, 0.2
+"""Robust size of a misfit for each point: a start worse than the best by more is refined no further, by the second
+where the best leaves only noise."""
 
 
 def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: int) -> list[Floats]:
@@ -55,8 +56,12 @@ def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: i
     """
     if misfit.model.by_differences:
         rest = misfit.without(SPEEDS)
-        found = minima(rest, starts(rest, load_zero, contact, count, seed))[0]
-        return _fast(misfit.thinned(100), rest.named(found.x))
+        best = minima(rest, starts(rest, load_zero, contact, count, seed))[0]
+        return _fast(misfit.thinned(100), rest.named(best.x))
+    if misfit.turn:  # near the middle of its range
+        rest, middle = misfit.without((TURN,)), 0.5 * (misfit.low + misfit.high)
+        found = starts(rest, load_zero, contact, count, seed)
+        return [put(misfit, middle, dict(zip(rest.names, vector, strict=True))) for vector in found]
     few = misfit.thinned(_FEW)
     if not misfit.model.has_waves:
         return _smooth(few, load_zero, contact, seed)[:count]
@@ -97,7 +102,7 @@ def _smooth(few: Misfit, load_zero: float, contact: float, seed: int) -> list[Fl
         depths = np.append(shares_of(few, names.index(DEPTH_ZERO), _CONTACTS), contact)
     if _WORK in names:
         works = shares_of(few, names.index(_WORK), _WORKS)
-    others = [i for i, name in enumerate(names) if name not in (*OFFSETS, TURN, *_MODULI, _WORK)]
+    others = [i for i, name in enumerate(names) if name not in (*OFFSETS, *_MODULI, _WORK)]
     drawn = np.full((1, len(others)), 0.5)
     if others:
         from scipy.stats import qmc  # noqa: PLC0415 (it takes longer than most fits)
@@ -185,8 +190,9 @@ def _wavy(few: Misfit, smooth: Misfit, bases: list[Floats], count: int) -> list[
             rough = distinct(_best(few, rough, count), few)
             found += [few.refined(vector, loss="soft_l1", most=10, tolerance=1e-4).x for vector in rough]
             found = _best(few, found, len(found))
-            if found and is_noise(few, found[0]):
-                return distinct(found, few)[:count]
+            if found and is_noise(few, best := robust(few, found[0]).x):
+                most = few.size(best) + _CLOSE * few.weights.size
+                return distinct([best, *(vector for vector in found if few.size(vector) <= most)], few)[:count]
     return distinct(found, few)[:count]
 
 
