@@ -1,7 +1,7 @@
 """The distance of points to a connected curve in the plane, with its derivatives when the curve moves.
 
 The curve is given by vertices. Where it bends between two of them, it is the cubic over their chord that has its
-tangents there; the foot of a point is searched on the chord, and its distance measured to the cubic.
+tangents there; the foot of a point is searched on the chord, or the two that it is between, and then on the cubic.
 """
 
 from dataclasses import dataclass
@@ -15,8 +15,10 @@ from gradhesion.core.types import Floats, Integers, Truths
 _BLOCK: Final = 16
 """Pieces in a box: where a box is further from a point than the nearest piece so far, all of them are skipped."""
 
-_STEPS: Final = 4
-"""Steps from the foot on a chord to that on the curve."""
+_STEPS: Final = 5
+"""Steps of Newton to the foot on a curve, the first of them to that on its chord."""
+_LEAST: Final = 0.5
+"""Least change of the slope that they divide by, over that of a straight line: it is 0 at the centre of curvature."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,6 +97,28 @@ def _slope(run: float, rise: float, tangent: Floats) -> float:
 
 
 @kernel
+def _on_cubic(point: Floats, chain: Floats, tangents: Floats, i: int) -> tuple[float, float, float, float]:
+    """Return the share of the foot of a point on the cubic over a chord, the signed distance, and its normal."""
+    run, rise = chain[i + 1, 0] - chain[i, 0], chain[i + 1, 1] - chain[i, 1]
+    length = np.hypot(run, rise)
+    if length == 0.0:
+        return 0.0, np.inf, 0.0, 1.0
+    run, rise = run / length, rise / length
+    begin, end = _slope(run, rise, tangents[i]), _slope(run, rise, tangents[i + 1])
+    left, over = point[0] - chain[i, 0], point[1] - chain[i, 1]
+    at, above = (run * left + rise * over) / length, (run * over - rise * left) / length
+    t, off, slope, bend = 0.0, above, 0.0, 0.0
+    for _ in range(_STEPS):
+        t = min(max(t + (at - t + off * slope) / max(1.0 + slope * slope - off * bend, _LEAST), 0.0), 1.0)
+        off = above - t * (1.0 - t) * ((1.0 - t) * begin - t * end)
+        slope = (1.0 - t) * (1.0 - 3.0 * t) * begin - t * (2.0 - 3.0 * t) * end
+        bend = (6.0 * t - 4.0) * begin + (6.0 * t - 2.0) * end
+    size, unit = np.hypot(at - t, off) * length, np.hypot(1.0, slope)
+    sign = -1.0 if off + slope * (t - at) < 0.0 else 1.0
+    return t, sign * size, -(rise + slope * run) / unit, (run - slope * rise) / unit
+
+
+@kernel
 def _feet(
     points: Floats, chain: Floats, tangents: Floats, curved: Truths, distance: Floats, piece: Integers, share: Floats,
     normal: Floats, bent: Truths,
@@ -104,38 +128,34 @@ def _feet(
     for j in range(points.shape[0]):
         i, t = _nearest(points[j, 0], points[j, 1], chain, boxes, guess)
         guess = i // _BLOCK
-        run, rise = chain[i + 1, 0] - chain[i, 0], chain[i + 1, 1] - chain[i, 1]
-        length = np.hypot(run, rise)
-        run, rise = (run / length, rise / length) if length > 0.0 else (1.0, 0.0)
-        left, over = points[j, 0] - chain[i, 0], points[j, 1] - chain[i, 1]
-        piece[j], share[j] = i, t
-        vertex = i + 1 if t == 1.0 else i
-        inside = 0.0 < t < 1.0 or (0 < vertex <= last and curved[vertex] and curved[vertex + 1] and length > 0.0)
-        bent[j] = inside and curved[i + 1]
-        if inside:
-            slope, off = 0.0, run * over - rise * left
-            if curved[i + 1]:
-                at, above = (left * run + over * rise) / length, off
-                begin, end = _slope(run, rise, tangents[i]), _slope(run, rise, tangents[i + 1])
-                for _ in range(_STEPS):
-                    t = min(max(at + off * slope / length, 0.0), 1.0)
-                    off = above - length * t * (1.0 - t) * ((1.0 - t) * begin - t * end)
-                    slope = (1.0 - t) * (1.0 - 3.0 * t) * begin - t * (2.0 - 3.0 * t) * end
-                off, share[j] = off + slope * (t - at) * length, t
-            unit = np.hypot(1.0, slope)
-            distance[j] = off / unit
-            normal[j, 0], normal[j, 1] = -(rise + slope * run) / unit, (run - slope * rise) / unit
-            continue
-        left, over = left - t * length * run, over - t * length * rise
-        way = run, rise  # at a corner both its pieces decide the side
         other = min(i + 1, last) if t == 1.0 else max(i - 1, 0)
-        ahead, more = chain[other + 1, 0] - chain[other, 0], chain[other + 1, 1] - chain[other, 1]
-        far, size = np.hypot(ahead, more), np.hypot(left, over)
-        if far > 0.0:
-            way = run + ahead / far, rise + more / far
-        sign = -1.0 if way[0] * over - way[1] * left < 0.0 else 1.0
+        piece[j], share[j], distance[j] = i, t, np.inf
+        for near in range(1 if 0.0 < t < 1.0 else 2):  # between two chords the foot may be on the curve over either
+            on = other if near else i
+            if curved[on + 1]:
+                found = _on_cubic(points[j], chain, tangents, on)
+                if abs(found[1]) < abs(distance[j]):
+                    piece[j], share[j], distance[j], normal[j, 0], normal[j, 1] = on, *found
+        i, t = piece[j], share[j]
+        if 0.0 < t < 1.0:
+            bent[j] = curved[i + 1]
+            if not bent[j]:
+                run, rise = chain[i + 1, 0] - chain[i, 0], chain[i + 1, 1] - chain[i, 1]
+                far = np.hypot(run, rise)
+                normal[j, 0], normal[j, 1] = -rise / far, run / far
+                distance[j] = normal[j, 0] * (points[j, 0] - chain[i, 0]) + normal[j, 1] * (points[j, 1] - chain[i, 1])
+            continue
+        vertex = i + 1 if t == 1.0 else i
+        bent[j] = 0 < vertex <= last and curved[vertex] and curved[vertex + 1]
+        left, over, across, up = points[j, 0] - chain[vertex, 0], points[j, 1] - chain[vertex, 1], 0.0, 0.0
+        for on in (max(vertex - 1, 0), min(vertex, last)):  # at a corner both its pieces decide the side
+            run, rise = chain[on + 1, 0] - chain[on, 0], chain[on + 1, 1] - chain[on, 1]
+            far = np.hypot(run, rise)
+            if far > 0.0:
+                across, up = across - rise / far, up + run / far
+        size, sign = np.hypot(left, over), -1.0 if across * left + up * over < 0.0 else 1.0
         distance[j] = sign * size
-        normal[j, 0], normal[j, 1] = (sign * left / size, sign * over / size) if size > 0.0 else (-rise, run)
+        normal[j, 0], normal[j, 1] = (sign * left / size, sign * over / size) if size > 0.0 else (across, up)
 
 
 def feet(points: Floats, chain: Floats, tangents: Floats | None = None, curved: Truths | None = None) -> Feet:
@@ -144,7 +164,7 @@ def feet(points: Floats, chain: Floats, tangents: Floats | None = None, curved: 
     Its vertices `chain` (m, 2), two or more, are in order; `tangents` are its directions there, of any length and
     either sense. The way to each that is `curved`, (m,), is part of a smooth curve, else straight. Of a circle with 64
     vertices distances are right to 1e-6 of its radius, and to 2e-6 of points that are 3 % of it away, where chords are
-    off by 1e-3.
+    off by 1e-3; with 32, those of points 4 radii outside to 2e-5. They are continuous.
 
     >>> feet(np.array([[0.5, 1.0], [0.5, -2.0], [3.0, 0.0]]), np.array([[0.0, 0.0], [1.0, 0.0]])).distance.tolist()
     [1.0, -2.0, 2.0]

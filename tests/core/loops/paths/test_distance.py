@@ -33,6 +33,17 @@ def test_of_a_circle_curved_pieces_have_its_distances(away: float, most: float) 
     assert errors[1] < errors[0] * (0.08 if away == 0.0 else 0.5)
 
 
+@pytest.mark.parametrize(("count", "most"), [(9, 4e-3), (17, 3e-4), (33, 2e-5)])
+def test_points_far_outside_of_a_sharp_bend_have_its_distances(count: int, most: float) -> None:
+    """Their feet are between chords, where a distance to the tangent of a vertex jumps from one to the next."""
+    angle, around = np.linspace(0.0, 2.0 * np.pi, count), np.linspace(1.0, 5.0, 10_001)
+    circle = np.column_stack([np.cos(angle), np.sin(angle)])
+    points = 5.0 * np.column_stack([np.cos(around), np.sin(around)])
+    found = feet(points, circle, circle[:, ::-1] * [-1.0, 1.0], np.append(False, np.ones(count - 1, bool)))
+    np.testing.assert_allclose(found.distance, -4.0, atol=most)
+    assert np.abs(np.diff(found.distance)).max() < most / 100.0, "without jumps"
+
+
 def test_normals_are_those_in_which_distances_grow() -> None:
     x = np.linspace(0.0, 3.0, 30)
     chain, curved = np.column_stack([x, np.sin(2.0 * x)]), np.append(False, np.ones(29, bool))
