@@ -44,8 +44,8 @@ _LEAST, _MOST = 8, 14
 _SPEEDS: Final = 4
 """Speeds that are tried."""
 _WORSE, _CLOSE = 0.5, 0.2
-"""Robust size of a misfit for each point: a start worse than the best by more is refined no further, by the second
-where the best leaves only noise."""
+"""Robust size of a misfit for each point: a refined start worse than the best by more is left out, by the second where
+the best leaves only noise."""
 
 
 def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: int) -> list[Floats]:
@@ -87,11 +87,11 @@ def shares_of(misfit: Misfit, number: int, count: int) -> Floats:
     return np.asarray(misfit.low[number] + shares * (misfit.high[number] - misfit.low[number]))
 
 
-def _best(misfit: Misfit, vectors: list[Floats], count: int) -> list[Floats]:
-    """Return the best of some vectors, in order, that are not far worse than the first: refining may change that."""
+def _best(misfit: Misfit, vectors: list[Floats], count: int, worse: float = math.inf) -> list[Floats]:
+    """Return the best of some vectors, in order, that are worse than the first by no more than this for each point."""
     sizes = np.array([misfit.size(vector) for vector in vectors])
     order = np.argsort(sizes, kind="stable")[:count]
-    return [vectors[i] for i in order if sizes[i] <= sizes[order[0]] + _WORSE * misfit.weights.size]
+    return [vectors[i] for i in order if sizes[i] <= sizes[order[0]] + worse * misfit.weights.size]
 
 
 def _smooth(few: Misfit, load_zero: float, contact: float, seed: int) -> list[Floats]:
@@ -123,7 +123,7 @@ def _smooth(few: Misfit, load_zero: float, contact: float, seed: int) -> list[Fl
         if is_noise(few, found[-1].x):
             break  # other contact points have a larger misfit
     found.sort(key=lambda done: float(done.cost))
-    return _best(few, distinct([done.x for done in found], few), len(found))
+    return _best(few, distinct([done.x for done in found], few), len(found), _WORSE)
 
 
 def matched(misfit: Misfit, vector: Floats, load_zero: float) -> Floats:
@@ -191,9 +191,8 @@ def _wavy(few: Misfit, smooth: Misfit, bases: list[Floats], count: int) -> list[
             found += [few.refined(vector, loss="soft_l1", most=10, tolerance=1e-4).x for vector in rough]
             found = _best(few, found, len(found))
             if found and is_noise(few, best := robust(few, found[0]).x):
-                most = few.size(best) + _CLOSE * few.weights.size
-                return distinct([best, *(vector for vector in found if few.size(vector) <= most)], few)[:count]
-    return distinct(found, few)[:count]
+                return _best(few, distinct([best, *found], few), count, _CLOSE)
+    return _best(few, distinct(found, few), count, _WORSE)
 
 
 def _lengths(few: Misfit, smooth: Misfit, base: Floats, middle: Floats, i: int) -> list[Any]:
