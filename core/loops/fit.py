@@ -6,13 +6,13 @@ axes are scaled by their noise. Loading begins, and unloading ends, on the line 
 data do.
 
 There are many local minima: contact points anywhere in the data, and each wavelength with another number of waves in
-the contact. Starts come from features that depend on no zero of the instrument (smooth_search.py, wave_search.py,
-speed.py), several are refined with exact derivatives, and other minima that the noise allows are reported. Standard
-deviations are those of the linear problem at the minimum. Parameters with the same effect on the loop (E*, c0 and nu
-act through one number M, docs/theory.md) make its Jacobian singular and are refused.
+the contact. Starts come from features that depend on no zero of the instrument (starts.py), several are refined with
+exact derivatives, and other minima that the noise allows are reported (minima.py). Parameters with the same effect on
+the loop (E*, c0 and nu act through one number M, docs/theory.md) make its Jacobian singular and are refused.
 """
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, Final
 
@@ -20,20 +20,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 from threadpoolctl import threadpool_limits
 
+from gradhesion.core.closed.reduced import WAYS
 from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop
-from gradhesion.core.loops.measured.features import base_line, contact_point
+from gradhesion.core.loops.measured.features import BaseLine, base_line, contact_point
+from gradhesion.core.loops.minima import minima
 from gradhesion.core.loops.paths.misfit import Data, Misfit
-from gradhesion.core.loops.paths.model import LINEAR, WAVES
-from gradhesion.core.loops.paths.offsets import Offsets
+from gradhesion.core.loops.paths.model import LINEAR, TURN
+from gradhesion.core.loops.paths.offsets import DEPTH_ZERO, LOAD_ZERO, TILT, Offsets
 from gradhesion.core.loops.paths.path import LoopModel
-from gradhesion.core.loops.results import results_at
-from gradhesion.core.loops.search.minima import polished, refined
-from gradhesion.core.loops.search.ranges import searched, zeros_of
-from gradhesion.core.loops.search.smooth_search import held_start, smooth_starts
-from gradhesion.core.loops.search.speed import NAMES_OF_SPEED, SpeedModel, fast_starts
-from gradhesion.core.loops.search.starts import without
-from gradhesion.core.loops.search.wave_search import wavy_starts
+from gradhesion.core.loops.paths.speed import SpeedModel
+from gradhesion.core.loops.results import covariance_of, results_at
+from gradhesion.core.loops.starts import starts as starts_of
 from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.names import CLOSING, TURNS
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.toughness import Toughness
@@ -44,7 +43,11 @@ ONE_NUMBER: Final = ("E_star", "E", "modulus", "c0", "c0_over_R", "nu")
 INTERVALS: Final = ("linear", "profile")
 """Methods for intervals."""
 _BLUR: Final = 6.0
-"""Most standard deviations of the depth by which the path continues beyond the deepest point."""
+"""Standard deviations of the depth by which the path continues beyond the deepest point."""
+_LEVEL: Final = 3.0
+"""Standard deviations of the points of a base line within which the fitted path has it."""
+_MISSED: Final = 0.03
+"""Part of the span by which the furthest point may miss the turn."""
 
 
 def fit_loop(
@@ -101,7 +104,7 @@ def fit_loop(
         speed_over_reference, are fixed or free, and its exponent may be free under that name. Every derivative is a
         difference of paths then: fits take minutes.
     intervals
-        "linear", those of the linear problem at the minimum, or "profile", by profile likelihoods (intervals.py).
+        "linear", those of the linear problem at the minimum, or "profile", by profile likelihoods.
     starts
         How many starts are refined.
     seed
@@ -151,47 +154,81 @@ def fit_loop(
         )
     zero = np.array([0.0 if contact is None else contact.depth, 0.0])
     shifted = points - zero
-    ranges = searched(shifted, free, zeros, line)
-    low, high = np.array(
-        [ends if name in LINEAR else tuple(np.log(ends)) for name, ends in ranges.items()], dtype=float
-    ).T
+    ranges = _searched(shifted, free, zeros, line)
     own: dict[str, Any] = {
-        "furthest": tuple(shifted.max(axis=0).tolist()), "blur": _BLUR * noise[0],
+        "furthest": tuple(shifted.max(axis=0).tolist()), "blur": _BLUR * of_means[0],
         "first": float(shifted[:, 0].min() - np.ptp(points[:, 0])),
         "profile": profile or Profile(), "loading": loading or Loading(), "toughness": toughness,
     }  # fmt: skip
-    data, names = Data(shifted, back, noise, each), tuple(ranges)
+    driven, bound = int(own["loading"].control == "load"), {*fixed, *free}
+    if bound & {CLOSING, *WAYS[CLOSING]} and not any(bound & {name, *WAYS[name]} for name in TURNS):
+        # the edge is pinned at the turn, which points may miss by a step
+        furthest, step = own["furthest"][driven], _MISSED * np.ptp(points[:, driven]) + _BLUR * of_means[driven]
+        ranges |= {TURN: (furthest - step, furthest + step)}
+        own["blur"] = 0.0
+    names = tuple(ranges)
+    low, high = np.array(
+        [ends if name in LINEAR else tuple(np.log(ends)) for name, ends in ranges.items()], dtype=float
+    ).T
+    data = Data(shifted, back, noise, each)
     model = LoopModel(fixed, names, **own) if rate is None else SpeedModel(fixed, names, rate=rate, **own)
     misfit = Misfit(data, model, low, high)
     with threadpool_limits(1):  # matrices of a few columns: threads only wait for each other
-        begun = _starts(misfit, own, zeros_of(points, back, line, contact), starts, seed)
-        found = refined(misfit, begun)
-        if misfit.path(found[0].x) is None:
+        begun = starts_of(misfit, *_zeros(points, back, line, known=contact is not None), starts, seed)
+        _refuse_locked(misfit, begun)
+        found = minima(misfit, begun)
+        if misfit.nearest(found[0].x).drawn is None:
             raise ValueError("no combination within the ranges has a path; widen them")
-        if not model.by_differences:  # where each one takes a second
-            misfit = misfit.finer()
-            found = polished(misfit, found)
         fitted = results_at(misfit, found, intervals, ranges, widened=not noise_is_given)
-    loading_path, unloading_path = fitted.loading + zero, fitted.unloading + zero
-    return replace(fitted, base_line=line, contact=contact, loading=loading_path, unloading=unloading_path)
+    if line is not None:  # points in contact may be flat, as those before the pull-off are: at another load
+        level = fitted.values.get(LOAD_ZERO, 0.0) + fitted.values.get(TILT, 0.0) * line.middle
+        line = line if abs(line.level - level) < _LEVEL * line.spread else None
+    paths = {"loading": fitted.loading + zero, "unloading": fitted.unloading + zero}
+    return replace(fitted, base_line=line, contact=contact, **paths)
 
 
-def _starts(misfit: Misfit, own: Mapping[str, Any], zeros: tuple[float, float], count: int, seed: int) -> list[Floats]:
-    """Return starts: near the smooth curve, then of waves, then of speeds, each from the results of the one before."""
+def _zeros(points: Floats, back: Truths, line: BaseLine | None, *, known: bool) -> tuple[float, float]:
+    """Return estimates of the load out of contact and of the depth at which contact begins, 0 where it is known."""
+    first = points[~back] if not back.all() else points
+    at = int(np.argmin(first[:, 0]))
+    level = float(first[at, 1]) if line is None else line.level
+    end = math.nan if line is None else line.ends[0]
+    return level, 0.0 if known else float(first[at, 0]) if math.isnan(end) and not back.all() else end
 
-    def part(left_out: Sequence[str], **more: float) -> Misfit:
-        bare, names = without(misfit.model, left_out)
-        use = [misfit.names.index(name) for name in names]
-        return Misfit(misfit.data, LoopModel(bare | more, names, **own), misfit.low[use], misfit.high[use])
 
-    rest = part(NAMES_OF_SPEED) if isinstance(misfit.model, SpeedModel) else misfit
-    if rest.model.has_waves:
-        smooth = part((*NAMES_OF_SPEED, *WAVES), A=0.0)
-        first = smooth_starts(smooth, *zeros, seed)[0]
-        begun = wavy_starts(rest, smooth, [first, held_start(smooth, first, *zeros)], count)
-    else:
-        begun = smooth_starts(rest, *zeros, seed)[:count]
-    return begun if rest is misfit else fast_starts(misfit, rest, refined(rest, begun)[0].x)
+def _searched(
+    points: Floats, free: Mapping[str, tuple[float, float]], zeros: Offsets, line: BaseLine | None
+) -> dict[str, tuple[float, float]]:
+    """Return the ends of the ranges that are searched, by name, those of offsets after those that are free.
+
+    Unless `zeros` says where, depths are searched within the data, rows of depth in m and load in N of shape (n, 2),
+    and loads within the pull-off force of the base line.
+    """
+    ranges = {name: (float(low), float(high)) for name, (low, high) in free.items()}
+    least, span = points.min(axis=0), np.ptp(points, axis=0)
+    own = {DEPTH_ZERO: (least[0], least[0] + span[0]), LOAD_ZERO: (least[1] - 0.1 * span[1], least[1] + span[1])}
+    if line is not None:
+        reach = line.level - float(least[1]) + 5.0 * line.spread
+        own[LOAD_ZERO] = (line.level - reach, line.level + reach)
+    if zeros.slope:
+        own[TILT] = (-span[1] / span[0], span[1] / span[0])
+    given = {DEPTH_ZERO: zeros.indentation, LOAD_ZERO: zeros.load}
+    own |= {name: ends for name, ends in given.items() if isinstance(ends, tuple)}
+    return ranges | {name: (float(own[name][0]), float(own[name][1])) for name in zeros.names}
+
+
+def _refuse_locked(misfit: Misfit, begun: list[Floats]) -> None:
+    """Refuse numbers that no start can tell apart."""
+    for vector in begun:
+        if misfit.nearest(vector).drawn is None:
+            return
+        try:
+            covariance_of(misfit, vector)
+        except ValueError as error:
+            found = error
+        else:
+            return
+    raise found
 
 
 def _check(

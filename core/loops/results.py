@@ -7,37 +7,61 @@ from typing import Any, Final
 import numpy as np
 from scipy.special import stdtrit
 
-from gradhesion.core.loops.alternatives import alternatives
+from gradhesion.core.closed.reduced import WAYS, parameters_from
+from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
 from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop, OtherMinimum, poor_from
-from gradhesion.core.loops.intervals import profile_interval
+from gradhesion.core.loops.minima import others
 from gradhesion.core.loops.paths.misfit import Misfit
-from gradhesion.core.loops.paths.model import LINEAR
-from gradhesion.core.loops.report import status_of
-from gradhesion.core.loops.search.minima import others
-from gradhesion.core.loops.search.ranges import is_on_bound
-from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
+from gradhesion.core.loops.paths.model import LINEAR, TURN, WAVELENGTHS, Model
+from gradhesion.core.loops.paths.path import LoopPath
+from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN
+from gradhesion.core.problem.status import ANOTHER_MINIMUM, JUMP_IN_TO_RIM, POOR_FIT
+from gradhesion.core.sweep import solve
 from gradhesion.core.types import Floats
 
-_SINGULAR: Final = 1e-6
-"""Singular value over the largest, below which a combination of parameters has no effect but rounding."""
+_SINGULAR: Final = 5e-4
+"""Singular value over the largest, below which numbers are locked together: correlations above 1 - 1e-6."""
+_PART: Final = 0.01
+"""Least part of such a combination that a parameter has in it."""
 _WITHOUT: Final = 1e-6
 """Effect of a parameter over the largest, below which it has none."""
 LEVEL: Final = 0.95
 """Probability that an interval covers."""
+_NEAR_END: Final = 0.01
+"""Part of a range: a value closer than this to an end is on the bound."""
+_WIDE: Final = 10.0
+"""Ratio of stop to start above which a range is measured by its logarithm."""
+_NEAR: Final = 0.01
+"""Accuracy of the end of an interval, in parts of the quantile."""
+_FINE: Final = 1e-5
+"""Tolerance for the sum of squares and the numbers: a rise by 4 is known to a hundredth of it."""
+_TRIALS: Final = 8
+"""Steps to an end of an interval, at most."""
+_FURTHEST: Final = 4.0
+"""Longest of them, in parts of the displacement so far: beyond it a linear estimate is unreliable."""
+_ROUNDING: Final = 1e-12
+"""Relative difference of radii that is rounding."""
+_SEEN: Final = 5.0
+"""Size of a jump, in standard deviations of the noise, from which on it shows that there are waves."""
+_LEAST: Final = 0.01
+"""Strength of waves below which nothing is reported."""
+_PHASE: Final = 0.1
+"""Error of the number of waves within the contact, below which waves are resolved without jumps."""
 
 
 def results_at(
-    misfit: Misfit, minima: list[Any], intervals: str, ranges: Mapping[str, tuple[float, float]], *, widened: bool
+    misfit: Misfit, found: list[Any], intervals: str, ranges: Mapping[str, tuple[float, float]], *, widened: bool
 ) -> FittedLoop:
-    """Return the results at the first of some minima, the results of `refined`.
+    """Return the results at the first of some minima, the results of `minima`.
 
     `intervals` is one of those of fit.py; `ranges` are the ends of what is searched, in SI units; where noise was
     estimated, deviations and intervals are `widened` by the root of the reduced chi square.
     """
-    best = minima[0].x
-    names, residual, path = misfit.names, misfit.residual(best), misfit.path(best)
+    best = found[0].x
+    residual, path = misfit.residual(best), misfit.nearest(best).drawn
+    names = tuple(name for name in misfit.names if name != TURN)  # the turn is the last number
     assert path is not None  # noqa: S101 (fit.py has refused those without)
-    chi_square, degrees = float(residual @ residual), residual.size - len(names)
+    chi_square, degrees = float(residual @ residual), residual.size - best.size
     unit = max(1.0, chi_square / degrees) if widened else 1.0
     covariance = covariance_of(misfit, best) * unit
     spread = np.sqrt(np.diag(covariance))
@@ -47,26 +71,26 @@ def results_at(
         ways = covariance / spread[:, None]
         ends = np.array([profile_interval(misfit, best, i, way, factor, unit) for i, way in enumerate(ways)]).T
     low, high = (misfit.named(np.clip(end, misfit.low, misfit.high)) for end in ends)
-    allowed = others(minima, covariance / unit, unit)
+    allowed = others(found, covariance / unit, unit)
     radius = float(path.radius[path.turn]) / path.scene.R
     status = status_of(misfit.model, best, radius) | (ANOTHER_MINIMUM if allowed else 0)
     return FittedLoop(
         names=names,
         values=values,
         standard_deviations={
-            name: float(sd if name in LINEAR else values[name] * sd) for name, sd in zip(names, spread, strict=True)
+            name: float(sd if name in LINEAR else values[name] * sd) for name, sd in zip(names, spread, strict=False)
         },
         low=low,
         high=high,
-        ranges=dict(ranges),
-        correlation=covariance / np.outer(spread, spread),
+        ranges={name: ranges[name] for name in names},
+        correlation=(covariance / np.outer(spread, spread))[: len(names), : len(names)],
         on_bound=tuple(name for name in names if is_on_bound(values[name], ranges[name])),
         chi_square=chi_square,
         degrees_of_freedom=degrees,
-        residual=residual,
+        residual=residual[: misfit.weights.size],
         loading=path.places[: path.turn + 1],
         unloading=path.places[path.turn :],
-        converged=bool(minima[0].status > 0),
+        converged=bool(found[0].status > 0),
         status=status | (POOR_FIT if chi_square > poor_from(degrees) * degrees else 0),
         others=tuple(OtherMinimum(values=misfit.named(one.x), chi_square=2.0 * one.cost) for one in allowed),
         alike=alternatives(misfit.model, path, misfit.scale, spread),
@@ -76,7 +100,7 @@ def results_at(
 
 
 def covariance_of(misfit: Misfit, vector: Floats) -> Floats:
-    """Return the covariance of the numbers at a minimum, for residuals of variance 1; refuse equal effects."""
+    """Return the covariance of the numbers, for residuals of variance 1; refuse those that have one effect, or none."""
     names, jacobian, widths = misfit.names, misfit.jacobian(vector), misfit.high - misfit.low
     lengths = np.linalg.norm(jacobian * widths, axis=0)
     without = [name for name, length in zip(names, lengths, strict=True) if length <= _WITHOUT * lengths.max()]
@@ -85,9 +109,94 @@ def covariance_of(misfit: Misfit, vector: Floats) -> Floats:
             f"{' and '.join(without)}: without effect on this loop; fix {'it' if len(without) == 1 else 'them'}"
         )
     unit = lengths / widths
-    _, singular, rows = np.linalg.svd(jacobian / unit, full_matrices=False)
-    if singular[-1] < _SINGULAR * singular[0]:
+    # how corners move along the curve is known roughly: they would hide what is locked together
+    inside = np.append(misfit.inside(vector), np.ones(len(misfit.turn), bool))
+    _, singular, rows = np.linalg.svd(jacobian[inside] / unit, full_matrices=False)
+    if singular.size == unit.size and singular[-1] < _SINGULAR * singular[0]:
         weights = np.abs(rows[-1])
-        raise CannotTellApartError([name for name, weight in zip(names, weights, strict=True) if weight > 0.2])
-    inner = (rows.T / singular**2) @ rows
-    return np.asarray(inner / np.outer(unit, unit))
+        raise CannotTellApartError([name for name, weight in zip(names, weights, strict=True) if weight > _PART])
+    return np.linalg.inv(jacobian.T @ jacobian / np.outer(unit, unit)) / np.outer(unit, unit)
+
+
+def is_on_bound(value: float, ends: tuple[float, float]) -> bool:
+    """Say whether a value is within 1 % of a range of an end of it."""
+    low, high = ends
+    if low > 0.0 and high > _WIDE * low:
+        value, low, high = math.log(value), math.log(low), math.log(high)
+    return min(value - low, high - value) < _NEAR_END * (high - low)
+
+
+def profile_interval(
+    misfit: Misfit, best: Floats, number: int, along: Floats, factor: float, unit: float
+) -> tuple[float, float]:
+    """Return how low and how high one number may be by its profile likelihood, all others fitted anew.
+
+    An interval ends where the sum of squares, over the variance `unit` of a residual, has risen by the square of
+    `factor`, a quantile of Student's t, or at the end of the range. The root of the rise is nearly linear in the
+    displacement, so that a secant finds it in a few steps. `along` is how all numbers move with this one in the linear
+    problem, standard deviation times correlation, (unknown,). A misfit lower than at `best` counts as that of `best`.
+    """
+    least, ends = float(np.sum(misfit.residual(best) ** 2)), []
+    for sign in (-1.0, 1.0):
+        most = sign * float((misfit.low if sign < 0.0 else misfit.high)[number] - best[number])
+        way, before, start = factor * float(along[number]), (0.0, 0.0), best
+        for _ in range(_TRIALS):
+            at_limit, way = way >= most, min(way, most)
+            moved = start + (sign * way - (start[number] - best[number])) * along / along[number]
+            moved = np.clip(moved, misfit.low, misfit.high)
+            moved[number] = best[number] + sign * way
+            done = misfit.refined(moved, held=[number], most=20, tolerance=_FINE)
+            reached = math.sqrt(max(0.0, 2.0 * done.cost - least) / unit)
+            if abs(reached - factor) < _NEAR * factor or (at_limit and reached < factor):
+                break
+            slope = (reached - before[1]) / (way - before[0]) if way != before[0] else 0.0
+            step = (factor - reached) / slope if slope > 0.0 else way
+            before, start = (way, reached), done.x
+            way = float(np.clip(way + step, 0.2 * way, (1.0 + _FURTHEST) * way))
+        ends.append(float(best[number] + sign * way))
+    return ends[0], ends[1]
+
+
+def status_of(model: Model, vector: Floats, radius: float) -> int:
+    """Return the status that `solve` gives the cycle of a vector that turns at a radius, over R."""
+    if radius == 0.0:
+        return 0
+    made = {name: float(value) for name, value in parameters_from(model.given(model.values(vector))).items()}
+    more = ("machine_stiffness", CLOSING, *(PATTERN if model.toughness is not None else ()))
+    scene = {name: made[name] for name in (*PARAMETERS, *more) if name in made}
+    scene["a_max_over_R"] = min(scene["a_max_over_R"], radius)
+    if CLOSING in scene:  # where the works are equal, two fitted ones are in either order, by noise
+        scene[CLOSING] = min(scene[CLOSING], 1.0)
+    own: dict[str, Any] = {"profile": model.profile, "loading": model.loading, "toughness": model.toughness}
+    wanted = ["pull_off_force", "loading_jumps"] if model.loading.control == "load" else [
+        "dissipated_energy", "loading_jumps", "unloading_jumps"]  # fmt: skip
+    found = int(solve(scene, wanted, threads=1, **own)["status"])
+    turns_before = radius < (1.0 - _ROUNDING) * made["a_max_over_R"]
+    return found & ~(JUMP_IN_TO_RIM if turns_before else 0)
+
+
+def alternatives(model: Model, path: LoopPath, noise: Floats, spread: Floats) -> tuple[str, ...]:
+    """Return a sentence on what else would explain a loop; none where the jumps decide.
+
+    Waves of a strength chi that are fine against the contact act as a smooth punch that opens at the work of adhesion
+    (1 + chi)^2 dgamma and closes at (1 - chi)^2 dgamma: toughnesses add (docs/theory.md). `noise` are the standard
+    deviations of depth and load, in m and N, `spread` those of the numbers, as they are searched.
+    """
+    scene = path.scene
+    if not model.has_waves:
+        chi = (1.0 - scene.root) / (1.0 + scene.root)
+        if chi < _LEAST or model.place_of((CLOSING, *WAYS[CLOSING])) is None:
+            return ()
+        waves = f"waves too fine to be seen, of chi = {chi:.3g}, would have the same effect as closing_ratio = "
+        return (f"{waves}{scene.root**2:.3g}; a loop cannot tell the two apart",)
+    jumps = np.flatnonzero(path.jump)
+    jumps = jumps[(path.radius[jumps] > 0.0) & (path.radius[jumps - 1] > 0.0)]
+    sizes = np.hypot(*((path.places[jumps] - path.places[jumps - 1]) / noise).T)
+    length = model.place_of(WAVELENGTHS)
+    is_known = length is not None and spread[length] * path.radius.max() < _PHASE * scene.wavelength * scene.R
+    chi = float(waviness_strength(scene.k, scene.wavelength, scene.A) / adhesion_strength(scene.k, scene.stiffness))
+    if sizes.max(initial=0.0) > _SEEN or is_known or not 0.0 < chi < 1.0:
+        return ()
+    works = f"{((1.0 - chi) / (1.0 + chi)) ** 2:.3g} and {(1.0 + chi) ** 2:.4g} times the work of adhesion"
+    punch = f"the waves are too fine to be seen in the noise: a smooth punch with closing_ratio = {works}"
+    return (f"{punch} would have the same effect; a loop cannot tell the two apart",)

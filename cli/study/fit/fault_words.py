@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.study.fit.loop_columns import LoopFileError
-from gradhesion.core.loops.measured.plausible import fault_of, has_order
-from gradhesion.core.loops.measured.points import ways
+from gradhesion.core.loops.measured.plausible import fault_of
+from gradhesion.core.loops.measured.points import has_order, ways
 
 if TYPE_CHECKING:
     from gradhesion.cli.study.fit.form import DataTable

@@ -11,9 +11,8 @@ from gradhesion.core.closed.applicability import validity
 from gradhesion.core.closed.reduced import parameters_from
 from gradhesion.core.loops.fit import fit_loop
 from gradhesion.core.loops.fitted import FittedLoop, poor_from
-from gradhesion.core.loops.paths.model import Model
+from gradhesion.core.loops.paths.model import EXPONENT, Model
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
-from gradhesion.core.loops.search.speed import EXPONENT
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, RANGE
 from gradhesion.core.problem.status import POOR_FIT
 

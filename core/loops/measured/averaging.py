@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core.loops.measured.neighbours import along, of_differences
+from gradhesion.core.loops.measured.points import along, of_differences
 from gradhesion.core.types import Floats, Truths
 
 _Ints = NDArray[np.intp]
@@ -20,7 +20,7 @@ _NEIGHBOURS: Final = 15
 """Blocks whose bends are tested together: together they show less than any one of them does."""
 _CLIPPED: Final = 9.0
 """The most that the bend of one block adds to those of its neighbours, so that a jump does not affect them."""
-_TOGETHER: Final = 1.0 + 4.0 * float(np.sqrt(2.0 / _NEIGHBOURS))
+_TOGETHER: Final = 1.0 + 4.0 * math.sqrt(2.0 / _NEIGHBOURS)
 """Mean square of their bends over that of noise, above which they are halved."""
 _CORRELATED: Final = 1.3
 """Variance about a parabola over that of neighbours, above which noise is not white."""
@@ -58,30 +58,13 @@ def averaged(
     noise: tuple[float, float],
     most: int = MOST,
 ) -> Averaged:
-    """Average neighbouring points of one cycle and branch.
+    """Average neighbouring points of one cycle and branch, unless there are no more than `most`.
 
     Blocks of one length give about `most` means. A block whose points are not on a straight line along the branch, as
     far as noise shows, is halved until they are, so that no mean lies across a jump or beside a bend of the curve by
-    more than about its own noise. Points that are in no order are sorted by depth.
+    more than about its own noise. Points, (n,), are as to `noise_of`, whose result `noise` is; those in no order are
+    sorted by depth. Where noise about short parabolas is larger, it is not white, and that larger value is used.
 
-    Parameters
-    ----------
-    depth, load
-        In the order in which the points were measured, in any unit; shape (n,).
-    unloading, cycle
-        The way and the cycle of each point; shape (n,).
-    noise
-        Standard deviations of depth and load of a point (`noise_of` of noise.py), both > 0. If that about short
-        parabolas is larger, noise is not white, and that larger value is used.
-    most
-        About how many means there are if the curve has no jumps.
-
-    Returns
-    -------
-    The means; the points themselves if there are no more than `most`.
-
-    Examples
-    --------
     >>> depth = np.linspace(0.0, 1.0, 100_000)
     >>> load = np.where(depth < 0.5003, 0.0, 1.0)
     >>> found = averaged(depth, load, np.zeros(100_000, bool), np.ones(100_000, np.int32), (1e-6, 1e-3))
@@ -92,18 +75,19 @@ def averaged(
         return Averaged(depth, load, unloading, cycle, np.ones(depth.size), noise)
     order, begin = along(depth, load, unloading, cycle)
     rows = np.stack([depth[order] / noise[0], load[order] / noise[1]])
-    length = max(2, round(depth.size / most))
-    ends = [*begin[1:], depth.size]
+    length, ends = max(2, round(depth.size / most)), [*begin[1:], depth.size]
     waiting = np.concatenate([np.arange(a, b, length) for a, b in zip(begin, ends, strict=True)])
     size = np.diff(waiting, append=depth.size)
-    middle = np.add.reduceat(rows, waiting, axis=1) / size  # about which squares lose no digits
-    rows -= np.repeat(middle, size, axis=1)
+    rows -= np.repeat(np.add.reduceat(rows, waiting, axis=1) / size, size, axis=1)  # so that squares lose no digits
     moments = _moments(rows, waiting, size)
     scale = _not_white(*moments, size)
     steps = np.median(np.abs(np.diff(rows, axis=1)), axis=1)
     done: list[_Ints] = []
     while waiting.size:
-        bad = _bent(*moments, size, scale) | _apart(rows, waiting, size, scale[0], steps)
+        bad = _bent(*moments, size, *scale)
+        pair = waiting[size == 2]  # on both sides of a jump their difference is no scatter
+        step = np.abs(rows[:, pair + 1] - rows[:, pair])
+        bad[size == 2] |= (step > _SIGMAS * np.sqrt(2.0 * scale[0]) + 3.0 * steps[:, None]).any(axis=0)
         done.append(waiting[~bad])
         half = (size[bad] + 1) // 2
         waiting = np.column_stack([waiting[bad], waiting[bad] + half]).ravel()
@@ -126,13 +110,11 @@ def _moments(rows: Floats, first: _Ints, size: _Ints) -> tuple[Floats, Floats]:
     own = rows if at.size == rows.shape[1] else rows[:, np.repeat(first, size) + at]
     count = size.astype(float)
     u = at - np.repeat(0.5 * (count - 1.0), size)
-    first_moment, second = (np.add.reduceat(own * power, begin, axis=1) for power in (u, u * u))
-    total, square = (np.add.reduceat(each, begin, axis=1) for each in (own, own * own))
+    total, line, second, square = (np.add.reduceat(own * by, begin, axis=1) for by in (1.0, u, u * u, own))
     of_line = count * (count**2 - 1.0) / 12.0
     of_bend = of_line * (count**2 - 4.0) / 15.0
-    bend = second - total * (count**2 - 1.0) / 12.0
-    rest = square - total**2 / count - first_moment**2 / np.where(of_line > 0.0, of_line, 1.0)
-    bend /= np.sqrt(np.where(of_bend > 0.0, of_bend, np.inf))
+    rest = square - total**2 / count - line**2 / np.where(of_line > 0.0, of_line, 1.0)
+    bend = (second - total * (count**2 - 1.0) / 12.0) / np.sqrt(np.where(of_bend > 0.0, of_bend, np.inf))
     least = _ROUNDING * square
     return np.maximum(rest - least, 0.0), np.where(bend**2 > least, bend, 0.0)
 
@@ -148,21 +130,11 @@ def _not_white(rest: Floats, bend: Floats, size: _Ints) -> tuple[Floats, Floats]
     return np.where(drifts, about, 1.0), np.where(drifts, np.maximum(also, 1.0), 1.0)
 
 
-def _bent(rest: Floats, bend: Floats, size: _Ints, scale: tuple[Floats, Floats]) -> Truths:
-    """Return which blocks are not straight."""
+def _bent(rest: Floats, bend: Floats, size: _Ints, of_points: Floats, of_bends: Floats) -> Truths:
+    """Return which blocks are not straight, by the variances that noise has."""
     free = np.maximum(size - 2.0, 0.0)
-    scattered = rest / scale[0] > free + _SIGMAS * np.sqrt(2.0 * free) + _SIGMAS
-    square = bend**2 / scale[1]
-    window = np.ones(min(_NEIGHBOURS, size.size))
+    scattered = rest / of_points > free + _SIGMAS * np.sqrt(2.0 * free) + _SIGMAS
+    square, window = bend**2 / of_bends, np.ones(min(_NEIGHBOURS, size.size))
     together = np.stack([np.convolve(np.minimum(row, _CLIPPED), window, "same") for row in square]) / window.size
     bent = (scattered | (square > _SIGMAS**2) | (together > _TOGETHER)).any(axis=0)
     return np.asarray(bent & (size > 1))
-
-
-def _apart(rows: Floats, first: _Ints, size: _Ints, scale: Floats, steps: Floats) -> Truths:
-    """Return which pairs of points lie on both sides of a jump: their difference is no scatter."""
-    pair = size == 2
-    apart = np.zeros(size.size, bool)
-    step = np.abs(rows[:, first[pair] + 1] - rows[:, first[pair]])
-    apart[pair] = (step > _SIGMAS * np.sqrt(2.0 * scale) + 3.0 * steps[:, None]).any(axis=0)
-    return apart

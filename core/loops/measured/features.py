@@ -44,6 +44,8 @@ class BaseLine:
     """Its tilt and the standard deviation of that, in N/m."""
     ends: tuple[float, float]
     """The depth in m at which it ends on loading and on unloading; NaN where a branch has none."""
+    middle: float = 0.0
+    """The mean depth of its points, in m."""
 
 
 @dataclass(frozen=True)
@@ -94,23 +96,11 @@ def _by_depth(points: Floats, own: Truths) -> Floats:
 
 
 def base_line(points: Floats, back: Truths, noise: float) -> BaseLine | None:
-    """Find the line of no load of a loop.
+    """Find the line of no load of a loop; None where no branch has one.
 
-    Parameters
-    ----------
-    points
-        Rows of depth in m and load in N, shape (n, 2).
-    back
-        Whether each belongs to unloading, shape (n,).
-    noise
-        Standard deviation of the load of a point, in N.
+    `points` are rows of depth in m and load in N, (n, 2), `back` says whether each belongs to unloading, and `noise` is
+    the standard deviation of the load of a point.
 
-    Returns
-    -------
-    The line, None where no branch has one.
-
-    Examples
-    --------
     >>> depth = np.concatenate([np.linspace(-1.0, 0.0, 100), np.linspace(0.01, 1.0, 100)])
     >>> load = 0.3 + np.maximum(depth, 0.0) ** 1.5 - np.where(depth > 0.0, 0.1, 0.0)
     >>> line = base_line(np.column_stack([depth, load]), np.zeros(200, bool), 1e-3)
@@ -136,18 +126,13 @@ def base_line(points: Floats, back: Truths, noise: float) -> BaseLine | None:
     slope = float(away[:, 0] @ away[:, 1]) / across if across > 0.0 else 0.0
     rest = away[:, 1] - slope * away[:, 0]
     error = float(rest.std()) / across**0.5 if across > 0.0 else float("inf")
-    return BaseLine(float(mean[1]), float(away[:, 1].std()), slope, error, (ends[0], ends[1]))
+    return BaseLine(float(mean[1]), float(away[:, 1].std()), slope, error, (ends[0], ends[1]), float(mean[0]))
 
 
 def contact_point(points: Floats, back: Truths, noise: tuple[float, float]) -> ContactPoint | None:
     """Find the depth at which contact begins on loading; None without a base line there and a point beyond it.
 
-    Parameters
-    ----------
-    points, back
-        As of `base_line`.
-    noise
-        Standard deviations of depth and load of a point, in m and N.
+    Points are as to `base_line`; `noise` are the standard deviations of their depth and load.
     """
     line = base_line(points, back, noise[1])
     if line is None or not np.isfinite(line.ends[0]):

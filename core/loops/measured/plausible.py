@@ -1,17 +1,12 @@
-"""Whether the points of a loop are plausible: in an order, with a contact, and with the right signs."""
+"""Whether the points of a loop are plausible: with a contact, and with the right signs."""
 
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
-from gradhesion.core.loops.measured.points import ways
+from gradhesion.core.loops.measured.points import FEWEST
 from gradhesion.core.types import Floats, Truths
 
-FEWEST: Final = 40
-"""Number of points below which nothing is tested."""
-_STEP: Final = 0.12
-"""Step between neighbours, in parts of the span of the depth, above which many turns mean that there is no order."""
 _END: Final = 0.1
 """Length of an end of the depths, in parts of their span."""
 _STRAIGHT: Final = 5.0
@@ -20,53 +15,14 @@ _FLAT: Final = 0.03
 """Largest change of the load over a flat end of the depths, in parts of its span."""
 
 
-def has_order(depth: Floats, cycle: NDArray[np.int32] | None = None) -> bool:
-    """Return whether points are in an order in which a loop can be measured.
-
-    Parameters
-    ----------
-    depth
-        As the points come, any unit; shape (n,).
-    cycle
-        The number of the cycle of each, if known.
-
-    Returns
-    -------
-    False where there are far more turns than cycles, with hardly a point between them; True of few points.
-
-    Examples
-    --------
-    >>> up = np.linspace(0.0, 1.0, 100)
-    >>> has_order(up), has_order(np.random.default_rng(0).permutation(up))
-    (True, False)
-    """
-    known = 1 if cycle is None else np.unique(cycle).size
-    sort = np.arange(depth.size) if cycle is None else np.argsort(cycle, kind="stable")
-    found = int(ways(depth[sort])[1].max(initial=1))
-    step = float(np.median(np.abs(np.diff(depth[sort])))) if depth.size > 1 else 0.0
-    return depth.size < FEWEST or found <= 2 * known + 1 or step < _STEP * float(np.ptp(depth))
-
-
 def fault_of(depth: Floats, load: Floats, noise: Floats, unloading: Truths) -> str:
-    """Test by the ends of their depths whether points can be those of a contact.
+    """Test by the ends of their depths whether points can be those of a contact; return "" if they can.
 
-    Parameters
-    ----------
-    depth, load
-        In any unit, in any order; shape (n,).
-    noise
-        The standard deviation of each load, shape (n,).
-    unloading
-        Whether each point unloads; signs are tested on one branch.
+    Depths and loads are in any unit and order, `noise` is the standard deviation of each load, and `unloading` its
+    branch, on which signs are tested; all (n,). "straight": the load is a straight line of the depth and noise, without
+    contact. "load": it falls towards the deepest points and is farthest from the other end there, so that its sign is
+    wrong. "depth": it does so rising towards the shallowest points, so that the sign of the depth is wrong. "both".
 
-    Returns
-    -------
-    "" if they can. "straight": the load is a straight line of the depth and noise, without contact. "load": it falls
-    towards the deepest points and is farthest from the other end there, so that its sign is wrong. "depth": it does so
-    rising towards the shallowest points, so that the sign of the depth is wrong. "both".
-
-    Examples
-    --------
     >>> depth = np.linspace(-1.0, 1.0, 200)
     >>> load, noise = np.maximum(depth, 0.0) ** 1.5, np.full(200, 1e-3)
     >>> up = np.zeros(200, bool)

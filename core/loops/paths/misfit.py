@@ -1,23 +1,19 @@
 """The misfit of a loop: signed distances of its points to the path, over the noise, with their exact derivatives."""
 
 from collections.abc import Sequence
-from copy import copy
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 from scipy.optimize import least_squares
 
 from gradhesion.core.loops.paths.distance import Feet, feet
+from gradhesion.core.loops.paths.model import TURN
 from gradhesion.core.loops.paths.motion import moving
 from gradhesion.core.loops.paths.path import LoopModel, LoopPath
 from gradhesion.core.types import Floats, Truths
 
-_All: Final = slice(None)
-
 _STEP: Final = 1e-5
 """Step of differences of paths, in parts of a range."""
-_FINER: Final = 3
-"""How much finer the last grid is: minima are then accurate to 0.05 standard deviations, 0.5 before."""
 LOST: Final = 1e3
 """Distance, in standard deviations, of every point where a scene has no path."""
 
@@ -36,110 +32,93 @@ class Data(NamedTuple):
     counts: Floats
 
 
-class _Nearest(NamedTuple):
+class Nearest(NamedTuple):
     """Where points are nearest to a path: for each branch its points, its vertices and the feet; kept by its vector."""
 
     vector: bytes
-    use: slice
     branches: list[tuple[Truths, slice, Feet]]
     drawn: LoopPath | None
 
 
 class Misfit:
-    """The points of a loop in units of their noise.
-
-    Parameters
-    ----------
-    data
-        The points.
-    model
-        The model that draws the path.
-    low, high
-        Ends of the range of each number, as it is searched.
-    """
+    """The points of a loop in units of their noise, the model of its path, and the ends of the range of each number."""
 
     def __init__(self, data: Data, model: LoopModel, low: Floats, high: Floats) -> None:
         self.data, self.scale = data, np.array(data.noise)
-        self.points, self.back, self.weights = data.points / self.scale, data.back, np.sqrt(data.counts)
+        self.points, self.weights = data.points / self.scale, np.sqrt(data.counts)
         self.model, self.names, self.low, self.high = model, model.names, low, high
-        self._kept: _Nearest | None = None
+        self.turn = model.places_of((TURN,))
+        """The place of the turn, which is likely near the middle of its range: one more residual says so."""
+        self._kept = Nearest(b"", [], None)
 
-    def finer(self) -> "Misfit":
-        """Return the same misfit on a grid that is `_FINER` times as fine."""
-        model = copy(self.model)
-        model.fineness *= _FINER
-        return Misfit(self.data, model, self.low, self.high)
+    def thinned(self, count: int) -> "Misfit":
+        """Return the misfit of about this many of the points, evenly."""
+        some = slice(None, None, max(1, self.points.shape[0] // count))
+        points, back, noise, counts = self.data
+        return Misfit(Data(points[some], back[some], noise, counts[some]), self.model, self.low, self.high)
+
+    def without(self, names: Sequence[str], **more: float) -> "Misfit":
+        """Return the misfit of the loop less some numbers, with others fixed."""
+        model = self.model.without(names, **more)
+        use = [self.names.index(name) for name in model.names]
+        return Misfit(self.data, model, self.low[use], self.high[use])
 
     def named(self, vector: Floats) -> dict[str, float]:
         """Give the numbers their names and units."""
         return {name: float(value) for name, value in self.model.values(vector).items()}
 
-    def path(self, vector: Floats) -> LoopPath | None:
-        """Draw the path."""
-        return self.model.path(vector)
-
-    def residual(self, vector: Floats, use: slice = _All) -> Floats:
-        """Return the signed distances of points to the path, in standard deviations."""
-        found = np.full(self.back[use].size, LOST)
-        for own, _, nearest in self._nearest(vector, use).branches:
-            found[own] = nearest.distance
-        return found * self.weights[use]
-
-    def jacobian(self, vector: Floats, use: slice = _All) -> Floats:
-        """Return the derivatives of the distances."""
-        if self.model.by_differences:
-            return self._differences(vector, use)
-        found, kept = np.zeros((self.back[use].size, len(self.names))), self._nearest(vector, use)
-        if kept.drawn is not None:
-            moved = moving(self.model, vector, kept.drawn) / self.scale[:, None]
-            for own, piece, nearest in kept.branches:
-                found[own] = nearest.slopes(moved[piece])
-        return found * self.weights[use, None]
-
-    def _differences(self, vector: Floats, use: slice) -> Floats:
-        """Return the derivatives of the distances by central differences."""
-        steps = _STEP * (self.high - self.low)
-        return np.column_stack([
-            (self.residual(vector + step, use) - self.residual(vector - step, use)) / (2.0 * step[i])
-            for i, step in enumerate(np.diag(steps))
-        ])  # fmt: skip
-
-    def feet(self, vector: Floats) -> list[tuple[Truths, slice, Feet]]:
-        """Return, for each branch, its points, its vertices, and where these points are nearest to it."""
-        return self._nearest(vector, _All).branches
-
-    def _nearest(self, vector: Floats, use: slice) -> _Nearest:
+    def nearest(self, vector: Floats) -> Nearest:
         """Find where points are nearest to the path; the last result is kept, for the derivatives."""
-        key = vector.tobytes()
-        if self._kept is None or self._kept[:2] != (key, use):
-            self._kept = _Nearest(key, use, [], self.path(vector))
+        if self._kept.vector != vector.tobytes():
+            self._kept = Nearest(vector.tobytes(), [], self.model.path(vector))
             if (drawn := self._kept.drawn) is not None:
-                points, back, chain = self.points[use], self.back[use], drawn.places / self.scale
-                for own, piece in ((~back, slice(0, drawn.turn + 1)), (back, slice(drawn.turn, None))):
-                    if own.any():
-                        near = feet(points[own], chain[piece], drawn.curved[piece])
-                        self._kept.branches.append((own, piece, near))
+                chain, tangents = drawn.places / self.scale, drawn.tangents / self.scale
+                up, down = slice(0, drawn.turn + 1), slice(drawn.turn, None)
+                for own, piece in ((~self.data.back, up), (self.data.back, down)):
+                    near = feet(self.points[own], chain[piece], tangents[piece], drawn.curved[piece])
+                    self._kept.branches.append((own, piece, near))
         return self._kept
 
-    def refined(
-        self,
-        start: Floats,
-        use: slice = _All,
-        *,
-        loss: str = "linear",
-        most: int = 60,
-        held: Sequence[int] = (),
-        tolerance: float = 1e-8,
-    ) -> Any:
-        """Refine a start within the ranges, the numbers `held` fixed.
+    def residual(self, vector: Floats) -> Floats:
+        """Return the signed distances of points to the path, in standard deviations; behind them that of the turn."""
+        found = np.full(self.weights.size, LOST)
+        for own, _, near in self.nearest(vector).branches:
+            found[own] = near.distance
+        turn = (2.0 * vector - self.low - self.high)[self.turn] / (self.high - self.low)[self.turn]
+        return np.append(found * self.weights, turn)
 
-        Returns
-        -------
-        The result of `scipy.optimize.least_squares`, `x` with all numbers.
-        """
+    def jacobian(self, vector: Floats) -> Floats:
+        """Return the derivatives of the residual, of shape (points, numbers)."""
+        if self.model.by_differences:
+            return self._differences(vector)
+        found, (_, branches, drawn) = np.zeros((self.weights.size, vector.size)), self.nearest(vector)
+        if drawn is not None:
+            moved = moving(self.model, vector, drawn, self.low, self.high) / self.scale[:, None]
+            for own, piece, near in branches:
+                found[own] = near.slopes(moved[piece], drawn.tangents[piece] / self.scale)
+        turn = (2.0 * np.eye(vector.size) / (self.high - self.low))[self.turn]
+        return np.concatenate([found * self.weights[:, None], turn])
+
+    def inside(self, vector: Floats) -> Truths:
+        """Return which points are nearest to the inside of a piece, no corner; (points,)."""
+        found = np.zeros(self.weights.size, bool)
+        for own, _, near in self.nearest(vector).branches:
+            found[own] = near.bent | ((near.share > 0.0) & (near.share < 1.0))
+        return found
+
+    def _differences(self, vector: Floats) -> Floats:
+        """Return the derivatives of the distances by central differences, of one side at the end of a range."""
+        steps = np.diag(_STEP * (self.high - self.low))
+        ends = [(np.minimum(vector + step, self.high), np.maximum(vector - step, self.low)) for step in steps]
+        changes = [(self.residual(above) - self.residual(below)) / np.sum(above - below) for above, below in ends]
+        return np.column_stack(changes)
+
+    def refined(
+        self, start: Floats, *, loss: str = "linear", most: int = 60, held: Sequence[int] = (), tolerance: float = 1e-8
+    ) -> Any:
+        """Refine a start within the ranges, the numbers `held` fixed; as of `least_squares`, `x` with all numbers."""
         searched = np.setdiff1d(np.arange(start.size), held)
         low, high = self.low[searched], self.high[searched]
-        width = high - low
 
         def whole(part: Floats) -> Floats:
             vector = start.copy()
@@ -147,9 +126,9 @@ class Misfit:
             return vector
 
         done = least_squares(
-            lambda part: self.residual(whole(part), use),
-            np.clip(start[searched], low + 1e-6 * width, high - 1e-6 * width),
-            jac=lambda part: self.jacobian(whole(part), use)[:, searched],
+            lambda part: self.residual(whole(part)),
+            np.clip(start[searched], low + 1e-6 * (high - low), high - 1e-6 * (high - low)),
+            jac=lambda part: self.jacobian(whole(part))[:, searched],
             bounds=(low, high),
             x_scale="jac",
             loss=loss,
@@ -161,6 +140,6 @@ class Misfit:
         done.x = whole(done.x)
         return done
 
-    def size(self, vector: Floats, use: slice = _All) -> float:
+    def size(self, vector: Floats) -> float:
         """Return a measure of the misfit that outliers hardly move."""
-        return float(np.sum(np.log1p(self.residual(vector, use) ** 2)))
+        return float(np.sum(np.log1p(self.residual(vector) ** 2)))

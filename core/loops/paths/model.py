@@ -20,18 +20,24 @@ from gradhesion.core.equations import hertz, jkr
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
-from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, TURNS
+from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, SPEED, TURNS
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.toughness import Toughness, rows_of_pattern, series_at
 from gradhesion.core.types import Floats
 
-LINEAR: Final = ("k", "nu", "indentation_max", "closing_ratio", "toughness_amplitude", "exponent", *OFFSETS)
+EXPONENT: Final = "exponent"
+"""The name of the power of the speed, where it is searched."""
+TURN: Final = "turn"
+"""The name of the displacement, or the load, of the turn in the data, where it is searched too."""
+LINEAR: Final = ("k", "nu", "indentation_max", "closing_ratio", "toughness_amplitude", EXPONENT, *OFFSETS, TURN)
 """Names searched on a linear scale; all others are searched by their logarithm."""
 _WITHOUT_EFFECT: Final = {"a_max_over_R": math.inf, "c0_over_R": 1.0, "lambda_over_R": 1.0}
 """Values of what may be left out where it has no effect."""
 AMPLITUDES: Final = ("A", *WAYS["A"])
 WAVELENGTHS: Final = ("lambda_over_R", *WAYS["lambda_over_R"])
 WAVES: Final = (*AMPLITUDES, *WAVELENGTHS)
+SPEEDS: Final = ("speed", "reference_speed", SPEED, EXPONENT)
+"""Names of what belongs to a moving edge alone."""
 
 
 class Scenes(NamedTuple):
@@ -69,20 +75,6 @@ class Scenes(NamedTuple):
         return float(self.R * (2.0 ** (1.0 + self.k) * math.pi / self.stiffness) ** (1.0 / (3.0 + self.k)))
 
 
-class States(NamedTuple):
-    """Equilibrium at some radii, in m, N and N/m; of their shape, or of (scenes, radii)."""
-
-    depth: Floats
-    load: Floats
-    pull: Floats
-    slope: Floats
-
-    def at(self, toughness: Any) -> tuple[Floats, Floats]:
-        """Return depth and load where the edge has a toughness, over that of opening."""
-        pull = toughness * self.pull
-        return self.depth - pull, self.load - self.slope * pull
-
-
 @lru_cache(maxsize=64)
 def _units_at(k: float, nu: float, m: float) -> tuple[Any, ...]:
     """Return the result of `_units` for plain numbers."""
@@ -100,16 +92,10 @@ def _units(k: Any, nu: Any, m: float) -> tuple[Any, ...]:
 
 
 class Model:
-    """A loop as a function of the numbers that are searched.
+    """A loop as a function of the numbers that are searched: its curves of equilibrium.
 
-    Parameters
-    ----------
-    fixed
-        Numbers by name, in SI units (`fit_loop`).
-    names
-        What is searched, in order; those of `OFFSETS` may be the last.
-    profile, loading, toughness
-        The shape of the punch, what is prescribed, and a pattern of the toughness.
+    `fixed` are numbers by name, in SI units (`fit_loop`); `names` is what is searched, in order, those of `OFFSETS` and
+    `TURN` last. The rest is the shape of the punch, what is prescribed, and a pattern of the toughness.
     """
 
     def __init__(
@@ -139,9 +125,17 @@ class Model:
             for name, column in zip(self.names, vectors.T, strict=True)
         }
 
+    def places_of(self, names: Sequence[str]) -> list[int]:
+        """Return the places of those of some names that are searched."""
+        return [place for place, name in enumerate(self.names) if name in names]
+
+    def searched(self, values: Mapping[str, float]) -> dict[str, float]:
+        """Return numbers by name as they are searched."""
+        return {name: value if name in LINEAR else math.log(value) for name, value in values.items()}
+
     def given(self, own: Mapping[str, Any]) -> dict[str, Any]:
         """Join the searched and the fixed numbers, with defaults without effect for what is left out."""
-        given = self.fixed | {name: value for name, value in own.items() if name not in OFFSETS}
+        given = self.fixed | {name: value for name, value in own.items() if name not in (*OFFSETS, TURN)}
         return {name: one for name, one in _WITHOUT_EFFECT.items() if not WAYS[name].keys() & given.keys()} | given
 
     def scenes(self, vectors: Floats) -> Scenes:
@@ -162,52 +156,76 @@ class Model:
         )  # fmt: skip
         return Scenes(*columns)
 
-    def states(self, scenes: Scenes, radius: Floats) -> States:
-        """Return equilibrium of scenes at radii in m, all of them at the same."""
+    def states(self, scenes: Scenes, radius: Floats, edge: Any) -> Floats:
+        """Return equilibrium at radii in m where the edge has a toughness, over that of opening.
+
+        Radii are of shape (n,) for one scene and (1 or scenes, n) for columns of them.
+
+        Returns
+        -------
+        Displacement (of the machine, or depth) and load in m and N, and what both grow by for each m of radius; four
+        rows of the shape to which scenes, radii and edge broadcast.
+        """
         k, R, m = scenes.k, scenes.R, self.profile.exponent
         a = radius / R
-        smooth = scenes.rise * a**m
-        slope = scenes.disc * a ** (1.0 + k)
-        first, second = self._waves(scenes, a)
-        load = slope * (smooth * (m / (1.0 + k + m)) + R * a * (first - second))
-        pull = scenes.adhesion * a ** (0.5 * (1.0 - k))
-        if self.toughness is not None:
-            pull = pull * self._toughness(scenes, a)
-        return States(smooth + R * a * first, load, pull, slope)
+        flat, smooth = scenes.disc * a ** (1.0 + k), scenes.rise * a**m
+        first, second, third = self._waves(scenes, radius)
+        tough, more = self._toughness(scenes, a)
+        pull = edge * scenes.adhesion * a ** (0.5 * (1.0 - k))
+        less, pull = pull * (0.5 * (1.0 - k) / a * tough + more), pull * tough
+        grows = m * smooth / a + R * third
+        depth = smooth + R * a * first - pull
+        load = flat * (smooth * (m / (1.0 + k + m)) + R * a * (first - second) - pull)
+        depth_rate, load_rate = grows - less, flat * (grows - less - pull * (1.0 + k) / a)
+        soft = scenes.compliance
+        rows = depth + soft * load, load, (depth_rate + soft * load_rate) / R, load_rate / R
+        return np.array(np.broadcast_arrays(*rows))
 
-    def _waves(self, scenes: Scenes, a: Floats) -> tuple[Any, Any]:
-        """Return what the waves add to delta_H/a and to I/a^(2+k); one pass for scenes of equal k and lengths."""
+    def flat(self, scenes: Scenes, radius: Any) -> tuple[Any, Any]:
+        """Return how displacement and load of a flat disc grow, for each m of its depth."""
+        stiffness = scenes.disc * (radius / scenes.R) ** (1.0 + scenes.k)
+        return 1.0 + scenes.compliance * stiffness, stiffness
+
+    def _waves(self, scenes: Scenes, radius: Floats) -> Any:
+        """Return what the waves add to delta_H/a, I/a^(2+k) and d delta_H/da; those of equal waves from one pass."""
         if not self.has_waves:
-            return 0.0, 0.0
-        if a.ndim == 1:
-            sums = scenes.A * self._sums(scenes.k, a / scenes.wavelength)
-            return sums[0], sums[1]
-        rim = (scenes.rim,) if a.shape[0] > 1 else ()  # by which radii differ
-        columns = np.broadcast_arrays(scenes.k, scenes.wavelength, scenes.R, *rim)
-        sums, known = np.empty((2, columns[0].size, a.shape[1])), {}
-        for row, key in enumerate(zip(*(column.flat for column in columns), strict=True)):
-            if key not in known:
-                known[key] = self._sums(key[0], a[row % a.shape[0]] / key[1])
-            sums[:, row] = known[key]
-        sums = scenes.A * sums
-        return sums[0], sums[1]
+            return 0.0, 0.0, 0.0
+        k, length = np.broadcast_arrays(scenes.k, scenes.wavelength * scenes.R)
+        if not k.ndim:
+            return scenes.A * self._sums(scenes.k, radius / length)
+        known: dict[tuple[float, bytes], Floats] = {}
+        rows = []
+        for exponent, x in zip(k[:, 0].tolist(), radius / length, strict=True):
+            key = exponent, x.tobytes()
+            known[key] = known[key] if key in known else self._sums(exponent, x)
+            rows.append(known[key])
+        return scenes.A * np.stack(rows, axis=1)
 
     def _sums(self, k: float, x: Floats) -> Floats:
-        """Return the sums over the waves of a unit amplitude, for depth and moment, at wavelengths x: (2, n)."""
-        sums = np.zeros((2, x.size))
+        """Return the sums over the waves of a unit amplitude that `_waves` needs, at radii in wavelengths: (3, n)."""
+        sums = np.zeros((3, x.size))
         for wave in self.profile.harmonics:
             size = 2.0 * math.pi * wave.n
             if wave.cos:
-                sums += size * wave.cos * hertz.sine_integrals(k, wave.n * x)[:2]
+                s0, s1, rate, _ = hertz.sine_integrals(k, wave.n * x)
+                sums += size * wave.cos * np.array([s0, s1, s0 + size * x * rate])
             if wave.sin:
-                sums += size * wave.sin * hertz.cosine_integrals(k, wave.n * x)
+                c0, c1 = hertz.cosine_integrals(k, wave.n * x)
+                sums += size * wave.sin * np.array([c0, c1, c0 - (size * x) ** 2 * c1 / (1.0 + k)])
         return sums
 
-    def _toughness(self, scenes: Scenes, a: Floats) -> Floats:
-        """Return the toughness of the interface at radii over R, over its mean."""
-        assert self.toughness is not None  # noqa: S101 (only called with one)
-        series = 1.0 + scenes.swing * series_at(rows_of_pattern(self.toughness), a / scenes.pattern)
-        return np.sqrt(np.maximum(series, 0.0)) if self.toughness.of == "work" else series
+    def _toughness(self, scenes: Scenes, a: Floats) -> tuple[Any, Any]:
+        """Return the toughness at radii over R, over its mean, and how it grows with them."""
+        if self.toughness is None:
+            return 1.0, 0.0
+        rows, step = rows_of_pattern(self.toughness), 1e-5
+        below, here, above = (
+            np.maximum(1.0 + scenes.swing * series_at(rows, a / scenes.pattern + way), 0.0)
+            for way in (-step, 0.0, step)
+        )
+        if self.toughness.of == "work":
+            below, here, above = np.sqrt(below), np.sqrt(here), np.sqrt(above)
+        return here, (above - below) / (2.0 * step * scenes.pattern)
 
     def shortest(self, scenes: Scenes) -> float:
         """Return the shortest wave of one scene in m, of its profile or its pattern; inf if it has none."""

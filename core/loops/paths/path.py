@@ -4,27 +4,35 @@ Vertices lie on the curve itself, at radii through which the path passes on a gr
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
+from scipy.interpolate import CubicHermiteSpline
 
-from gradhesion.core.loops.paths.grid import grid_of, reach_of
-from gradhesion.core.loops.paths.model import Model, Scenes, States
+from gradhesion.core.loops.paths.model import TURN, Model, Scenes
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
-from gradhesion.core.loops.paths.walk import Walk, climb
+from gradhesion.core.loops.paths.walk import climb, met
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.toughness import Toughness
 from gradhesion.core.types import Floats, Truths
 
+_A_WAVE: Final = 80
+"""Radii of the grid within the shortest wave: the cubics between them are off by 1e-7 of its height."""
+_SMOOTH: Final = 200
+"""Radii of the grid without waves, each a fixed part further out than the last."""
+_SMALLEST: Final = 0.02
+"""Smallest radius of the grid, in radii at which adhesion outweighs the curvature of the punch."""
+_MOST: Final = 400_000
+"""Radii of the grid at most."""
 _FEWEST: Final = 5
 """Radii of a grid at least."""
-_PARTS: Final = np.linspace(0.0, 1.0, 9)
-"""Places, in parts of the way by which loading continues within the noise."""
 _REACH: Final = (1.25, 2.5, 10.0)
-"""How far the grid reaches, in radii of contact without adhesion at the depth: the next if one is not enough."""
+"""How far the grid reaches, in radii of contact without adhesion at the turn: the next if one is not enough."""
+_BY_LOAD: Final = (0.0, 1.0)
+"""What loading turns at, as parts of displacement and load."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,6 +42,8 @@ class LoopPath:
     places: Floats
     """Rows of depth in m (of the machine, where its displacement is measured) and load in N: first along the line
     of no load, then loading, unloading, and back along that line."""
+    tangents: Floats
+    """How both grow with the radius, in the same rows; 0 out of contact."""
     radius: Floats
     """The contact radius of each, in m; 0 out of contact."""
     jump: Truths
@@ -44,31 +54,22 @@ class LoopPath:
     """The number of the vertex at which loading ends and unloading begins; the edge is pinned up to the next."""
     scene: Scenes
     """The scene that was drawn."""
-    is_pressed: bool = False
-    """Whether the contact is pressed on at the rim, up to the turn."""
-    by_load: bool = False
-    """Whether it turns at a load, or is pressed on to one."""
+    aim: tuple[float, float] = (1.0, 0.0)
+    """What the turn is prescribed by: the parts of displacement and load in it; 0 where it is the end of a branch."""
+    pressed: float | None = None
+    """How much deeper the contact is pressed on at the rim, up to the turn, in m; None if the rim is not met."""
 
 
 class LoopModel(Model):
     """The path of a loop as a function of the numbers that are searched.
 
-    Parameters
-    ----------
-    fixed, names, profile, loading, toughness
-        As of `Model`.
-    furthest
-        The largest depth in m and the largest load in N of the data, at which they turn.
-    blur
-        How far the path goes on beyond that depth at most, in m, to the largest load.
-    first
-        Where the line of no load begins, in m.
+    It turns at the largest depth in m, or load in N, of the data (`furthest`), unless told otherwise, and goes on by
+    `blur` in m on the branch where it is, since points at the turn have noise. Where works of adhesion differ the edge
+    is pinned at the turn, which is then searched as `TURN`. The line of no load begins at the depth `first`.
     """
 
     by_differences = False
     """Whether derivatives are differences of paths."""
-    fineness = 1
-    """Points of the grid of radii over those of the search: the errors of its vertices fall as the fourth power."""
 
     def __init__(
         self,
@@ -84,28 +85,19 @@ class LoopModel(Model):
     ) -> None:
         super().__init__(fixed, names, profile, loading or Loading(), toughness)
         self.furthest, self.blur, self.first = furthest, blur, first
+        self.driven = int(self.loading.control == "load")  # the row of the states that is prescribed
 
-    @property
-    def turns_at_depth(self) -> bool:
-        """Whether loading turns at a given depth of the specimen, which is not what is driven."""
-        return self.turns == "indentation_max_over_R" and self.loading.control != "displacement"
-
-    @property
-    def turns_at_load(self) -> bool:
-        """Whether loading turns at a load: a given one, or that of the data where the load is driven."""
-        return self.turns == "load_max" or (not self.turns and self.loading.control == "load")
+    def without(self, names: Sequence[str], **more: float) -> "LoopModel":
+        """Return the path of an edge at rest as a function of the numbers less some, with others fixed."""
+        fixed = {name: value for name, value in self.fixed.items() if name not in names} | more
+        return LoopModel(
+            fixed, tuple(name for name in self.names if name not in names), furthest=self.furthest, blur=self.blur,
+            first=self.first, profile=self.profile, loading=self.loading, toughness=self.toughness,
+        )  # fmt: skip
 
     def shift(self, vector: Floats) -> tuple[float, ...]:
         """Return the zeros of depth and load, and the tilt, of a vector."""
         return tuple(float(vector[self.names.index(name)]) if name in self.names else 0.0 for name in OFFSETS)
-
-    def _targets(self, scene: Scenes, vector: Floats) -> tuple[float, float]:
-        """Return the coordinate at which loading turns and the load that it reaches there; inf is never reached."""
-        if self.turns:
-            return (math.inf, scene.turn) if self.turns == "load_max" else (scene.turn, -math.inf)
-        depth, load, tilt = self.shift(vector)
-        highest = self.furthest[1] - load - tilt * self.furthest[0]
-        return (math.inf, highest) if self.loading.control == "load" else (self.furthest[0] - depth, highest)
 
     def path(self, vector: Floats) -> LoopPath | None:
         """Draw the path; None where the scene has none."""
@@ -113,138 +105,130 @@ class LoopModel(Model):
         if not (0.0 < scene.stiffness < math.inf and 0.0 < scene.R * scene.disc < math.inf):
             return None
         depth, load, tilt = self.shift(vector)
+        target, aim = scene.turn, (1.0, -scene.compliance)
+        if self.turns == "load_max":
+            aim = _BY_LOAD
+        elif not self.turns:
+            aim = _BY_LOAD if self.driven else (1.0, 0.0)
+            target = self.furthest[self.driven] - (load + tilt * self.furthest[0] if self.driven else depth)
+            if TURN in self.names:
+                target += float(vector[self.names.index(TURN)]) - self.furthest[self.driven]
         with np.errstate(all="ignore"):
-            drawn = self._drawn(scene, self._targets(scene, vector), self.first - depth)
+            drawn = self._drawn(scene, target, aim, self.first - depth)
         if drawn is None or not np.isfinite(drawn.places).all():
             return None
         drawn.places[:, 0] += depth
         drawn.places[:, 1] += load + tilt * drawn.places[:, 0]
+        drawn.tangents[:, 1] += tilt * drawn.tangents[:, 0]
         return drawn
 
-    def _coordinate(self, scene: Scenes, depth: Any, load: Any) -> Any:
-        """Return what is prescribed: the depth, the load, or the far end of the machine."""
-        return load if self.loading.control == "load" else depth + scene.compliance * load
-
-    def _drawn(self, scene: Scenes, targets: tuple[float, float], first: float) -> LoopPath | None:
-        """Draw a path without offsets, whose line of no load begins at a depth."""
-        rim, (target, highest) = scene.rim, targets
-        by_load = target == math.inf and math.isfinite(highest)
-        if math.isnan(target + highest) or (target == math.inf and rim == math.inf and not by_load):
+    def _grid(self, scene: Scenes, end: float) -> Floats | None:
+        """Return radii up to an end, evenly spaced by waves, and by parts of the radius near 0; None for too many."""
+        step = self.shortest(scene) / _A_WAVE
+        if end / step > _MOST:
             return None
-        if target <= 0.0:
-            return self._apart(scene, target, first)
-        aim = highest if by_load else target
+        low = min(_SMALLEST * scene.neck, 0.02 * end)
+        growth = math.log(end / low) / _SMOOTH
+        begin = max(step / growth, low)  # where both kinds of steps are equal
+        if begin >= end:
+            return low * np.exp(growth * np.arange(_SMOOTH + 1.0))
+        inner, outer = math.ceil(math.log(begin / low) / growth), max(7, math.ceil((end - begin) / step))
+        near = math.log(begin / low) / max(1, inner) * np.arange(float(inner))
+        return np.concatenate([low * np.exp(near), np.linspace(begin, end, outer + 1)])
+
+    def _reach(self, scene: Scenes, target: float, *, by_load: bool) -> float:
+        """Return the radius of contact without adhesion at a load in N, or at a depth in m."""
+        m, power = self.profile.exponent, 1.0 + scene.k
+        swell = 2.0 * scene.A * scene.wavelength * scene.R if self.has_waves else 0.0
+        factor = scene.disc * m / (power + m) if by_load else 1.0
+        place = (max(target, 0.0) / (scene.rise * factor)) ** (1.0 / (power + m if by_load else m))
+        return float(scene.R * (place + (swell / scene.rise) ** (1.0 / m)))
+
+    def _curves(self, scene: Scenes, radius: Floats) -> tuple[Floats, Callable[[Floats], Floats]]:
+        """Return radii with the extrema of what is prescribed among them, and states at radii within: cubics.
+
+        These are as those of `states`, along their second axis for closing and opening.
+        """
+        rows = self.states(scene, radius, np.array([[scene.root], [1.0]]))
+        rate = rows[self.driven + 2]
+        side, at = np.nonzero(rate[:, 1:] * rate[:, :-1] < 0.0)
+        share = rate[side, at] / (rate[side, at] - rate[side, at + 1])
+        extrema = radius[at] + share * (radius[at + 1] - radius[at])
+        curve = CubicHermiteSpline(radius, rows[:2], rows[2:], axis=2)
+        return np.union1d(radius, extrema), lambda where: np.concatenate([curve(where), curve(where, 1)])
+
+    def _drawn(self, scene: Scenes, target: float, aim: tuple[float, float], first: float) -> LoopPath | None:
+        """Draw a path without offsets, whose line of no load begins at a depth.
+
+        It turns where the parts `aim` of displacement and load first reach a target.
+        """
+        by_load = aim == _BY_LOAD
+        if math.isnan(target) or scene.rim == target == math.inf:
+            return None
+        if target <= 0.0 and not by_load:  # no contact
+            line = np.array([[first, 0.0], [0.0, 0.0], [target, 0.0], [0.0, 0.0], [first, 0.0]])
+            no = np.zeros(5, bool)
+            return LoopPath(line, np.zeros((5, 2)), np.zeros(5), no, no, 2, scene)
         for reach in _REACH:
-            end = rim
-            if aim < math.inf:
-                end = min(rim, reach * reach_of(self, scene, aim, by_load=by_load) + 2.5 * scene.neck)
-            grid = grid_of(self, scene, end, self.fineness)
+            aimed = reach * self._reach(scene, target, by_load=by_load) + 2.5 * scene.neck
+            end = min(scene.rim, aimed) if target < math.inf else scene.rim
+            grid = self._grid(scene, end)
             if grid is None:
                 return None
-            states = self.states(scene, grid)
-            up = Walk(*climb(grid, self._coordinate(scene, *states.at(scene.root)), 0.0))
-            aimed = up
-            if by_load or self.turns_at_depth:
-                aimed = up._replace(level=self.states(scene, up.radius).at(scene.root)[int(by_load)])
-            place = aimed.met(aim)
-            if place is not None:
-                blurred = not by_load and not self.turns and self.blur > 0.0
-                turned = self._further(scene, up, place, targets) if blurred else (place, by_load)
-                return self._joined(scene, grid, states, up, turned, None, first)
-            if end == rim:
-                return self._joined(scene, grid, states, up, (rim, by_load), aim if aim < math.inf else None, first)
-        return None
-
-    def deeper(self, scenes: Scenes, aim: Any, depth: Any, load: Any, slope: Any) -> Any:
-        """Return how much deeper contacts pinned at the rim, flat punches of a stiffness, are pressed up to the turn.
-
-        `aim` is the depth or the load at which loading turns; depth, load and stiffness (slope) are those at the rim,
-        before, of shape (scenes, 1) or numbers.
-        """
-        if self.turns_at_load:
-            return (aim - load) / slope
-        if self.turns_at_depth:
-            return aim - depth
-        return (aim - depth - scenes.compliance * load) / (1.0 + scenes.compliance * slope)
-
-    def _further(self, scene: Scenes, up: Walk, place: float, targets: tuple[float, float]) -> tuple[float, bool]:
-        """Return the radius at which loading turns, and whether its load decides.
-
-        Where the load rises by many deviations within one of the depth, it determines the turn better. The path then
-        continues to the largest load, within the noise of the depth, but over no fold.
-        """
-        target, highest = targets
-        end = up.met(target + self.blur)
-        if end is None or bool(np.any(up.jump & (up.radius > place) & (up.radius <= end))):
-            return place, False
-        some = place + (end - place) * _PARTS
-        loads = self.states(scene, some).at(scene.root)[1]
-        if loads[0] >= highest:
-            return place, False
-        found = Walk(some, np.zeros(some.size, bool), loads).met(highest)
-        return (end, False) if found is None else (found, True)
-
-    def _apart(self, scene: Scenes, target: float, first: float) -> LoopPath:
-        """Return the line of no load of a cycle without contact, up to a depth."""
-        line = np.array([[first, 0.0], [0.0, 0.0], [target, 0.0], [0.0, 0.0], [first, 0.0]])
-        no = np.zeros(5, bool)
-        return LoopPath(line, np.zeros(5), no, no, 2, scene)
-
-    def _joined(
-        self,
-        scene: Scenes,
-        grid: Floats,
-        states: States,
-        up: Walk,
-        turned: tuple[float, bool],
-        pressed: float | None,
-        first: float,
-    ) -> LoopPath:
-        """Join loading up to the radius of the turn, unloading from there, and the line of no load.
-
-        `grid` are radii (n,) in m and `states` equilibrium there; `up` is how loading passes them; `turned` the radius
-        at which it turns, and whether its load decides; `pressed` the depth or load at the turn of a contact that is
-        pinned at the rim, else None; `first` the depth at which the line of no load begins.
-        """
-        turn = turned[0]
-        within, inner = up.radius < turn, grid < turn
-        if np.count_nonzero(inner) < _FEWEST:
-            grid = turn * np.linspace(0.1, 0.9, _FEWEST)
-            inner, states = np.ones(_FEWEST, bool), self.states(scene, grid)
-        opened = self._coordinate(scene, *self.states(scene, np.array([turn])).at(1.0))
-        falls = self._coordinate(scene, *states.at(1.0))[inner]
-        down = Walk(*climb(
-            np.append(grid[inner], turn)[::-1].copy(), -np.append(falls, opened)[::-1], -math.inf
-        ))  # fmt: skip
-        down.jump[0] = False
+            grid, curves = self._curves(scene, grid)
+            level, rate = curves(grid)[self.driven :: 2, 0]
+            way, jumped = climb(grid, level, rate, 0.0)
+            rows = curves(way)[:, 0]
+            levels, rates = (aim[0] * rows[i] + aim[1] * rows[i + 1] for i in (0, 2))
+            turn = met(way, jumped, levels, rates, target)
+            if math.isnan(turn) and end < scene.rim:
+                continue
+            if self.blur > 0.0 and aim == (1.0, 0.0) and turn <= way[-1]:
+                jumps = np.flatnonzero(jumped & (way > turn))
+                last = float(way[jumps[0] - 1 if jumps.size else -1])
+                further = met(way, jumped, levels, rates, target + self.blur)
+                turn, aim = (further, aim) if further <= last else (last, (0.0, 0.0))
+            break
+        else:
+            return None
+        at_rim = math.isnan(turn)
+        turn = scene.rim if at_rim else turn
+        within, inside = way < turn, grid[grid < turn]
+        if inside.size < _FEWEST:
+            inside, curves = self._curves(scene, turn * np.linspace(0.1, 1.0, _FEWEST + 1))
+            inside = inside[:-1]
+        ends, inside = curves(np.array([turn])), np.append(inside, turn)[::-1].copy()
+        level, rate = -curves(inside)[self.driven :: 2, 1]
+        back, leapt = climb(inside, level, rate, -math.inf)
         split = int(np.count_nonzero(within))
-        reached = bool(up.jump[split]) if split < up.jump.size and up.radius[split] == turn else split == 0
-        more = [turn] if pressed is not None else []  # from the rim on
-        way = np.concatenate([up.radius[within], [turn], more, down.radius])
-        jump = np.concatenate([up.jump[within], [reached], np.zeros(len(more), bool), down.jump])
-        split += len(more)
-        edge = np.concatenate([np.full(split + 1, scene.root), np.ones(down.radius.size)])
-        found = self.states(scene, way)
-        depth, load = found.at(edge)
-        if pressed is not None:
-            flat = found.slope[split]
-            deeper = max(0.0, self.deeper(scene, pressed, depth[split], load[split], flat))
-            depth[split] += deeper
-            load[split] += flat * deeper
-        x = depth + scene.compliance * load
+        landed = bool(jumped[split]) if split < way.size and way[split] == turn else split == 0
+        parts = [rows[:, within], ends[:, 0], ends[:, 0], curves(back)[:, 1]]
+        pressed = None
+        if at_rim and target < math.inf:
+            flat = self.flat(scene, turn)
+            pressed = max(0.0, (target - aim[0] * parts[1][0, 0] - aim[1] * parts[1][1, 0])
+                          / (aim[0] * flat[0] + aim[1] * flat[1]))  # fmt: skip
+            parts[2] = parts[2] + pressed * np.array([[flat[0]], [flat[1]], [0.0], [0.0]])
+        else:
+            del parts[2]
+        more = len(parts) - 3
+        split += more
+        x, load, *rates = np.concatenate(parts, axis=1)
+        radius = np.concatenate([way[within], np.full(1 + more, turn), back])
+        jump = np.concatenate([jumped[within], [landed], np.zeros(more + 1, bool), leapt[1:]])
         curved = ~jump
-        curved[[0, split + 1, *([split] if pressed is not None else [])]] = False
+        curved[[0, split + 1, *([split] * more)]] = False
         # under a falling load nothing holds the punch once contact is lost
-        tail = [] if self.loading.control == "load" else [[x[-1], 0.0], [min(first, x[-1]), 0.0]]
-        out, no = np.zeros(len(tail)), np.zeros(2, bool)
-        head = [[min(first, 0.0), 0.0], [0.0, 0.0]]
+        tail = [] if self.driven else [[x[-1], 0.0], [min(first, x[-1]), 0.0]]
+        head, out, no = [[min(first, 0.0), 0.0], [0.0, 0.0]], np.zeros(len(tail)), np.zeros(2, bool)
         return LoopPath(
             np.concatenate([head, np.column_stack([x, load]), np.reshape(tail, (-1, 2))]),
-            np.concatenate([no, way, out]),
+            np.pad(np.column_stack(rates), ((2, len(tail)), (0, 0))),
+            np.concatenate([no, radius, out]),
             np.concatenate([no, jump, np.arange(out.size) == 0]),
             np.concatenate([no, curved, out > 0.0]),
             split + 2,
             scene,
-            pressed is not None,
-            turned[1],
+            aim,
+            pressed,
         )

@@ -41,7 +41,7 @@ class Case:
 
     def model(self, names: tuple[str, ...] = ("E_star",), fixed: dict[str, float] | None = None) -> LoopModel:
         """What draws its path from numbers of these names."""
-        known = {"k": 0.0, "nu": 0.3, "R": R} | TRUE | self.own | (fixed or {})
+        known = {"k": 0.0, "turn": TURN * R, "nu": 0.3, "R": R} | TRUE | self.own | (fixed or {})
         known = {name: value for name, value in known.items() if name not in names}
         ends: dict[str, Any] = {"furthest": (TURN * R, self.highest), "first": -0.1 * R, "profile": Profile()}
         return LoopModel(known, names, **(ends | self.more))
@@ -91,5 +91,10 @@ CASES: Final = {
 
 def vector(model: LoopModel, **more: float) -> Array:
     """The numbers of a loop, as they are searched."""
-    known = {"k": 0.0, "indentation_offset": 2e-9, "load_offset": 1e-8, "load_slope": 0.02} | TRUE | model.fixed | more
+    known = (
+        {"k": 0.0, "turn": TURN * R, "indentation_offset": 2e-9, "load_offset": 1e-8, "load_slope": 0.02}
+        | TRUE
+        | model.fixed
+        | more
+    )
     return np.array([known[name] if name in LINEAR else math.log(known[name]) for name in model.names])

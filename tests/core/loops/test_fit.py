@@ -166,6 +166,45 @@ def test_what_a_loop_cannot_tell_apart_is_refused(pair: tuple[str, str]) -> None
     assert caught.value.names == pair
 
 
+def test_what_one_scale_locks_together_is_refused_by_name() -> None:
+    """R times s, work over s and E* over the root of s are the same loop of a smooth ball."""
+    *points, noise = ball(0)
+    free = FREE | {"R": (0.2 * R, 4.0 * R)}
+    with pytest.raises(CannotTellApartError) as caught:
+        fit_loop(*points, {"k": 0.0, "nu": NU, "A": 0.0}, free, noise=noise)
+    assert set(free) <= set(caught.value.names)
+
+
+def test_a_gradient_may_be_searched_from_0() -> None:
+    *points, noise = ball(0)
+    found = fit_loop(*points, {"nu": NU, "A": 0.0, "R": R, "c0": R}, FREE | {"k": (0.0, 0.9)}, noise=noise)
+    assert found.converged
+    assert found.low["k"] >= 0.0
+    assert found.values["k"] < 0.02
+    assert "k" in found.on_bound
+
+
+def test_a_turn_between_points_leaves_what_is_found_with_unequal_works() -> None:
+    """The deepest point is 3 nm short of the turn, ten times the noise: the edge is pinned 3 nm deeper."""
+    depth, load, back, noise = wavy("closing ratio 0.3", 1, 0.01, 500)
+    own = depth < depth.max() - 3e-9
+    free = WAVES | {"closing_ratio": (0.01, 1.0)}
+    found = fit_loop(depth[own], load[own], back[own], {"k": 0.0, "nu": NU, "R": R}, free, noise=noise)
+    holds(found, TRUE | {"wavelength": 0.5e-6, "A": 0.012, "closing_ratio": 0.3})
+    assert abs(found.values["E_star"] - E_STAR) < 3.0 * found.standard_deviations["E_star"], "4 if it is the deepest"
+    assert found.names == (*free, "indentation_offset", "load_offset")
+    assert found.residual.size == np.count_nonzero(own)
+
+
+def test_flat_points_at_the_pull_off_are_no_base_line() -> None:
+    """Loops whose first point is the contact have none, so that nothing can be said of its tilt."""
+    for seed in range(4):
+        depth, load, back, noise = ball(seed, pressed=200.0, points=900)
+        own = (back & (load < -2.0 * noise[1])) | (depth > 0.0)
+        found = fit_loop(depth[own], load[own], back[own], SMOOTH, FREE, noise=noise, offsets=Offsets())
+        assert found.base_line is None
+
+
 def test_what_has_no_effect_is_refused() -> None:
     *points, noise = ball(0)
     with pytest.raises(ValueError, match="wavelength: without effect on this loop; fix it"):

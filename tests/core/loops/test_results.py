@@ -1,25 +1,38 @@
-"""What is said of a minimum: other ones with their values, ends within the ranges, and what has no effect."""
+"""What is said of a minimum: other ones, ends of intervals, what has no effect, its status, and what else explains it."""
 
 import math
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
-from gradhesion.core.loops.fitted import CannotTellApartError
+from gradhesion.core import solve
+from gradhesion.core.closed.reduced import parameters_from
+from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop
+from gradhesion.core.loops.minima import others
 from gradhesion.core.loops.paths.misfit import Data, Misfit
-from gradhesion.core.loops.results import covariance_of, results_at
-from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
-from tests.core.loops.models import CASES, UNIT, Array, R, vector
+from gradhesion.core.loops.results import (
+    alternatives,
+    covariance_of,
+    is_on_bound,
+    profile_interval,
+    results_at,
+    status_of,
+)
+from gradhesion.core.problem.status import ANOTHER_MINIMUM, JUMP_IN_TO_RIM, POOR_FIT
+from tests.core.loops.models import CASES, SCENE, UNIT, Array, Case, R, vector
 
 NOISE = (1e-4 * R, 0.01 * UNIT)
 NAMES = ("E_star", "work_of_adhesion")
 
 
-def loop(error: float = 1.0, low: float = 2.0) -> tuple[Misfit, Array]:
-    """A smooth loop with noise, and the numbers it was made with."""
-    model = CASES["smooth"].model(NAMES)
-    here = vector(model)
+def loop(
+    names: tuple[str, ...] = NAMES, error: float = 1.0, low: float = 2.0, name: str = "smooth", **known: float
+) -> tuple[Misfit, Array]:
+    """A loop with noise, and the numbers it was made with; `known` are given, or where the names have them searched."""
+    model = CASES[name].model(names, {one: x for one, x in known.items() if one not in names})
+    here = vector(model, **known)
     drawn = model.path(here)
     assert drawn is not None
     places = drawn.places + error * np.random.default_rng(3).standard_normal(drawn.places.shape) * NOISE
@@ -27,29 +40,45 @@ def loop(error: float = 1.0, low: float = 2.0) -> tuple[Misfit, Array]:
     return Misfit(data, model, here - low, here + 2.0), here
 
 
-def ranges(own: Misfit) -> dict[str, tuple[float, float]]:
+def results(own: Misfit, minima: list[Any], intervals: str = "linear", *, widened: bool = False) -> FittedLoop:
     ends = own.named(own.low), own.named(own.high)
-    return {name: (ends[0][name], ends[1][name]) for name in own.names}
+    ranges = {name: (ends[0][name], ends[1][name]) for name in own.names}
+    return results_at(own, minima, intervals, ranges, widened=widened)
 
 
 def test_another_minimum_is_named_with_its_values() -> None:
     own, here = loop()
     best = own.refined(here)
     other = SimpleNamespace(x=best.x + np.array([1.0, 0.0]), cost=best.cost + 0.5)
-    found = results_at(own, [best, other], "linear", ranges(own), widened=False)
+    found = results(own, [best, other])
     assert found.status & ANOTHER_MINIMUM
     assert not found.status & POOR_FIT
     (named,) = found.others
     assert named.values["E_star"] == pytest.approx(math.e * found.values["E_star"], rel=1e-12)
     assert named.chi_square == pytest.approx(found.chi_square + 1.0, rel=1e-12)
-    alone = results_at(own, [best], "linear", ranges(own), widened=False)
-    assert not alone.status & ANOTHER_MINIMUM
+    assert not results(own, [best]).status & ANOTHER_MINIMUM
+
+
+@pytest.mark.parametrize(
+    ("places", "unit", "kept"),
+    [
+        ([(20.0, 0.0, 2.0)], 1.0, [20.0]),
+        ([(2.0, 2.0, 2.0)], 1.0, []),  # the same valley
+        ([(4.0, 0.0, 5.0)], 1.0, []),  # a parabola has risen by 16: on its slope
+        ([(40.0, 0.0, 6.5)], 1.0, []),  # 95 % of chi square of two numbers are below 5.99
+        ([(40.0, 0.0, 6.5)], 1.2, [40.0]),
+        ([(20.0, 0.0, 1.0), (20.5, 0.0, 1.1), (-20.0, 0.0, 1.2)], 1.0, [20.0, -20.0]),  # one of two alike
+    ],
+)
+def test_minima_are_those_that_the_noise_allows_in_other_valleys(places: Any, unit: float, kept: list[float]) -> None:
+    found = [SimpleNamespace(x=np.array([x, y]), cost=50.0 + 0.5 * rise) for x, y, rise in [(0.0, 0.0, 0.0), *places]]
+    assert [one.x[0] for one in others(found, np.diag([1.0, 4.0]), unit)] == kept
 
 
 def test_noise_that_was_estimated_widens_intervals() -> None:
     own, here = loop(error=2.0)
     best = own.refined(here)
-    given, estimated = (results_at(own, [best], "linear", ranges(own), widened=widened) for widened in (False, True))
+    given, estimated = (results(own, [best], widened=widened) for widened in (False, True))
     assert given.status & POOR_FIT
     assert estimated.widening == pytest.approx(math.sqrt(given.chi_square / given.degrees_of_freedom), rel=1e-12)
     for name in NAMES:
@@ -60,28 +89,117 @@ def test_noise_that_was_estimated_widens_intervals() -> None:
 @pytest.mark.parametrize("intervals", ["linear", "profile"])
 def test_an_interval_ends_at_the_range(intervals: str) -> None:
     own, here = loop(low=1e-5)
-    best = own.refined(here)
-    found = results_at(own, [best], intervals, ranges(own), widened=False)
-    assert found.low["E_star"] >= ranges(own)["E_star"][0] * (1.0 - 1e-12)
+    found = results(own, [own.refined(here)], intervals)
+    assert found.low["E_star"] >= found.ranges["E_star"][0] * (1.0 - 1e-12)
     assert "E_star" in found.on_bound
 
 
-def test_what_acts_alike_has_no_covariance() -> None:
-    model = CASES["smooth"].model(("E_star", "c0"), {"k": 0.3})
-    here = vector(model, c0=0.1 * R)
-    drawn = model.path(here)
-    assert drawn is not None
-    data = Data(drawn.places, np.arange(len(drawn.places)) > drawn.turn, NOISE, np.ones(len(drawn.places)))
-    with pytest.raises(CannotTellApartError, match="E_star and c0"):
-        covariance_of(Misfit(data, model, here - 1.0, here + 1.0), here)
+def test_profile_intervals_are_where_the_misfit_has_grown_so_far() -> None:
+    """A fit of the rest there has a sum of squares that is larger by the square of the factor, linear or not."""
+    own, here = loop(error=8.0)
+    best = own.refined(here, tolerance=1e-12).x
+    covariance = covariance_of(own, best)
+    for number in range(2):
+        along = covariance[number] / math.sqrt(covariance[number, number])
+        ends = profile_interval(own, best, number, along, 12.0, 1.0)
+        assert ends[0] < best[number] < ends[1]
+        for end in ends:
+            moved = best.copy()
+            moved[number] = end
+            rise = 2.0 * own.refined(moved, held=[number]).cost - np.sum(own.residual(best) ** 2)
+            assert math.sqrt(rise) == pytest.approx(12.0, rel=0.02)
+            linear = best[number] + math.copysign(12.0 * along[number], end - best[number])
+            assert end == pytest.approx(linear, rel=0.0, abs=2.0 * along[number])
+
+
+@pytest.mark.parametrize(
+    ("value", "ends", "bound"),
+    [(1.009, (1.0, 2.0), True), (1.011, (1.0, 2.0), False), (1.04, (1.0, 100.0), True), (1.05, (1.0, 100.0), False),
+     (96.0, (1.0, 100.0), True), (-0.99, (-1.0, 1.0), True), (0.0, (-1.0, 1.0), False)],
+)  # fmt: skip
+def test_a_bound_is_a_hundredth_of_the_range_wide(value: float, ends: tuple[float, float], *, bound: bool) -> None:
+    """Of its logarithm, beyond a factor of 10."""
+    assert is_on_bound(value, ends) == bound
+
+
+@pytest.mark.parametrize(
+    ("name", "names", "known"),
+    [
+        ("smooth", ("E_star", "c0"), {"k": 0.3, "c0": 0.1 * R}),
+        ("smooth", ("R", "E_star", "work_of_adhesion"), {}),
+        ("wavy", ("R", "E_star", "work_of_adhesion", "wavelength", "A"), {}),
+    ],
+)
+def test_what_acts_alike_has_no_covariance(name: str, names: tuple[str, ...], known: dict[str, float]) -> None:
+    """A loop in which all lengths, or the modulus and c0, are scaled together is the same loop."""
+    known = {"R": R} | known
+    own, here = loop(names, name=name, **{one: x for one, x in known.items() if one in names or one == "k"})
+    with pytest.raises(CannotTellApartError) as caught:
+        covariance_of(own, here)
+    assert set(caught.value.names) == set(names)
 
 
 def test_one_number_without_effect_is_refused() -> None:
     """A rim that is not met, searched alone: all derivatives are 0."""
-    model = CASES["smooth"].model(("a_max",))
-    here = vector(model, a_max=10.0 * R)
-    drawn = model.path(here)
-    assert drawn is not None
-    data = Data(drawn.places, np.arange(len(drawn.places)) > drawn.turn, NOISE, np.ones(len(drawn.places)))
+    own, here = loop(("a_max",), a_max=10.0 * R)
     with pytest.raises(ValueError, match="a_max: without effect on this loop; fix it"):
-        covariance_of(Misfit(data, model, here - 1.0, here + 1.0), here)
+        covariance_of(own, here)
+
+
+def test_the_status_is_that_of_the_scene() -> None:
+    """Deep waves touch the surface before they should: loading is not one disc."""
+    model = CASES["wavy"].model(("A",))
+    for height in (0.012, 0.2):
+        scene = SCENE | {"A": height, "a_max_over_R": 0.3}
+        outputs = ["dissipated_energy", "loading_jumps", "unloading_jumps"]
+        expected = int(solve(scene, outputs, threads=1)["status"])
+        assert status_of(model, np.array([math.log(height)]), 0.3) == expected & ~JUMP_IN_TO_RIM
+    assert expected != 0
+    assert status_of(model, np.array([math.log(0.2)]), 0.0) == 0, "out of contact"
+
+
+def test_a_rim_that_is_met_is_reported_and_a_turn_before_it_is_not() -> None:
+    """A jump of loading that reaches the rim is cut short there; that which ends at the turn is not."""
+    model = CASES["rim"].model(("A",), {"a_max": 0.02 * R})
+    here = vector(model)
+    assert status_of(model, here, 0.02) & JUMP_IN_TO_RIM
+    assert status_of(model, here, np.nextafter(0.02, 0.0)) & JUMP_IN_TO_RIM, "a radius in m, over R, is rounded"
+    assert not status_of(CASES["wavy"].model(("A",)), here, 0.02) & JUMP_IN_TO_RIM
+
+
+def test_equal_works_are_so_in_either_order() -> None:
+    """Where both works are fitted, noise puts that of closing above the other as often as below."""
+    model = CASES["smooth"].model(("work_of_adhesion_closing",))
+    for ratio in (0.99, 1.01):
+        assert status_of(model, np.log([ratio * 0.03]), 0.3) == 0
+
+
+def said(case: Case, names: tuple[str, ...], noise: float, spread: float = 1.0) -> tuple[str, ...]:
+    model = case.model(names)
+    if "chi" in case.own:
+        model.fixed.pop("A")
+    drawn = model.path(vector(model, closing_ratio=0.25, wavelength=2e-3 * R))
+    assert drawn is not None
+    return alternatives(model, drawn, noise * np.array([R, UNIT]), np.full(len(names), spread))
+
+
+def test_a_closing_ratio_may_be_fine_waves() -> None:
+    """The roots of the works are as 1 - chi to 1 + chi: 1/2 is that of chi = 1/3."""
+    (sentence,) = said(Case({"A": 0.0}), ("E_star", "closing_ratio"), 1e-3)
+    assert "chi = 0.333" in sentence
+    assert "closing_ratio = 0.25" in sentence
+    assert said(Case({"A": 0.0, "closing_ratio": 0.25}), ("E_star",), 1e-3) == (), "it is not fitted"
+
+
+def test_fine_waves_may_be_a_closing_ratio() -> None:
+    """Their pull-off force is that of a smooth punch with (1 + chi)^2 times the work: 1.44 at k = 0."""
+    fine = Case({"chi": 0.2, "wavelength": 2e-3 * R})
+    (sentence,) = said(fine, ("wavelength",), 10.0)
+    assert "closing_ratio = 0.444 " in sentence
+    assert "1.44 times the work of adhesion" in sentence
+    assert said(fine, ("wavelength",), 1e-7) == (), "the jumps are seen"
+    assert said(fine, ("wavelength",), 10.0, spread=1e-6) == (), "the wavelength is known"
+    wavy = {name: value for name, value in SCENE.items() if name != "A"} | {"chi": 0.2, "lambda_over_R": 2e-3}
+    made = parameters_from(wavy | {"a_max_over_R": np.inf})
+    force = float(solve(made, ["pull_off_force"], threads=1)["pull_off_force"])
+    assert force == pytest.approx(1.44, rel=1e-2)

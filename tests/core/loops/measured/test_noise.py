@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from gradhesion.core.loops.measured.neighbours import along, of_differences
 from gradhesion.core.loops.measured.noise import FLOOR, noise_of
+from gradhesion.core.loops.measured.points import along, of_differences
 
 Array = np.ndarray
 

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from gradhesion.core.loops.measured.plausible import fault_of, has_order
+from gradhesion.core.loops.measured.plausible import fault_of
+from gradhesion.core.loops.measured.points import has_order
 from tests.core.loops.measured.test_noise import loop
 
 SIGNS = {(1, 1): "", (1, -1): "load", (-1, 1): "depth", (-1, -1): "both"}

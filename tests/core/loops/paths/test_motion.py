@@ -23,7 +23,7 @@ SEARCHED: dict[str, tuple[str, ...]] = {
     "load control": ALL,
     "load control to a depth": ("indentation_max", *ALL[:4], "load_offset"),
     "preload at the rim": ("preload", *ALL[:4], "load_offset"),
-    "closing ratio 0.3": ("closing_ratio", *ALL),
+    "closing ratio 0.3": ("closing_ratio", *ALL, "turn"),
     "closing ratio 0": ALL,
     "rings": ("toughness_wavelength", "toughness_amplitude", *SMOOTH),
     "graded": ("k", "c0", *ALL),
@@ -54,9 +54,8 @@ def misfit(name: str, seed: int, points: int = 400) -> tuple[Misfit, Array]:
 
 def feet_of(own: Misfit, here: Array) -> Array:
     """Where the points have their feet, in m and N over the noise; of the path of some numbers."""
-    found, drawn = np.empty((own.back.size, 2)), own.path(here)
-    assert drawn is not None
-    for way, _, nearest in own.feet(here):
+    found = np.empty((own.weights.size, 2))
+    for way, _, nearest in own.nearest(here).branches:
         found[way] = own.points[way] - nearest.distance[:, None] * nearest.normal
     return found
 
@@ -68,13 +67,15 @@ def test_distances_change_as_those_to_a_path_that_is_drawn_again(name: str) -> N
     Vertices move along the path too, as it is drawn again, so that differences have the error of pieces between them.
     """
     own, here = misfit(name, seed=1)
-    exact = own.jacobian(here)
+    exact = own.jacobian(here)[:400]
     for i, one in enumerate(own.names):
-        step = STEP * {NAMES[0]: NOISE[0], NAMES[1]: NOISE[1], "indentation_max": NOISE[0]}.get(one, 1.0)
+        step = STEP * {NAMES[0]: NOISE[0], NAMES[1]: NOISE[1], "indentation_max": NOISE[0], "turn": NOISE[0]}.get(
+            one, 1.0
+        )
         ends = [here + sign * step * np.eye(here.size)[i] for sign in (1.0, -1.0)]
         places = [feet_of(own, end) for end in ends]
         same = np.hypot(*(places[0] - places[1]).T) < 0.3
-        above, below = (own.residual(end) for end in ends)
+        above, below = (own.residual(end)[:400] for end in ends)
         apart = np.abs((above - below) / (2.0 * step) - exact[:, i])
         size = np.sqrt(np.mean(exact[:, i] ** 2))
         assert np.mean(same) > 0.98, one
@@ -89,7 +90,7 @@ def test_the_turn_follows_what_it_is_prescribed_by() -> None:
     for name in ("wavy", "rim"):
         own, here = misfit(name, seed=2)
         i, step = own.names.index(NAMES[0]), 1e-3 * NOISE[0]
-        drawn = own.path(here)
+        drawn = own.model.path(here)
         assert drawn is not None
         beyond = drawn.places[drawn.turn] + [0.0, 5.0 * NOISE[1]]
         data = Data(beyond[None], np.zeros(1, bool), NOISE, np.ones(1))
@@ -109,6 +110,7 @@ def test_one_number_that_leaves_equilibrium_as_it_is_may_be_searched_alone(name:
     drawn = model.path(here)
     assert drawn is not None
     spots = drawn.places + 2.0 * np.random.default_rng(3).standard_normal(drawn.places.shape) * NOISE
+    spots[drawn.turn] = drawn.places[drawn.turn] + 5.0 * np.array(NOISE)  # beyond the end
     own = Misfit(Data(spots, np.arange(len(spots)) > drawn.turn, NOISE, np.ones(len(spots))), model, here - 1, here + 1)
     step = 1e-3 * NOISE[0] if one == "indentation_max" else STEP
     exact, below, above = own.jacobian(here)[:, 0], own.residual(here - step), own.residual(here + step)
@@ -116,4 +118,4 @@ def test_one_number_that_leaves_equilibrium_as_it_is_may_be_searched_alone(name:
     assert np.median(np.abs((above - below) / (2.0 * step) - exact)) < 0.01 * np.abs(exact).max()
     if one == "a_max":  # the corners where the rim is met, and to which the contact is pressed on
         rim = np.flatnonzero(drawn.radius == drawn.scene.rim)[:2]
-        np.testing.assert_allclose(exact[rim], ((above - below) / (2.0 * step))[rim], rtol=1e-4)
+        np.testing.assert_allclose(exact[rim], ((above - below) / (2.0 * step))[rim], rtol=1e-4, atol=1e-2)

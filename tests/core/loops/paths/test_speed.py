@@ -7,8 +7,9 @@ import pytest
 
 from gradhesion.core import draw_curves
 from gradhesion.core.loops.fit import fit_loop
+from gradhesion.core.loops.paths.model import EXPONENT
 from gradhesion.core.loops.paths.offsets import NO_OFFSETS
-from gradhesion.core.loops.search.speed import EXPONENT, SpeedModel
+from gradhesion.core.loops.paths.speed import SpeedModel
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.rate import Rate
 from tests.core.loops.models import CASES, SCENE, TRUE, TURN, UNIT, Array, R

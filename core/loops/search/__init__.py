@@ -1,1 +1,0 @@
-"""Where fits start and end: ranges, starts, and the minima of the misfit."""

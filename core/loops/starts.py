@@ -1,0 +1,232 @@
+"""Where to start a fit: near the curve of a smooth punch, then of waves, then of speeds, each from the one before.
+
+Smooth: contact points over all depths of the data, some works of adhesion with each, and the modulus that gives the
+largest load. Waves: the residual of a smooth punch is periodic in the contact radius; the peaks of its spectrum, then
+wavelengths over the whole range, each with some amplitudes, are refined in everything else, until one leaves no more
+than noise.
+"""
+
+import itertools
+import math
+from collections.abc import Mapping
+from typing import Any, Final
+
+import numpy as np
+
+from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
+from gradhesion.core.loops.minima import distinct, is_noise, minima, robust
+from gradhesion.core.loops.paths.misfit import Misfit
+from gradhesion.core.loops.paths.model import AMPLITUDES, SPEEDS, TURN, WAVELENGTHS, WAVES
+from gradhesion.core.loops.paths.offsets import DEPTH_ZERO, LOAD_ZERO
+from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
+from gradhesion.core.types import Floats
+
+_FEW: Final = 140
+"""Points that starts are compared with."""
+_WORK: Final = "work_of_adhesion"
+_MODULI: Final = ("E_star", "E", "modulus")
+_CONTACTS: Final = 12
+"""Contact points that are tried, beside the end of the base line."""
+_WORKS: Final = 3
+"""Works of adhesion that are tried with each."""
+_KEPT: Final = 8
+"""Starts of a smooth punch that are refined."""
+_HEIGHTS: Final = 3
+"""Amplitudes that are tried with each wavelength."""
+_PEAKS: Final = 6
+"""Peaks of the spectrum that are tried."""
+_BESIDE: Final = 2
+"""Peaks that are tried with a third of a wave more, and less, within the contact."""
+_PER_WAVE: Final = 3.0
+"""Wavelengths tried, over the number of waves by which the shortest and the longest differ within the contact."""
+_LEAST, _MOST = 8, 14
+"""How many they are at least and at most."""
+_SPEEDS: Final = 4
+"""Speeds that are tried."""
+_WORSE, _CLOSE = 0.5, 0.2
+"""Robust size of a misfit for each point: a refined start worse than the best by more is left out, by the second where
+the best leaves only noise."""
+
+
+def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: int) -> list[Floats]:
+    """Return `count` starts at most for all numbers of a loop, refined by some of its points, the best first.
+
+    `load_zero` is the load of the base line in N, `contact` the depth in m at which it ends (NaN if it has none), and
+    `seed` that of the Sobol set of what no feature of the loop determines.
+    """
+    if misfit.model.by_differences:
+        rest = misfit.without(SPEEDS)
+        best = minima(rest, starts(rest, load_zero, contact, count, seed))[0]
+        return _fast(misfit.thinned(100), rest.named(best.x))
+    if misfit.turn:  # near the middle of its range
+        rest, middle = misfit.without((TURN,)), 0.5 * (misfit.low + misfit.high)
+        found = starts(rest, load_zero, contact, count, seed)
+        return [put(misfit, middle, dict(zip(rest.names, vector, strict=True))) for vector in found]
+    few = misfit.thinned(_FEW)
+    if not misfit.model.has_waves:
+        return _smooth(few, load_zero, contact, seed)[:count]
+    smooth = few.without(WAVES, A=0.0)
+    first = _smooth(smooth, load_zero, contact, seed)[0]
+    held = put(smooth, first, {DEPTH_ZERO: contact, LOAD_ZERO: load_zero})
+    again = robust(smooth, matched(smooth, held, load_zero), held=smooth.model.places_of((DEPTH_ZERO, LOAD_ZERO)))
+    return _wavy(few, smooth, distinct([first, again.x], smooth, 0.05), count)
+
+
+def put(misfit: Misfit, vector: Floats, values: Mapping[str, float]) -> Floats:
+    """Return a vector with other numbers under some names, within their ranges; those that are NaN stay."""
+    changed = vector.copy()
+    for i, name in enumerate(misfit.names):
+        if math.isfinite(value := values.get(name, math.nan)):
+            changed[i] = np.clip(value, misfit.low[i], misfit.high[i])
+    return changed
+
+
+def shares_of(misfit: Misfit, number: int, count: int) -> Floats:
+    """Return values of a number evenly within its range, none at its ends; shape (count,)."""
+    shares = (np.arange(count) + 0.5) / count
+    return np.asarray(misfit.low[number] + shares * (misfit.high[number] - misfit.low[number]))
+
+
+def _best(misfit: Misfit, vectors: list[Floats], count: int, worse: float = math.inf) -> list[Floats]:
+    """Return the best of some vectors, in order, that are worse than the first by no more than this for each point."""
+    sizes = np.array([misfit.size(vector) for vector in vectors])
+    order = np.argsort(sizes, kind="stable")[:count]
+    return [vectors[i] for i in order if sizes[i] <= sizes[order[0]] + worse * misfit.weights.size]
+
+
+def _smooth(few: Misfit, load_zero: float, contact: float, seed: int) -> list[Floats]:
+    """Return refined starts of a loop whose punch has no waves that are searched, the best first."""
+    lows, highs, names = few.low, few.high, few.names
+    depths, works = np.array([0.0]), np.zeros(1)
+    if DEPTH_ZERO in names:
+        depths = np.append(shares_of(few, names.index(DEPTH_ZERO), _CONTACTS), contact)
+    if _WORK in names:
+        works = shares_of(few, names.index(_WORK), _WORKS)
+    others = [i for i, name in enumerate(names) if name not in (*OFFSETS, *_MODULI, _WORK)]
+    drawn = np.full((1, len(others)), 0.5)
+    if others:
+        from scipy.stats import qmc  # noqa: PLC0415 (it takes longer than most fits)
+
+        drawn = qmc.Sobol(len(others), seed=seed).random(2**6)
+    begun = []
+    for number, (work, depth) in enumerate(itertools.product(works, depths[np.isfinite(depths)])):
+        vector = 0.5 * (lows + highs)
+        vector[others] = lows[others] + drawn[number % len(drawn)] * (highs - lows)[others]
+        vector = put(few, vector, {DEPTH_ZERO: depth, LOAD_ZERO: load_zero, _WORK: work})
+        begun.append(matched(few, vector, load_zero))
+    each = len(begun) // len(works)
+    likely = [*range(each - 1, len(begun), each)] if math.isfinite(contact) else []
+    order = np.argsort([few.size(vector) for vector in begun], kind="stable")[:_KEPT].tolist()
+    found = []
+    for i in (*likely, *(i for i in order if i not in likely)):
+        found.append(robust(few, begun[i]))
+        if is_noise(few, found[-1].x):
+            break  # other contact points have a larger misfit
+    found.sort(key=lambda done: float(done.cost))
+    return _best(few, distinct([done.x for done in found], few), len(found), _WORSE)
+
+
+def matched(misfit: Misfit, vector: Floats, load_zero: float) -> Floats:
+    """Return a vector with the modulus at which contact without adhesion has the largest load of the data."""
+    model = misfit.model
+    i = model.place_of(_MODULI)
+    if i is None:
+        return vector
+    scene, m = model.scenes(vector[None]).one, model.profile.exponent
+    deepest, load = misfit.data.points[int(np.argmax(misfit.data.points[:, 0]))]
+    place = (max(float(deepest) - model.shift(vector)[0], 0.0) / scene.rise) ** (1.0 / m)
+    power = 1.0 + scene.k
+    pressed = scene.rise * place**m * scene.disc * place**power * m / (power + m)
+    if not (place > 0.0 and load > load_zero):
+        return vector
+    return put(misfit, vector, {misfit.names[i]: vector[i] + math.log((load - load_zero) / pressed)})
+
+
+def spectrum(smooth: Misfit, vector: Floats, lengths: tuple[float, float]) -> Floats:
+    """Return the wavelengths in m at which the residual of a smooth punch repeats most, the strongest first."""
+    from scipy.signal import find_peaks, lombscargle  # noqa: PLC0415 (a loop without waves does without its half second)
+
+    _, branches, drawn = smooth.nearest(vector)
+    if drawn is None:
+        return np.empty(0)
+    largest = float(drawn.radius.max())
+    count = int(np.clip(10.0 * largest * (1.0 / lengths[0] - 1.0 / lengths[1]), 64, 4000))
+    waves = np.linspace(1.0 / lengths[1], 1.0 / lengths[0], count)
+    power = np.zeros(count)
+    for own, part, near in branches:
+        radius = drawn.radius[part]
+        at = (1.0 - near.share) * radius[near.piece] + near.share * radius[near.piece + 1]
+        use = (at > lengths[0]) & ~drawn.jump[part][near.piece + 1]
+        if np.unique(at[use]).size < 12:
+            continue
+        left = near.distance[use] * smooth.weights[own][use]
+        left -= np.polynomial.Polynomial.fit(at[use], left, 3)(at[use])
+        if (size := float(left @ left)) > 0.0:
+            power += lombscargle(at[use], left, 2.0 * math.pi * waves) / size * left.size
+    peaks, _ = find_peaks(power)
+    return np.asarray(1.0 / waves[peaks[np.argsort(-power[peaks], kind="stable")]])
+
+
+def _wavy(few: Misfit, smooth: Misfit, bases: list[Floats], count: int) -> list[Floats]:
+    """Return starts for waves that are searched, refined in everything else, the best first.
+
+    `smooth` and `bases` are the same loop without waves, and where it is begun from.
+    """
+    length, height = few.model.place_of(WAVELENGTHS), few.model.place_of(AMPLITUDES)
+    held = [i for i in (length, height) if i is not None]
+    heights = [None] if height is None else shares_of(few, height, _HEIGHTS)
+    found: list[Floats] = []
+    for base in bases:
+        middle = put(few, 0.5 * (few.low + few.high), dict(zip(smooth.names, base, strict=True)))
+        for waves in [[None]] if length is None else _lengths(few, smooth, base, middle, length):
+            begun = []
+            for wave, swell in itertools.product(waves, heights):
+                vector = middle.copy()
+                for i, value in ((length, wave), (height, swell)):
+                    if i is not None:
+                        vector[i] = value
+                begun.append(_softened(few, vector))
+            rough = [few.refined(vector, loss="soft_l1", most=4, held=held, tolerance=1e-4).x for vector in begun]
+            rough = distinct(_best(few, rough, count), few)
+            found += [few.refined(vector, loss="soft_l1", most=10, tolerance=1e-4).x for vector in rough]
+            found = _best(few, found, len(found))
+            if found and is_noise(few, best := robust(few, found[0]).x):
+                return _best(few, distinct([best, *found], few), count, _CLOSE)
+    return _best(few, distinct(found, few), count, _WORSE)
+
+
+def _lengths(few: Misfit, smooth: Misfit, base: Floats, middle: Floats, i: int) -> list[Any]:
+    """Return the logarithms of the wavelengths that are tried: those of the spectrum, and others over the range."""
+    drawn, scene = smooth.nearest(base).drawn, few.model.scenes(middle[None]).one
+    unit = scene.wavelength * scene.R / math.exp(middle[i])  # the wavelength in m of a number of 1
+    low, high = math.exp(few.low[i]) * unit, math.exp(few.high[i]) * unit
+    largest = 0.0 if drawn is None else float(drawn.radius.max())
+    count = int(np.clip(_PER_WAVE * largest * (1.0 / low - 1.0 / high), _LEAST, _MOST))
+    even = 1.0 / np.linspace(1.0 / high, 1.0 / low, count + 2)[1:-1]
+    peaks = spectrum(smooth, base, (low, high))[:_PEAKS]
+    # a wave more or less within the contact is another minimum: peaks are off by parts of one
+    strong = peaks[:_BESIDE]
+    beside = [strong / (1.0 + sign * strong / (_PER_WAVE * largest)) for sign in (1.0, -1.0) if largest]
+    groups = np.concatenate([peaks, *beside]), even
+    return [np.log(tried[(tried >= low) & (tried <= high)] / unit) for tried in groups]
+
+
+def _softened(misfit: Misfit, vector: Floats) -> Floats:
+    """Subtract what waves add from the work of adhesion of the smooth punch: the roots of both add up."""
+    if _WORK not in misfit.names:
+        return vector
+    scene = misfit.model.scenes(vector[None]).one
+    waves = float(waviness_strength(scene.k, scene.wavelength, scene.A))
+    root = max(1.0 - waves / float(adhesion_strength(scene.k, scene.stiffness)), 0.15)
+    return put(misfit, vector, {_WORK: vector[misfit.names.index(_WORK)] + 2.0 * math.log(root)})
+
+
+def _fast(few: Misfit, at_rest: Mapping[str, float]) -> list[Floats]:
+    """Return starts of some speeds from the minimum of an edge at rest, the best first."""
+    known = few.model.searched(at_rest)
+    start = put(few, 0.5 * (few.low + few.high), known)
+    free = [i for i, name in enumerate(few.names) if name in SPEEDS]
+    vectors = np.tile(start, (_SPEEDS if free else 1, 1))
+    for i in free:
+        vectors[:, i] = shares_of(few, i, _SPEEDS)
+    return _best(few, [few.refined(vector, loss="soft_l1", most=12, tolerance=1e-4).x for vector in vectors], 3)
