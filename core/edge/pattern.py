@@ -12,7 +12,7 @@ import numpy as np
 
 from gradhesion.core.curve.energy import GAUSS, GAUSS_WEIGHTS
 from gradhesion.core.curve.values import bin_of
-from gradhesion.core.jit import kernel, leaf, quadrature
+from gradhesion.core.jit import kernel, quadrature
 from gradhesion.core.table.filling import bend_of, fit, with_bounds
 from gradhesion.core.table.layout import (
     BV,
@@ -79,16 +79,7 @@ def toughness_at(pattern: Pattern, y: float) -> float:
         total += pattern.rows[0, n] * cos + pattern.rows[1, n] * sin
         cos, sin = cos * cos1 - sin * sin1, sin * cos1 + cos * sin1
     t = 1.0 + pattern.amplitude * total
-    return math.sqrt(t) if pattern.of_work else t
-
-
-@leaf
-def _at_centre(pattern: Pattern) -> float:
-    """Return the series of the pattern at the centre of the contact, kappa there or its square."""
-    t = 1.0
-    for n in range(pattern.rows.shape[1]):
-        t += pattern.amplitude * pattern.rows[0, n]
-    return t
+    return math.sqrt(max(t, 0.0)) if pattern.of_work else t
 
 
 @quadrature
@@ -112,12 +103,13 @@ def _sample(pattern: Pattern, centre: float, half: float, kappa: Floats, rise: F
             rise[j] += pattern.amplitude * (pattern.rows[1, n] * sin - pattern.rows[0, n] * versine)
             circle[2, j] = sin * (1.0 - circle[1, j]) + (1.0 - versine) * circle[0, j]
             circle[3, j] = versine * (1.0 - circle[1, j]) + circle[1, j] + sin * circle[0, j]
-    t = _at_centre(pattern)
+    at_centre = toughness_at(pattern, 0.0)
     for j in range(N):
-        kappa[j] = t + rise[j]
-        if pattern.of_work:
-            kappa[j] = math.sqrt(max(kappa[j], 0.0))
-            rise[j] /= max(kappa[j] + math.sqrt(max(t, 0.0)), 1e-300)
+        if pattern.of_work:  # the rise of a root from that of its square
+            kappa[j] = math.sqrt(max(at_centre * at_centre + rise[j], 0.0))
+            rise[j] /= max(kappa[j] + at_centre, 1e-300)
+        else:
+            kappa[j] = at_centre + rise[j]
 
 
 @quadrature
@@ -135,8 +127,7 @@ def patterned_table(
             nodes[row, i] = factor * plain.nodes[row, i]
     samples, waves, legendre = np.zeros((1, N)), np.zeros((1, N)), np.zeros(N)
     kappa, rise, circle, stretch = np.zeros(N), np.zeros(N), np.zeros((4, N)), np.zeros(N)
-    above = _at_centre(pattern)
-    above = (math.sqrt(max(above, 0.0)) if pattern.of_work else above) - 1.0
+    above = toughness_at(pattern, 0.0) - 1.0
     for i in range(bins):
         centre, half = plain.nodes[YC, i], plain.nodes[HALF, i]
         _sample(pattern, centre, half, kappa, rise, circle)
