@@ -101,7 +101,7 @@ def test_what_is_no_number_or_does_not_fit_is_refused(change: Any) -> None:
         solve(SCENE | change)
 
 
-@for_kinds(["cosine, turned at a depth", "exponent 1.5, machine, turned"])
+@for_kinds(["cosine, turned at a depth", "exponent 1.5, machine, turned", "sines, machine, two works, turned"])
 def test_a_depth_without_contact_has_nothing(kind: Kind) -> None:
     found = kind.solve(some(drawn(kind)[0], slice(4)) | {DEPTH: np.full(4, -0.01)})
     assert (found["status"].astype(int) == NO_CONTACT).all()
