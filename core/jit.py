@@ -26,8 +26,10 @@ from typing import Any, Final, NamedTuple, TypeVar
 
 import numba
 import platformdirs
+from numba import extending, types
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
+_Values = TypeVar("_Values")
 _CONTRACTED: Final = {"contract"}
 _REORDERED: Final = {"contract", "reassoc", "nsz"}
 
@@ -150,3 +152,35 @@ def quadrature(function: _Function) -> _Function:
 def quadrature_leaf(function: _Function) -> _Function:
     """Compile such a loop into each of its callers."""
     return _compiled(function, fastmath=_REORDERED, forceinline=True)
+
+
+@extending.intrinsic
+def _pointer(_typing: Any, address: Any) -> Any:
+    """Return an address as a pointer."""
+
+    def cast(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        """Write the cast."""
+        return builder.inttoptr(arguments[0], context.get_value_type(signature.return_type))
+
+    return types.voidptr(address), cast
+
+
+def borrowed(values: _Values) -> _Values:
+    """Return the same values, the references to their arrays uncounted: kernels that Python calls begin with it.
+
+    To count them takes up to half of the time of a scene, and lets threads wait for each other. Python holds the arrays
+    for as long as its call lasts.
+    """
+    return values
+
+
+@extending.overload(borrowed, strict=False)  # the names of arguments alone count, not their annotations
+def _borrowed(values: Any) -> Any:
+    """Return what `borrowed` does in kernels: tuples item by item."""
+    if isinstance(values, types.BaseTuple):
+        items = "".join(f"borrowed(values[{i}]), " for i in range(len(values)))
+        kind = getattr(values, "instance_class", None)  # of a NamedTuple
+        return eval(f"lambda values: {'kind' if kind else ''}({items})", {"borrowed": borrowed, "kind": kind})
+    if isinstance(values, types.Array) and values.layout == "C" and values.mutable:
+        return lambda values: numba.carray(_pointer(values.ctypes.data), values.shape, values.dtype)
+    return lambda values: values

@@ -10,7 +10,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from gradhesion.core.jit import kernel, leaf, quadrature
+from gradhesion.core.jit import borrowed, kernel, leaf, quadrature
 from gradhesion.core.table.filling import fill_bins
 from gradhesion.core.table.layout import (
     BE,
@@ -302,6 +302,7 @@ def fill_from_zero(waves: Waves, number: int, room: Floats, polys: Floats, nodes
 @kernel
 def fill_waves(waves: Waves, table: Table, source: Source) -> None:
     """Fill the values and sums of waves; `table` reaches beyond FIRST_WAVE and begins at 0."""
+    waves, table, source = borrowed((waves, table, source))
     per = waves.per
     nodes, polys = np.zeros((ROWS, per + 1)), np.zeros((per, LANES, N))
     index = round(waves.cut / waves.width - source.shift)

@@ -19,7 +19,7 @@ from gradhesion.core.cycle.residual import work_of_cycle
 from gradhesion.core.cycle.ties import loading_is_tied, rim_is_tied, target_is_tied, unloading_is_tied
 from gradhesion.core.cycle.turning import turning_radius
 from gradhesion.core.edge.pattern import Pattern, edge_area, patterned_table, toughness_at
-from gradhesion.core.jit import kernel, leaf
+from gradhesion.core.jit import borrowed, kernel, leaf
 from gradhesion.core.problem.status import (
     CLOSE_TO_A_JUMP,
     JUMP_IN_TO_RIM,
@@ -502,6 +502,7 @@ def solve_patterned_forces(task: Task, scenes: Floats, reduced: Floats, first: i
 @kernel
 def solve_cycles(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Solve the scenes `first` to `last` - 1 of one exponent."""
+    task, scenes, reduced, out = borrowed((task, scenes, reduced, out))
     if not task.wanted.cycle and task.punch.turn == AT_RIM and task.punch.rows.shape[1] > 0:
         solve_patterned_forces(task, scenes, reduced, first, last, out)
         return

@@ -6,7 +6,7 @@ from gradhesion.core.curve.values import Curve
 from gradhesion.core.cycle.long import Long, begin, end_of_folds, from_birth, last_fold, loop_far, lowest_far, turn_far
 from gradhesion.core.cycle.pull_off import lowest_load
 from gradhesion.core.cycle.waves import start_of
-from gradhesion.core.jit import kernel, leaf
+from gradhesion.core.jit import borrowed, kernel, leaf
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.scenes.cycles import (
     Cycle,
@@ -55,6 +55,7 @@ def solve_long(
     Of the latter NEED is set to what they need; irregular ones that reach beyond `walkable` have no value. `pull` is
     `every` with the waves of the pull-off.
     """
+    task, every, pull, scenes, reduced, out = borrowed((task, every, pull, scenes, reduced, out))
     turn, bins = task.punch.turn, task.by_load.bins
     for i in range(scenes.shape[1]):
         no_value(out, i, NO_VALUE)
@@ -104,6 +105,7 @@ def solve_long(
 @kernel
 def fill_saturation(task: Task, long: Long, reduced: Floats, out: Floats) -> None:
     """Store the radii of the outermost folds of opening, of scenes that have a value."""
+    task, long, reduced, out = borrowed((task, long, reduced, out))
     for i in range(reduced.shape[1]):
         if out[STATUS, i] < NO_VALUE or not int(out[STATUS, i]) & NO_VALUE:
             y = last_fold(long, _curve(task, reduced, i, 1.0)) if reduced[WINDOW, i] < math.inf else math.inf

@@ -12,7 +12,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from gradhesion.core.cycle.turning import turning_reach
-from gradhesion.core.jit import kernel
+from gradhesion.core.jit import borrowed, kernel
 from gradhesion.core.problem.material import theta_of
 from gradhesion.core.table.basis import Basis, between
 from gradhesion.core.types import Floats
@@ -183,6 +183,7 @@ def _is_below_tables(punch: Punch, reduced: Floats, i: int) -> bool:
 @kernel
 def reduce_scenes(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats) -> None:
     """Fill the reduced numbers of all scenes but MOST and STEEP; neighbours share what depends on k alone."""
+    punch, basis, scenes, reduced = borrowed((punch, basis, scenes, reduced))
     k = nu = theta = depth_factor = crest = steepest = math.nan
     mean = mean_of(punch.waves)
     for i in range(scenes.shape[1]):

@@ -42,7 +42,7 @@ from gradhesion.core.cycle.slopes import (
     unloading_by_turn,
 )
 from gradhesion.core.edge.pattern import Pattern, edge_area, toughness_at
-from gradhesion.core.jit import kernel
+from gradhesion.core.jit import borrowed, kernel
 from gradhesion.core.problem.material import theta_slopes
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, SENSITIVITIES, TURNS
 from gradhesion.core.scenes.cycles import (
@@ -352,6 +352,7 @@ def _fill_scene(
 @kernel
 def fill_slopes(task: Task, near: Near, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Store the derivatives of the scenes `first` to `last` - 1 of one exponent, or SHORT as status."""
+    task, near, scenes, reduced, out = borrowed((task, near, scenes, reduced, out))
     start = first
     while start < last:
         end = curve_end(task.reach, scenes, reduced, start, last, out)
@@ -383,6 +384,9 @@ def near_slopes(
     `nodes` and `polys` have room for the tables of four neighbours of an exponent, `own_rooms` for those of a scene
     with a pattern.
     """
+    punch, near, profile, nodes, polys, own_rooms, scenes, reduced, out = borrowed(
+        (punch, near, profile, nodes, polys, own_rooms, scenes, reduced, out)
+    )
     basis, first = near.basis, int(np.int64(0))  # a plain 0 would be a type of its own to callees
     while first < scenes.shape[1]:
         last, k = end_of_exponent(scenes, first), scenes[K, first]

@@ -21,7 +21,7 @@ from gradhesion.core.cycle.long import MOST, NEAR, Long, space_for
 from gradhesion.core.cycle.pull_off import Lowest, envelope_place, lowest_load
 from gradhesion.core.cycle.waves import Waves, reach_of, waves_of
 from gradhesion.core.edge.pattern import bins_of_wave, bounds_of, rows_by_number
-from gradhesion.core.jit import kernel
+from gradhesion.core.jit import borrowed, kernel
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.processors import processors
 from gradhesion.core.scenes.cycles import Task, no_value, put_force, solve_cycles
@@ -112,6 +112,7 @@ Group: TypeAlias = Callable[[int, Floats, Floats, Floats], None]
 @kernel
 def near_forces(punch: Punch, basis: Basis, kept: Kept, scenes: Floats, reduced: Floats, out: Floats) -> None:
     """Solve the pull-off alone of scenes in the order of their exponents; bins are filled where the search arrives."""
+    punch, basis, kept, scenes, reduced, out = borrowed((punch, basis, kept, scenes, reduced, out))
     most = basis.values.shape[0] - 1
     k, place = math.nan, 0
     for i in range(scenes.shape[1]):
@@ -197,6 +198,7 @@ def near_cycles(
     punch: Punch, wanted: Wanted, near: NearTables, profile: Floats, scenes: Floats, reduced: Floats, out: Floats
 ) -> None:
     """Solve cycles in the order of their exponents; scenes that reach beyond the basis are left as SHORT."""
+    punch, near, profile, scenes, reduced, out = borrowed((punch, near, profile, scenes, reduced, out))
     first = int(np.int64(0))  # a plain 0 would be a type of its own, for which callees are compiled once more
     while first < scenes.shape[1]:
         last = end_of_exponent(scenes, first)
@@ -208,6 +210,7 @@ def near_cycles(
 @kernel
 def far_rims(punch: Punch, width: float, form: int, scenes: Floats, reduced: Floats, out: Floats) -> None:
     """Fill the depths at rims that are beyond the tables of their scenes, on the endless branch."""
+    punch, scenes, reduced, out = borrowed((punch, scenes, reduced, out))
     source = source_of(0.5, punch.exponent, punch.waves, width, 0.0, form)
     for i in range(scenes.shape[1]):
         y = reduced[RIM_Y, i]
@@ -280,6 +283,7 @@ def long_table(
 @kernel
 def far_forces(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Solve the pull-off alone of the scenes `first` to `last` - 1 of one exponent."""
+    task, scenes, reduced, out = borrowed((task, scenes, reduced, out))
     table = task.by_load
     for i in range(first, last):
         curve = Curve(table, reduced[BY_POWER, i], reduced[BY_WAVES, i], 0.0, 1.0)

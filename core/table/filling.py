@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from gradhesion.core.jit import kernel, leaf, quadrature, quadrature_leaf
+from gradhesion.core.jit import borrowed, kernel, leaf, quadrature, quadrature_leaf
 from gradhesion.core.table.functions import LAST, TAIL, Functions, functions_of, pairs_at
 from gradhesion.core.table.layout import (
     BE,
@@ -247,6 +247,7 @@ def fill_bins(source: Source, first: int, geometric: int, count: int, nodes: Flo
 
     Rows of bounds and integrals from 0 are left to `fill_bounds`, for they need all bins from the first one.
     """
+    source, nodes, polys = borrowed((source, nodes, polys))
     k, m, width, shift = source.k, source.exponent, source.width, source.shift
     start, power = (first + shift) * width, -0.5 * (1.0 + k)
     per = source.far_waves.shape[2]
