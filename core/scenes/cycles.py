@@ -323,7 +323,7 @@ def put_losses(
     return JUMP_IN_TO_RIM if loaded.in_to_rim and cycle.turn == reduced[RIM_Y, i] else 0
 
 
-@kernel
+@leaf
 def _put_cycle(walked: Walked, wanted: Wanted, opened: int, y: float, reduced: Floats, i: int, out: Floats) -> int:
     """Store what the cycle of scene i, which turns at y, loses; return its bits of status, -1: too short a table."""
     closing, opening, loading, visited = walked.closing, walked.opening, walked.loading, walked.columns[0]
@@ -349,7 +349,7 @@ def _put_cycle(walked: Walked, wanted: Wanted, opened: int, y: float, reduced: F
     return bits | (CLOSE_TO_A_JUMP if _is_tied(walked, opened, y, y >= rim) else 0)
 
 
-@kernel
+@leaf
 def turns_of(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> Walked:
     """Store where scenes of one curve turn, in TURN, as a reduced radius; return their curve of closing as walked.
 
@@ -420,7 +420,7 @@ def open_curve(walked: Walked, turn: int, first: int, last: int, out: Floats) ->
     return opened, farthest
 
 
-@kernel
+@leaf
 def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Solve the scenes `first` to `last` - 1, all of one curve and valid; store their results, or SHORT as status."""
     wanted, turn = task.wanted, task.punch.turn
@@ -482,7 +482,7 @@ def put_force(lowest: Lowest, reduced: Floats, i: int, out: Floats) -> None:
     out[STATUS, i] = put_pull_off(lowest, reduced[RIM_Y, i], reduced, i, out) if lowest.known else SHORT
 
 
-@kernel
+@leaf
 def solve_patterned_forces(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Solve the pull-off alone of the scenes `first` to `last` - 1 with a pattern: no farther than it can be."""
     rooms = task.rooms

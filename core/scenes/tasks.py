@@ -461,7 +461,7 @@ def in_groups(
     if pull_off:
         reduced[NEED] = np.fmin(reduced[PULL], reduced[RIM_Y])
 
-    def put(solve: Group, value: int, chosen: slice | Integers) -> None:
+    def put(solve: Group, value: int, chosen: Integers) -> None:
         """Solve chosen scenes."""
         own, numbers = (np.ascontiguousarray(array[:, chosen]) for array in (scenes, reduced))
         found = np.full((rows, own.shape[1]), np.nan)
@@ -469,7 +469,7 @@ def in_groups(
         out[:, chosen] = found
 
     if (finer == finer[0]).all() and finer[0] <= FINEST:
-        put(near, int(finer[0]), slice(None))
+        near(int(finer[0]), scenes, reduced, out)
     else:
         out[STATUS, finer > FINEST] = NO_VALUE | TOO_MANY_WAVES
         for value in np.unique(finer[finer <= FINEST]):
@@ -596,9 +596,10 @@ def solve_all(
         scenes = scenes_of(columns, first, last)
         set_lengths(punch, scenes)
         order = np.argsort(scenes[K], kind="stable")
-        found = np.empty((RESULT_ROWS, last - first))
-        found[:, order] = _solve_task(punch, wanted, form, profile, np.ascontiguousarray(scenes[:, order]))
-        out[:, first:last], status[first:last] = found[rows], found[STATUS]
+        found = _solve_task(punch, wanted, form, profile, np.ascontiguousarray(scenes[:, order]))
+        for row, wanted_row in enumerate(rows):
+            out[row, first + order] = found[wanted_row]
+        status[first + order] = found[STATUS]
 
     run_parts(count, work, threads)
     return out, status
