@@ -29,6 +29,15 @@ class Lowest(NamedTuple):
 
 
 @leaf
+def serves(lowest: Lowest, rim: float, inner: float) -> bool:
+    """Return whether the lowest loads up to a rim are those up to an inner one too, whose own load is no close one.
+
+    A thousandth from a trough the load has risen by more than is looked at.
+    """
+    return inner == rim or (lowest.known and max(lowest.y, lowest.second_y) < 0.999 * inner < rim)
+
+
+@leaf
 def deeper(best: Lowest, load: float, y: float) -> Lowest:
     """Return the lowest two, another trough taken in."""
     if load < best.load:

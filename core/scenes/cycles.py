@@ -14,7 +14,7 @@ from gradhesion.core.curve.trace import END, END_LEVEL, LANDING, START
 from gradhesion.core.curve.values import Curve, load_curve, softness, state_in
 from gradhesion.core.cycle.disc import Disc, gap_is_open, loading_is_one_disc
 from gradhesion.core.cycle.path import Loaded, Unloaded, load_to, snap_in, unload_from, visited_within, walk_loading
-from gradhesion.core.cycle.pull_off import Lowest, lowest_load
+from gradhesion.core.cycle.pull_off import Lowest, serves, lowest_load
 from gradhesion.core.cycle.residual import work_of_cycle
 from gradhesion.core.cycle.ties import loading_is_tied, rim_is_tied, target_is_tied, unloading_is_tied
 from gradhesion.core.cycle.turning import turning_radius
@@ -443,7 +443,7 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
             put_no_contact(scenes, i, out)
             continue
         own, bits = lowest, -1
-        if y < farthest and max(lowest.y, lowest.second_y) > y:
+        if not serves(lowest, farthest, y):
             own = lowest_load(pull, y, 0, bins)
         if walked.branches >= 0 and opened >= 0 and own.known and (own.load < 0.0 or patterned):
             bits = _put_cycle(walked, wanted, opened, y, reduced, i, out)
@@ -476,8 +476,7 @@ def curve_end(reach: float, scenes: Floats, reduced: Floats, start: int, last: i
 
 @kernel
 def put_force(lowest: Lowest, reduced: Floats, i: int, out: Floats) -> None:
-    """Store the pull-off of scene i, whose cycle ends at its rim, and nothing else."""
-    out[:, i] = math.nan
+    """Store the pull-off of scene i, whose cycle ends at its rim; the rest of its column is left as it is."""
     out[TURN, i] = reduced[RIM_Y, i] * reduced[LENGTH, i]
     out[STATUS, i] = put_pull_off(lowest, reduced[RIM_Y, i], reduced, i, out) if lowest.known else SHORT
 

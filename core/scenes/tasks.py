@@ -18,13 +18,13 @@ from numpy.typing import NDArray
 from gradhesion.core.curve.values import Curve, bin_of
 from gradhesion.core.cycle.disc import disc_of, profile_of
 from gradhesion.core.cycle.long import MOST, NEAR, Long, space_for
-from gradhesion.core.cycle.pull_off import Lowest, envelope_place, lowest_load
+from gradhesion.core.cycle.pull_off import Lowest, envelope_place, serves, lowest_load
 from gradhesion.core.cycle.waves import Waves, reach_of, waves_of
 from gradhesion.core.edge.pattern import bins_of_wave, bounds_of, rows_by_number
-from gradhesion.core.jit import borrowed, kernel
+from gradhesion.core.jit import borrowed, kernel, leaf
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.processors import processors
-from gradhesion.core.scenes.cycles import Task, no_value, put_force, solve_cycles
+from gradhesion.core.scenes.cycles import Task, no_value, put_force, same_curve, solve_cycles
 from gradhesion.core.scenes.long import fill_saturation, solve_long
 from gradhesion.core.scenes.reduced import (
     AMPLITUDE,
@@ -101,40 +101,57 @@ _AROUND: Final = 8
 """Bins around the lowest place of the envelope that are filled at once for a pull-off."""
 _LONGEST: Final = 30.0
 """By which a table may be longer than what was asked for at first."""
-_SCENES: Final = 1024
+_SCENES: Final = 1000
 """Scenes of a part, at least: a millisecond or more."""
-_MOST_SCENES: Final = 4096
-"""And at most: a megabyte of results."""
+_MOST_SCENES: Final = 4000
+"""And at most: a megabyte of results. (No powers of 2, by which all rows would share the same few lines of a cache.)"""
 Group: TypeAlias = Callable[[int, Floats, Floats, Floats], None]
 """What solves scenes of one fineness of bins: takes that, scenes, their reduced numbers, and room for results."""
 
 
+@leaf
+def _near_lowest(basis: Basis, kept: Kept, place: int, curve: Curve, rim: float) -> Lowest:
+    """Return the lowest load of a curve on the kept table of a place, whose bins are filled where the search arrives."""
+    table, most, around = curve.table, basis.values.shape[0] - 1, _AROUND
+    at_rim, middle = bin_of(table, min(rim, end_of(table))), bin_of(table, min(envelope_place(curve), rim))
+    if rim <= end_of(table) and not kept.filled[place, 0] <= at_rim < kept.filled[place, 1]:
+        mix_bins(basis, table.k, kept.weights[place], at_rim, at_rim + 1, table.nodes, table.polys)
+    lowest = Lowest(0.0, 0.0, 0.0, 0.0, False)
+    while not lowest.known and around < 3 * most:
+        low, high = max(middle - around, 0) // _AROUND * _AROUND, min(middle + around, most)
+        fill_kept(basis, kept, place, low, high)
+        lowest = lowest_load(curve, rim, kept.filled[place, 0], kept.filled[place, 1])
+        around *= 3
+    return lowest
+
+
 @kernel
 def near_forces(punch: Punch, basis: Basis, kept: Kept, scenes: Floats, reduced: Floats, out: Floats) -> None:
-    """Solve the pull-off alone of scenes in the order of their exponents; bins are filled where the search arrives."""
+    """Solve the pull-off alone of scenes in the order of their exponents, once for neighbours of the same curve."""
     punch, basis, kept, scenes, reduced, out = borrowed((punch, basis, kept, scenes, reduced, out))
-    most = basis.values.shape[0] - 1
-    k, place = math.nan, 0
-    for i in range(scenes.shape[1]):
-        if reduced[VALID, i] == 0.0:
-            no_value(out, i, NO_VALUE)
+    first, k, place = 0, math.nan, 0
+    while first < scenes.shape[1]:
+        if reduced[VALID, first] == 0.0:
+            no_value(out, first, NO_VALUE)
+            first += 1
             continue
-        if scenes[K, i] != k:
-            k = scenes[K, i]
+        last, widest = first, 0.0
+        while last < scenes.shape[1] and reduced[VALID, last] > 0.0 and same_curve(scenes, reduced, first, last):
+            widest = max(widest, reduced[RIM_Y, last])
+            last += 1
+        if scenes[K, first] != k:
+            k = scenes[K, first]
             place = place_for(basis, kept, k)
-            table = empty_table(basis, k, kept.nodes[place], kept.polys[place])
-        curve, rim = Curve(table, reduced[BY_POWER, i], reduced[BY_WAVES, i], 0.0, 1.0), reduced[RIM_Y, i]
-        at_rim, around = bin_of(table, min(rim, end_of(table))), _AROUND
-        middle = bin_of(table, min(envelope_place(curve), rim))
-        if rim <= end_of(table) and not kept.filled[place, 0] <= at_rim < kept.filled[place, 1]:
-            mix_bins(basis, k, kept.weights[place], at_rim, at_rim + 1, kept.nodes[place], kept.polys[place])
-        lowest = Lowest(0.0, 0.0, 0.0, 0.0, False)
-        while not lowest.known and around < 3 * most:
-            low, high = max(middle - around, 0) // _AROUND * _AROUND, min(middle + around, most)
-            fill_kept(basis, kept, place, low, high)
-            lowest = lowest_load(curve, rim, kept.filled[place, 0], kept.filled[place, 1])
-            around *= 3
-        put_force(lowest, reduced, i, out)
+        table = empty_table(basis, k, kept.nodes[place], kept.polys[place])
+        curve = Curve(table, reduced[BY_POWER, first], reduced[BY_WAVES, first], 0.0, 1.0)
+        rim = widest
+        while first < last:
+            lowest = _near_lowest(basis, kept, place, curve, rim)
+            while first < last and serves(lowest, rim, reduced[RIM_Y, first]):
+                put_force(lowest, reduced, first, out)
+                first += 1
+            if first < last:
+                rim = reduced[RIM_Y, first]
 
 
 @kernel
