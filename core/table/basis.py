@@ -1,9 +1,9 @@
 """Tables of any exponent near the centre: bins interpolated in k, filled only as far as they are needed.
 
 All that a bin holds is a smooth function of k, once the powers of the radius are taken out. A basis holds the bins of
-one power, series and form at 21 exponents, the Chebyshev points of [0, 1]; the bins of any k are sums over these, at a
-tenth of the price of new ones. (Those of a long series are not: a basis costs as much as 21 exponents, of which a study
-of rough profiles has one or two.) All scenes within its reach are solved on such tables, whatever else is in their
+one power, series and form at 49 exponents, the Chebyshev points of each quarter of [0, 1]; the bins of any k are sums
+over the 13 of its quarter, at a fraction of the price of new ones. (Those of a long series are not: a basis costs as
+much as 49 exponents, of which a study of rough profiles has one or two.) All scenes within its reach are solved on such tables, whatever else is in their
 call, so that a value does not depend on its neighbours.
 """
 
@@ -51,7 +51,10 @@ from gradhesion.core.table.layout import (
 from gradhesion.core.table.leading import crests_of
 from gradhesion.core.types import Floats, Integers
 
-NODES: Final = 21
+PANELS: Final = 4
+"""Equal parts of [0, 1], the range of k."""
+NODES: Final = 13
+"""Exponents of a part at which bins are known: what they miss is 2^-52. Neighbours share one."""
 _MOST_HARMONICS: Final = 8
 """Harmonics of a series whose bins are interpolated: those of a longer one are filled for each exponent by itself."""
 UNIFORM: Final = 512
@@ -60,8 +63,8 @@ SIZE: Final = 3 * N + 10
 """Numbers of a bin that depend on k: three lanes; V, U and U1 at the lower edge; six moments; the bound of U'."""
 FIXED: Final = (Y, P, SLOPE, BP, M0, PC, YC, HALF)
 """Rows that do not depend on k."""
-_KEPT: Final = 16
-"""Bases kept, of five megabytes each: the bins of patterns have up to 13 widths."""
+_KEPT: Final = 14
+"""Bases kept, of 11 megabytes each: the bins of patterns have up to 13 widths."""
 _TABLES: Final = 8
 """Tables of a basis that a thread keeps, of 0.4 MB each."""
 _LENT: Final = 4
@@ -74,7 +77,7 @@ class Basis(NamedTuple):
     exponent    m, the power of the punch
     form        exact, or leading terms (layout.py)
     start, width  of the uniform bins, as of a table
-    k           the exponents, (NODES,), or one alone
+    k           the exponents, (PANELS (NODES - 1) + 1,), or one alone
     values      what depends on k, powers of the radius taken out, (bins, exponents, SIZE)
     fixed       the rows FIXED, (8, bins + 1)
     powers      the lane of y^m, (bins, N)
@@ -120,7 +123,10 @@ def make_basis(exponent: float, waves: Floats, form: int = EXACT, finer: int = 1
     """
     width = width_of(waves, finer)
     bins = GEOMETRIC + UNIFORM + 1  # one more than tables have, for the last edge
-    ends = np.array([k]) if k >= 0.0 else 0.5 - 0.5 * np.cos(np.pi * np.arange(NODES) / (NODES - 1))
+    panel = 0.5 - 0.5 * np.cos(np.pi * np.arange(NODES - 1) / (NODES - 1))
+    ends = np.append((np.arange(PANELS)[:, None] + panel).ravel(), PANELS) / PANELS
+    if k >= 0.0:
+        ends = np.array([k])
     values = np.empty((bins, ends.size, SIZE))
     nodes, polys = np.zeros((ROWS, bins + 1)), np.empty((bins, LANES, N))
     crest, lowest = np.empty(ends.size), np.empty(ends.size)
@@ -154,19 +160,29 @@ def basis_of(exponent: float, waves: Floats, form: int = EXACT, finer: int = 1, 
         return _bases[key]
 
 
+@leaf
+def _panel_of(basis: Basis, k: float) -> tuple[int, int]:
+    """Return the first of the exponents from which the bins of k are summed, and their number."""
+    if basis.k.size == 1:
+        return 0, 1
+    return min(max(int(PANELS * k), 0), PANELS - 1) * (NODES - 1), NODES
+
+
 @kernel
-def fill_weights(nodes: Floats, k: float, weights: Floats) -> None:
-    """Put the weights by which values at Chebyshev points add up to the one at k into `weights`, both (NODES,)."""
+def fill_weights(basis: Basis, k: float, weights: Floats) -> None:
+    """Put the weights by which the values of its panel add up to the one at k into `weights`, (NODES,)."""
+    first, count = _panel_of(basis, k)
     total = 0.0
-    for n in range(nodes.size):
-        if nodes[n] == k:
+    for n in range(count):
+        away = k - basis.k[first + n]
+        if away == 0.0:
             weights[:] = 0.0
             weights[n] = 1.0
             return
         sign = 1.0 if n % 2 == 0 else -1.0
-        weights[n] = sign * (0.5 if n == 0 or n == nodes.size - 1 else 1.0) / (k - nodes[n])
+        weights[n] = sign * (0.5 if n == 0 or n == count - 1 else 1.0) / away
         total += weights[n]
-    for n in range(nodes.size):
+    for n in range(count):
         weights[n] /= total
 
 
@@ -175,13 +191,14 @@ def mix_bins(basis: Basis, k: float, weights: Floats, first: int, last: int, nod
     """Fill the bins `first` to `last` - 1 of an exponent, whose weights are given, and the edge of `last`."""
     power = -0.5 * (1.0 + k)
     mixed = np.zeros(SIZE)
+    node, count = _panel_of(basis, k)
     for i in range(first, last + 1):
         for c in range(SIZE):
             mixed[c] = 0.0
-        for n in range(basis.k.size):
+        for n in range(count):
             weight = weights[n]
             for c in range(SIZE):
-                mixed[c] += weight * basis.values[i, n, c]
+                mixed[c] += weight * basis.values[i, node + n, c]
         nodes[Y, i], nodes[P, i], nodes[SLOPE, i] = basis.fixed[0, i], basis.fixed[1, i], basis.fixed[2, i]
         nodes[V, i], nodes[U, i], nodes[U1, i] = mixed[3 * N], mixed[3 * N + 1], mixed[3 * N + 2]
         centre = basis.fixed[6, i]
@@ -230,7 +247,7 @@ def empty_table(basis: Basis, k: float, nodes: Floats, polys: Floats) -> Table:
 @kernel
 def fill_table(basis: Basis, k: float, weights: Floats, bins: int, nodes: Floats, polys: Floats) -> Table:
     """Return the table of an exponent with its first `bins` bins filled, bounds and integrals included."""
-    fill_weights(basis.k, k, weights)
+    fill_weights(basis, k, weights)
     mix_bins(basis, k, weights, 0, bins, nodes, polys)
     return bounded_table(basis, k, bins, nodes, polys)
 
@@ -294,7 +311,7 @@ def place_for(basis: Basis, kept: Kept, k: float) -> int:
     kept.oldest[0] = (place + 1) % _TABLES
     kept.k[place] = k
     kept.filled[place, 0] = kept.filled[place, 1] = 0
-    fill_weights(basis.k, k, kept.weights[place])
+    fill_weights(basis, k, kept.weights[place])
     return place
 
 
