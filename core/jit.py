@@ -27,9 +27,9 @@ from typing import Any, Final, NamedTuple, TypeVar
 import numba
 import platformdirs
 from numba import extending, types
+from numba.core import cgutils
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
-_Values = TypeVar("_Values")
 _CONTRACTED: Final = {"contract"}
 _REORDERED: Final = {"contract", "reassoc", "nsz"}
 
@@ -155,32 +155,26 @@ def quadrature_leaf(function: _Function) -> _Function:
 
 
 @extending.intrinsic
-def _pointer(_typing: Any, address: Any) -> Any:
-    """Return an address as a pointer."""
-
-    def cast(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        """Write the cast."""
-        return builder.inttoptr(arguments[0], context.get_value_type(signature.return_type))
-
-    return types.voidptr(address), cast
-
-
-def borrowed(values: _Values) -> _Values:
+def borrowed(_typing: Any, values: Any) -> Any:
     """Return the same values, the references to their arrays uncounted: kernels that Python calls begin with it.
 
     To count them takes up to half of the time of a scene, and lets threads wait for each other. Python holds the arrays
     for as long as its call lasts.
     """
-    return values
 
+    def without_owner(context: Any, builder: Any, kind: Any, value: Any) -> Any:
+        """Write the code for a value: an array without its owner, a tuple of such items."""
+        if isinstance(kind, types.Array):
+            array = cgutils.create_struct_proxy(kind)(context, builder, value)
+            array.meminfo = cgutils.get_null_value(array.meminfo.type)
+            return array._getvalue()
+        for i, item in enumerate(kind if isinstance(kind, types.BaseTuple) else ()):
+            own = without_owner(context, builder, item, builder.extract_value(value, i))
+            value = builder.insert_value(value, own, i)
+        return value
 
-@extending.overload(borrowed, strict=False)  # the names of arguments alone count, not their annotations
-def _borrowed(values: Any) -> Any:
-    """Return what `borrowed` does in kernels: tuples item by item."""
-    if isinstance(values, types.BaseTuple):
-        items = "".join(f"borrowed(values[{i}]), " for i in range(len(values)))
-        kind = getattr(values, "instance_class", None)  # of a NamedTuple
-        return eval(f"lambda values: {'kind' if kind else ''}({items})", {"borrowed": borrowed, "kind": kind})
-    if isinstance(values, types.Array) and values.layout == "C" and values.mutable:
-        return lambda values: numba.carray(_pointer(values.ctypes.data), values.shape, values.dtype)
-    return lambda values: values
+    def write(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        """Write the code of a call."""
+        return without_owner(context, builder, signature.return_type, arguments[0])
+
+    return values(values), write
