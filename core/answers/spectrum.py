@@ -19,26 +19,8 @@ from gradhesion.core.problem.settings import check_settings, setting
 
 @dataclass(frozen=True, kw_only=True)
 class Spectrum:
-    """Self-affine roughness.
+    """Self-affine roughness; ValueError for a number out of range, or more than 64 waves from first to last.
 
-    Parameters
-    ----------
-    hurst
-        H, 0 to 1.
-    first, last
-        The longest and the shortest wave, in waves per wavelength: 1 <= first <= last <= 10,000, 64 of them at most.
-    realisations
-        How many profiles are drawn, 1 to 100,000.
-    seed
-        Seed of the random phases, 0 or more.
-
-    Raises
-    ------
-    ValueError
-        For a number out of range.
-
-    Examples
-    --------
     >>> Spectrum(hurst=0.8, first=1, last=32, realisations=100, seed=1).terms
     32
     """
@@ -68,11 +50,7 @@ class Spectrum:
 
     @property
     def rms_slope(self) -> float:
-        """The rms slope of the waves at A = 1; it grows with A.
-
-        >>> round(Spectrum(hurst=0.3, first=2, last=2, realisations=1, seed=0).rms_slope / (2 * math.pi), 12)
-        2.0
-        """
+        """The rms slope of the waves at A = 1; it grows with A."""
         numbers = range(self.first, self.last + 1)
         slopes, heights = (math.fsum(n ** (power - 2.0 * self.hurst) for n in numbers) for power in (1.0, -1.0))
         return 2.0 * math.pi * math.sqrt(slopes / heights)
