@@ -137,7 +137,7 @@ def draw_curves(
         and `scene` has the parameters of the pattern.
     rate
         How the work of adhesion grows with the speed, as in `solve`: the path is that of the moving edge then
-        (rate/curves.py), and `scene` has speed_over_reference.
+        (rate/cycle.py), and `scene` has speed_over_reference.
 
     Returns
     -------
@@ -180,7 +180,7 @@ def draw_curves(
     profile, loading = profile or WAVY, loading or BY_DISPLACEMENT
     turn = _check(scene, curves, loading, toughness)
     if rate is not None:
-        from gradhesion.core.rate.curves import draw_at_speed  # noqa: PLC0415 (seldom wanted)
+        from gradhesion.core.rate.cycle import draw_at_speed  # noqa: PLC0415 (seldom wanted)
 
         own: dict[str, Any] = {"profile": profile, "loading": loading}
         return draw_at_speed(scene, curves, rate, own, partial(draw_curves, **own))
