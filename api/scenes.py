@@ -13,8 +13,7 @@ from gradhesion.cli.names.scenes import SCENE
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.work.compiling import prepare
 from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.rate import Rate
-from gradhesion.core.problem.toughness import Toughness
+from gradhesion.core.problem.toughness import Rate, Toughness
 from gradhesion.names import Given
 from gradhesion.solved import solved
 from gradhesion.taken import given_in

@@ -42,7 +42,22 @@ _WRONG_WAY: Final = (
 class FittedProfile:
     """A profile with how well it fits; lengths are in the unit of the measurement.
 
-    `cosines` and `sines` are the amplitudes c_n and s_n for n = 1, 2, ...
+    Attributes
+    ----------
+    exponent, radius, wavelength
+        m, R and lambda.
+    cosines, sines
+        lambda A kappa_n and lambda A sigma_n for n = 1, 2, ...: amplitudes, as lengths.
+    centre, height
+        r0 and h0.
+    up_to
+        The distance from the centre up to which it is fitted.
+    errors
+        The standard deviations of all these by name, as the residual implies them; 0 for what was not fitted.
+    residual
+        Measured less fitted height of every point within `up_to` of the centre, in the order of `distance`.
+    distance
+        rho of these points, ascending.
     """
 
     exponent: float
@@ -52,14 +67,10 @@ class FittedProfile:
     sines: Floats
     centre: float
     height: float
-    errors: dict[str, Any]
-    """The standard deviations of all these by name, as the residual implies them; 0 for what was not fitted."""
     up_to: float
-    """The distance from the centre up to which it is fitted."""
+    errors: dict[str, Any]
     distance: Floats
-    """rho of the points within, ascending."""
     residual: Floats
-    """Their measured less their fitted heights."""
 
     @property
     def amplitude(self) -> float:

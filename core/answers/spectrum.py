@@ -13,14 +13,32 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gradhesion.core.problem.inputs import check_settings, setting
 from gradhesion.core.problem.profile import HIGHEST, MOST_HARMONICS, Harmonic, Profile
-from gradhesion.core.problem.settings import check_settings, setting
 
 
 @dataclass(frozen=True, kw_only=True)
 class Spectrum:
-    """Self-affine roughness; ValueError for a number out of range, or more than 64 waves from first to last.
+    """Self-affine roughness.
 
+    Parameters
+    ----------
+    hurst
+        H, 0 to 1.
+    first, last
+        The longest and the shortest wave, in waves per wavelength: 1 <= first <= last <= 10,000, 64 of them at most.
+    realisations
+        How many profiles are drawn, 1 to 100,000.
+    seed
+        Seed of the random phases, 0 or more.
+
+    Raises
+    ------
+    ValueError
+        For a number out of range.
+
+    Examples
+    --------
     >>> Spectrum(hurst=0.8, first=1, last=32, realisations=100, seed=1).terms
     32
     """

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from gradhesion.core.curve.values import Curve
 from gradhesion.core.draw.sampling import Line, line_of, sample, spans_of
 from gradhesion.core.draw.scene import Drawn, Frame, extrema_of, table_for, waves_of
-from gradhesion.core.problem.shape import swings
+from gradhesion.core.problem.profile import swings
 from gradhesion.core.scenes.reduced import BY_POWER, BY_WAVES, WINDOW
 from gradhesion.core.table.layout import BY_DEPTH, BY_LOAD
 from gradhesion.core.table.leading import amplitude_of

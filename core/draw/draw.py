@@ -14,39 +14,36 @@ from gradhesion.core.draw.approximations import draw_asymptotic, draw_effective,
 from gradhesion.core.draw.path import draw_equilibrium, draw_jumps, draw_path
 from gradhesion.core.draw.scene import Drawn, draw_scene, frame_of
 from gradhesion.core.problem.control import BY_DISPLACEMENT, Loading
-from gradhesion.core.problem.names import CLOSING, CURVES, PARAMETERS, PATTERN, PATTERN_CURVES, TURNS, WITHOUT_LOAD
-from gradhesion.core.problem.profile import WAVY, Profile
-from gradhesion.core.problem.shape import starts_downwards
+from gradhesion.core.problem.names import (
+    CLOSING,
+    CURVES,
+    GENERAL_CURVES,
+    PARAMETERS,
+    PATTERN,
+    PATTERN_CURVES,
+    TURNS,
+    WITHOUT_LOAD,
+)
+from gradhesion.core.problem.outputs import VARIABLES
+from gradhesion.core.problem.profile import WAVY, Profile, starts_downwards
 from gradhesion.core.problem.status import FAILED, NO_VALUE
 from gradhesion.core.sweep import request_of, solve
 
 if TYPE_CHECKING:
-    from gradhesion.core.problem.rate import Rate
-    from gradhesion.core.problem.toughness import Toughness
+    from gradhesion.core.problem.toughness import Rate, Toughness
 
-_TYPES: Final[dict[str, type[np.signedinteger[Any]]]] = {
-    "stable": np.int8,
-    "closing_stable": np.int8,
-    "path_branch": np.int32,
-    "path_jump": np.int8,
-    "path_unloading": np.int8,
-    "effective_jump": np.int8,
-    "jump_unloading": np.int8,
-    "jump_at_rim": np.int8,
-}
-INTEGERS: Final = frozenset(_TYPES)
+_TYPES: Final = {name: np.dtype(VARIABLES[name].dtype) for names in CURVES.values() for name in names}
+INTEGERS: Final = frozenset(name for name, dtype in _TYPES.items() if dtype.kind == "i")
 """The variables that are integers; the others are float64."""
 _OF_A_CYCLE: Final = ("path", "jumps", "effective")
 """The curves that turn where the cycle does."""
-GENERAL_CURVES: Final = ("equilibrium", "closing_equilibrium", "path", "smooth", "jumps")
-"""The curves of any profile under any control."""
 _Curves = dict[str, NDArray[Any]]
 
 
 def _without_contact(curve: str, scene: Mapping[str, float]) -> _Curves:
     """Return a curve of a cycle that turns before it makes contact: one point, no jump."""
     size = 0 if curve == "jumps" else 1
-    variables: _Curves = {name: np.zeros(size, _TYPES.get(name, np.float64)) for name in CURVES[curve]}
+    variables: _Curves = {name: np.zeros(size, _TYPES[name]) for name in CURVES[curve]}
     if curve == "path":
         variables["path_indentation"][:] = scene["indentation_max_over_R"]
     return variables
@@ -55,9 +52,7 @@ def _without_contact(curve: str, scene: Mapping[str, float]) -> _Curves:
 def _without_value(curve: str) -> _Curves:
     """Return a curve that has no value."""
     size = 0 if curve == "jumps" else 1
-    return {
-        name: np.full(size, -1, _TYPES[name]) if name in _TYPES else np.full(size, np.nan) for name in CURVES[curve]
-    }
+    return {name: np.full(size, -1 if name in INTEGERS else np.nan, _TYPES[name]) for name in CURVES[curve]}
 
 
 def _draw(drawn: Drawn, curve: str, *, turned: bool, grows: bool) -> _Curves | None:

@@ -20,8 +20,9 @@ from numpy.typing import ArrayLike, NDArray
 from gradhesion.core.problem import status as flags
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import CLOSING, CURVES, EDGE, OUTPUTS, PULL_OFF, RATE, SPEED, TURNS
-from gradhesion.core.problem.rate import Rate
+from gradhesion.core.problem.outputs import VARIABLES
 from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE, PULL_OFF_AT_RIM
+from gradhesion.core.problem.toughness import Rate
 from gradhesion.core.rate.scenes import move
 from gradhesion.core.sweep import solve
 
@@ -32,7 +33,7 @@ _WITHOUT_CONTACT: Final = dict.fromkeys(("pull_off_radius", "delta_jump_out", "s
 """Results without a value where there is no contact; all others but delta_max are 0 then."""
 _KEPT: Final = NO_VALUE | flags.TOO_MANY_WAVES | NO_CONTACT | flags.LOADING_NOT_ONE_DISC | flags.CLOSE_TO_A_JUMP
 """Bits of closing that are those of the cycle."""
-_TYPES: Final = dict(zip(CURVES["path"], "dddibb", strict=True))
+_TYPES: Final = {name: VARIABLES[name].dtype for name in CURVES["path"]}
 _MOST_POINTS: Final = 2**18
 Results: TypeAlias = dict[str, NDArray[Any]]
 
@@ -131,7 +132,7 @@ def draw_at_speed(
     solved = solve(one, ["turning_radius", "delta_jump_out", "pull_off_force"], rate=rate, **how)
     status |= int(solved["status"][0])
     if status & NO_VALUE:
-        return found | {name: np.full(1, np.nan if t == "d" else -1, t) for name, t in _TYPES.items()}, status
+        return found | {name: np.full(1, np.nan if t == "f8" else -1, t) for name, t in _TYPES.items()}, status
     if status & NO_CONTACT:
         return found | _path_of([[0.0], [scene[TURNS[0]]], [0.0]], unloading=False), status
     if rate.closing == "quasi-static":

@@ -14,8 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 from gradhesion.core.curve.values import Curve
 from gradhesion.core.jit import kernel
 from gradhesion.core.problem.names import SPEED, TURNS
-from gradhesion.core.problem.rate import MOST_WAVES, Rate
 from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE, PULL_OFF_AT_RIM, TOLERANCE_NOT_MET, TOO_MANY_WAVES
+from gradhesion.core.problem.toughness import MOST_WAVES, Rate
 from gradhesion.core.processors import processors
 from gradhesion.core.rate.edge import Edge, goal, lag_of, load_at, place_at, pulls_at, state_of
 from gradhesion.core.rate.step import LAG, NODES, RADIUS, SLOW, STAGES, Room, Way, step_until, stride

@@ -7,8 +7,7 @@ import pytest
 
 from gradhesion.core import solve
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
-from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.shape import swings
+from gradhesion.core.problem.profile import Profile, swings
 
 EPS = np.finfo(float).eps
 ROUGH = {"hurst": 0.7, "first": 2, "last": 41, "realisations": 400, "seed": 11}

@@ -9,18 +9,18 @@ import pytest
 from gradhesion.core.closed.reduced import WAYS
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL, Input
 from gradhesion.core.problem.outputs import CURVES, OUTPUTS, OVER, VARIABLES, without_scale
-from gradhesion.core.problem.rate import Rate
+from gradhesion.core.problem.toughness import Rate
 
 
 def test_what_an_input_names_is_declared() -> None:
     for name, one in INPUTS.items():
         assert INPUTS[one.gives].is_parameter, name
         assert {*one.needs} <= {*INPUTS}, name
-        assert bool(one.needs) == (one.follows is not None), name
         assert one.idle_without in ("", *INPUTS), name
         assert (one.unit != "1") == (one.table == "physical"), name
         assert one.group == INPUTS[one.gives].group or one.gives == "modulus", name
-    assert {way for ways in WAYS.values() for way in ways} == {name for name, one in INPUTS.items() if one.follows}
+        assert one.follows is None or one.needs, name
+    assert {way for ways in WAYS.values() for way in ways} == {name for name, one in INPUTS.items() if one.needs}
 
 
 @pytest.mark.parametrize("name", INPUTS)

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from gradhesion.core.problem.rate import EXPONENTS, Rate
+from gradhesion.core.problem.toughness import EXPONENTS, Rate
 
 
 def test_what_is_admitted() -> None:
