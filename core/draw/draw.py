@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
@@ -40,40 +40,35 @@ _OF_A_CYCLE: Final = ("path", "jumps", "effective")
 _Curves = dict[str, NDArray[Any]]
 
 
-def _without_contact(curve: str, scene: Mapping[str, float]) -> _Curves:
-    """Return a curve of a cycle that turns before it makes contact: one point, no jump."""
+def _blank(curve: str, value: float) -> _Curves:
+    """Return a curve of one point, or of no jump, whose variables have a value (NaN: integers are -1)."""
     size = 0 if curve == "jumps" else 1
-    variables: _Curves = {name: np.zeros(size, _TYPES[name]) for name in CURVES[curve]}
-    if curve == "path":
-        variables["path_indentation"][:] = scene["indentation_max_over_R"]
-    return variables
+    blank = {name: -1 if math.isnan(value) and name in INTEGERS else value for name in CURVES[curve]}
+    return {name: np.full(size, one, _TYPES[name]) for name, one in blank.items()}
 
 
-def _without_value(curve: str) -> _Curves:
-    """Return a curve that has no value."""
-    size = 0 if curve == "jumps" else 1
-    return {name: np.full(size, -1 if name in INTEGERS else np.nan, _TYPES[name]) for name in CURVES[curve]}
-
-
-def _draw(drawn: Drawn, curve: str, *, turned: bool, grows: bool) -> _Curves | None:
+def _draw(drawn: Drawn, curve: str, *, grows: bool) -> _Curves | None:
     """Return the variables of a curve by name, as those of `draw_curves`; None where it has no value.
 
-    `turned`: the cycle turns at a given depth or load, not at the rim; `grows`: its contact grows from a point, so
-    that its first jump is none.
+    `grows`: contact grows from a point, so that its first jump is none.
     """
-    if curve in _OF_A_CYCLE and math.isnan(drawn.turn):
+    drawers: dict[str, Callable[[], tuple[NDArray[Any], ...] | None]] = {
+        "equilibrium": partial(draw_equilibrium, drawn),
+        "closing_equilibrium": partial(draw_equilibrium, drawn, closing=True),
+        "path": partial(draw_path, drawn, grows=grows),
+        "jumps": partial(draw_jumps, drawn, grows=grows),
+        "asymptotic": partial(draw_asymptotic, drawn),
+        "envelope": partial(draw_envelope, drawn),
+        "effective": partial(draw_effective, drawn),
+        "smooth": partial(draw_smooth, drawn),
+    }
+    of_sides = curve in ("equilibrium", "closing_equilibrium", "path", "jumps")
+    if (curve in _OF_A_CYCLE and math.isnan(drawn.turn)) or (of_sides and not drawn.sides):
         return None
-    if curve == "effective":
-        return draw_effective(drawn, turned=turned)
-    if curve in ("smooth", "envelope", "asymptotic"):
-        return {"smooth": draw_smooth, "envelope": draw_envelope, "asymptotic": draw_asymptotic}[curve](drawn)
-    if drawn.closing is None or drawn.opening is None:
+    found = drawers[curve]()
+    if found is None or not all(np.isfinite(values).all() for values in found):
         return None
-    if curve in ("path", "jumps"):
-        of_cycle = draw_path if curve == "path" else draw_jumps
-        return of_cycle(drawn, drawn.closing, drawn.opening, grows=grows)
-    side = drawn.opening if curve == "equilibrium" else drawn.closing
-    return dict(zip(CURVES[curve], draw_equilibrium(drawn, side), strict=True))
+    return {name: values.astype(_TYPES[name]) for name, values in zip(CURVES[curve], found, strict=True)}
 
 
 def _check(
@@ -198,14 +193,14 @@ def draw_curves(
     failed = drawn_cycle = False
     for curve in curves:
         variables = None
-        if radius == 0.0 and curve in _OF_A_CYCLE:
-            variables = _without_contact(curve, scene)
+        if radius == 0.0 and curve in _OF_A_CYCLE:  # the cycle turns before it makes contact
+            variables = _blank(curve, 0.0)
+            if curve == "path":
+                variables["path_indentation"][:] = scene["indentation_max_over_R"]
         elif drawn is not None:
             with np.errstate(all="ignore"):
-                variables = _draw(drawn, curve, turned=turn is not None, grows=grows)
-        if variables is None or not all(np.isfinite(values).all() for values in variables.values()):
-            failed, variables = True, _without_value(curve)
-        elif curve in ("path", "jumps"):
-            drawn_cycle = True
-        result |= variables
+                variables = _draw(drawn, curve, grows=grows)
+        failed |= variables is None
+        drawn_cycle |= variables is not None and curve in ("path", "jumps")
+        result |= _blank(curve, math.nan) if variables is None else variables
     return result, (status & ~FAILED if drawn_cycle else 0) | (NO_VALUE if failed else 0)
