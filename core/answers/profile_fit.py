@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import least_squares, minimize_scalar
 from threadpoolctl import threadpool_limits
 
@@ -297,50 +297,36 @@ def _described(points: _Points, numbers: Floats, reach: float, lowest: float, un
     linear = np.linalg.lstsq(columns * roots[:, None], points.y * roots, rcond=None)[0]
     if not linear[1] > 0.0:
         raise ValueError(_WRONG_WAY)
-    count, m = (linear.size - 2) // 2, float(numbers[1])
-    slope = unit / reach  # of y over x
-
-    def radius_of(power: float, m: float) -> float:
-        """Return R/reach from the column of a power."""
-        return float((power * slope * m) ** (-1.0 / (m - 1.0)))
-
-    def heights(found: Floats) -> Floats:
-        """Return the fitted y by height, radius, amplitudes, waves, m and centre."""
-        power = found[1] ** (1.0 - found[-2]) / (found[-2] * slope)
-        return np.asarray(points.design(found[-3:])[0] @ np.array([found[0], power, *found[2:-3]]))
-
-    found = np.array([linear[0], radius_of(linear[1], m), *linear[2:], *numbers])
-    fitted = np.append(np.ones(linear.size, bool), points.free)
-    rho, left = np.abs(points.x - numbers[2]), points.y - heights(found)
-    moves = [  # central differences, good to 1e-10 of what is fitted
-        (heights(found + step) - heights(found - step)) / (2.0 * step.max())
-        for step in np.diag(1e-6 * np.maximum(1.0, np.abs(found)))[fitted]
-    ]
-    rows = np.linalg.pinv(np.array(moves).T * roots[:, None]) * roots
-    degrees = max(1.0, float(np.sum(roots**2)) - np.count_nonzero(fitted))
-    spread = np.zeros(found.size)
-    spread[fitted] = math.sqrt(float(np.sum((left * roots) ** 2)) / degrees) * np.sqrt(np.sum(rows**2, axis=1))
-
-    def named(values: Floats, wavelength: float) -> dict[str, Any]:
-        """Return values or errors by name, in the units of the measurement; harmonics that are left out are 0."""
-        cosines, sines = (np.pad(own, (0, points.terms - count)) * unit for own in np.split(values[2:-3], 2))
-        return {
-            "height": float(values[0]) * unit,
-            "radius": float(values[1]) * reach,
-            "cosines": cosines,
-            "sines": sines,
-            "wavelength": wavelength,
-            "exponent": float(values[-2]),
-            "centre": float(values[-1]) * reach,
-        }
-
+    waves, m, centre = numbers.tolist()
+    rho, left = np.abs(points.x - centre), (points.y - columns @ linear) * unit
     order = np.argsort(rho)
     inside = order[rho[order] <= 1.0]
-    own = named(found, reach / float(numbers[0]))
-    return FittedProfile(
-        **own | {"height": own["height"] + lowest},
-        errors=named(spread, float(spread[-3] * reach / numbers[0] ** 2)),
-        up_to=reach,
-        distance=rho[inside] * reach,
-        residual=left[inside] * unit,
-    )
+
+    def named(height: float, amplitudes: NDArray[Any]) -> dict[str, Any]:
+        """Return the linear part by name, in the unit of heights; harmonics that are left out are 0."""
+        cosines, sines = np.pad(amplitudes.reshape(2, -1), ((0, 0), (0, points.terms - amplitudes.size // 2))) * unit
+        return {"height": float(height) * unit, "cosines": cosines, "sines": sines}
+
+    found = named(linear[0] + lowest / unit, linear[2:]) | {
+        "radius": reach * float(linear[1] * m * unit / reach) ** (-1.0 / (m - 1.0)),
+        "wavelength": reach / waves,
+        "exponent": m,
+        "centre": centre * reach,
+    }
+    fit = FittedProfile(**found, errors={}, up_to=reach, distance=rho[inside] * reach, residual=left[inside])
+
+    def slope_to(name: str) -> Floats:
+        """Return the derivative of the fitted heights, by central differences."""
+        step = 1e-6 * (reach if name == "centre" else found[name])
+        ahead, behind = (replace(fit, **{name: found[name] + way}) for way in (step, -step))
+        steps = [one.heights(np.abs(points.x * reach - one.centre)) for one in (ahead, behind)]
+        return np.asarray(steps[0] - steps[1]) / (2.0 * step * unit)
+
+    names = [name for name, free in zip(("wavelength", "exponent", "centre"), points.free, strict=True) if free]
+    jacobian = np.column_stack([columns[:, :1], columns[:, 2:], *map(slope_to, ("radius", *names))]) * roots[:, None]
+    degrees = max(1.0, float(np.sum(roots**2)) - jacobian.shape[1])
+    scales = np.linalg.norm(jacobian, axis=0)
+    spread = math.sqrt(float(np.sum((left * roots) ** 2)) / degrees) / unit / scales
+    spread *= np.linalg.norm(np.linalg.pinv(jacobian / scales) * roots, axis=1)
+    errors = dict.fromkeys(found, 0.0) | named(spread[0], spread[1 : linear.size - 1])
+    return replace(fit, errors=errors | dict(zip(("radius", *names), spread[linear.size - 1 :].tolist(), strict=True)))
