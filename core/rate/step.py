@@ -118,7 +118,7 @@ def _set_equations(edge: Edge, drive: float, lag: float, h: float, room: Room) -
 @kernel
 def advance(edge: Edge, way: Way, x: float, lag: float, h: float, room: Room) -> Step:
     """Make a step of length h from the state (x, lag); `room` then has its nodes."""
-    nodes, change, done, relaxed = room.nodes, way.drive, False, 0.0
+    nodes, change, done, relaxed, length = room.nodes, way.drive, False, 0.0, math.nan
     if lag > 0.0:
         y, pace = _along(edge, way, x)
         need, force = pulls_at(edge, y, lag)
@@ -131,6 +131,7 @@ def advance(edge: Edge, way: Way, x: float, lag: float, h: float, room: Room) ->
     for _ in range(17):
         relaxed = _set_equations(edge, way.drive, lag, h, room)
         if done:
+            length = h
             break
         _solve(room.matrix)
         done = True
@@ -146,7 +147,7 @@ def advance(edge: Edge, way: Way, x: float, lag: float, h: float, room: Room) ->
     work = 0.0
     for j in range(STAGES):
         work += h * _WEIGHTS[j] * nodes[WORK, j]
-    return Step(h if done else math.nan, nodes[RADIUS, -1], nodes[LAG, -1], nodes[SLOW, -1], work, relaxed)
+    return Step(length, nodes[RADIUS, -1], nodes[LAG, -1], nodes[SLOW, -1], work, relaxed)
 
 
 @kernel

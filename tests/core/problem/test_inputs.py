@@ -9,7 +9,7 @@ import pytest
 from gradhesion.core.closed.reduced import WAYS
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL, Input
 from gradhesion.core.problem.outputs import CURVES, OUTPUTS, OVER, VARIABLES, without_scale
-from gradhesion.core.problem.toughness import Rate
+from gradhesion.core.problem.toughness import EXPONENTS, Rate
 
 
 def test_what_an_input_names_is_declared() -> None:
@@ -66,8 +66,10 @@ def test_names_are_given_once() -> None:
 
 
 @pytest.mark.parametrize(
-    ("setting", "value"), [("exponent", 0.0999), ("exponent", 2.0001), ("exponent", math.nan), ("closing", "slow")]
+    ("setting", "value"),
+    [("exponent", value) for value in (0.0, 0.0999, 2.0001, math.nan, math.inf)] + [("closing", "slow")],
 )
 def test_a_setting_out_of_its_range_is_named(setting: str, value: object) -> None:
     with pytest.raises(ValueError, match=f"{setting} = "):
         Rate(**{"exponent": 0.6} | {setting: value})  # type: ignore[arg-type]
+    assert [Rate(exponent=end, closing="same").exponent for end in EXPONENTS] == [*EXPONENTS]
