@@ -40,53 +40,29 @@ if TYPE_CHECKING:
     __version__: str
 
 __all__ = [
-    "CONTROLS",
-    "CURVES",
-    "FLAGS",
-    "OUTPUTS",
-    "PARAMETERS",
-    "SOLVERS",
-    "DatasetError",
-    "GradhesionError",
-    "Harmonic",
-    "MissingExtraError",
-    "OutputError",
-    "Profile",
-    "Study",
-    "StudyError",
-    "__version__",
-    "curves",
-    "explore",
-    "load",
-    "open",
-    "plot",
-    "run",
-    "solve",
-    "verify",
-]
+    "CONTROLS", "CURVES", "FLAGS", "OUTPUTS", "PARAMETERS", "SOLVERS", "DatasetError", "GradhesionError",
+    "Harmonic", "MissingExtraError", "OutputError", "Profile", "Study", "StudyError", "__version__",
+    "curves", "explore", "load", "open", "plot", "run", "solve", "verify",
+]  # fmt: skip
 
 _HOMES: Final = {
-    "cli.errors": (
-        "DatasetError",
-        "GradhesionError",
-        "MissingExtraError",
-        "OutputError",
-        "StudyError",
-    ),
-    "cli.names.curves": ("CURVES",),
-    "cli.names.outputs": ("OUTPUTS",),
-    "cli.study.study": ("Study",),
-    "core.problem.control": ("CONTROLS",),
-    "core.problem.names": ("SOLVERS",),
-    "core.problem.profile": ("Harmonic", "Profile"),
-    "core.answers.flags": ("FLAGS",),
-    "datasets": ("open", "verify"),
-    "names": ("PARAMETERS",),
-    "pictures": ("explore", "plot"),
-    "scenes": ("curves", "solve"),
-    "studies": ("load", "run"),
+    "cli.errors": "DatasetError GradhesionError MissingExtraError OutputError StudyError",
+    "cli.names.curves": "CURVES",
+    "cli.names.outputs": "OUTPUTS",
+    "cli.study.study": "Study",
+    "core.answers.flags": "FLAGS",
+    "core.problem.control": "CONTROLS",
+    "core.problem.names": "SOLVERS",
+    "core.problem.profile": "Harmonic Profile",
+    "datasets": "open verify",
+    "names": "PARAMETERS",
+    "pictures": "explore plot",
+    "scenes": "curves solve",
+    "studies": "load run",
 }
-"""The module that each public name comes from."""
+"""What is public of each module."""
+
+_HOME_OF: Final = {name: home for home, names in _HOMES.items() for name in names.split()}
 
 _OWN_NAMES: Final = {"open": "open_dataset"}
 """What a name is called in its module, where that is another."""
@@ -99,15 +75,14 @@ def __getattr__(name: str) -> Any:
 
         value: Any = version("gradhesion")
     else:
-        home = next((module for module, own in _HOMES.items() if name in own), None)
-        if home is None:
+        if name not in _HOME_OF:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         from gradhesion.cli.installation import checked
         from gradhesion.cli.terminal.room import refuse_without_threads
 
         refuse_without_threads()
         with checked():
-            value = getattr(importlib.import_module(f"{__name__}.{home}"), _OWN_NAMES.get(name, name))
+            value = getattr(importlib.import_module(f"{__name__}.{_HOME_OF[name]}"), _OWN_NAMES.get(name, name))
     globals()[name] = value
     return value
 

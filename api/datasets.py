@@ -12,7 +12,7 @@ from gradhesion.cli.dataset.read.reader import check_ours, found, opened
 from gradhesion.cli.dataset.read.soundness import check_form
 from gradhesion.cli.errors import DatasetError, StudyError
 from gradhesion.cli.installation import checked
-from gradhesion.wording import in_python
+from gradhesion.names import as_keywords
 
 if TYPE_CHECKING:
     from gradhesion.cli.dataset.verify.recompute import Recomputed
@@ -90,7 +90,7 @@ def verify(dataset: Data, *, sample: int = 20, seed: int | None = None) -> "Reco
     with checked():
         from gradhesion.cli.dataset.verify.recompute import recompute  # noqa: PLC0415 (python-flint)
     path = Path(dataset) if isinstance(dataset, str | Path) else Path("the dataset")
-    with in_python(), data_of(dataset) as values:
+    with as_keywords(), data_of(dataset) as values:
         return recompute(values, path, sample=sample, seed=seed, progress=lambda _: nullcontext(lambda _: None))
 
 

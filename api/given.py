@@ -1,24 +1,30 @@
 """What a call in Python gives, checked as a study is: numbers, quantities with units, axes and named dimensions."""
 
-import re
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, is_dataclass
 from typing import Any, Final
 
 import numpy as np
 import xarray
 
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.names.scenes import SCENE
+from gradhesion.cli.names.outputs import OUTPUTS, PARAMETER, PHYSICAL_PARAMETER
+from gradhesion.cli.names.scenes import SCENE, SOLVER
 from gradhesion.cli.study.reading import study_from, text_of
-from gradhesion.cli.study.rules.axes import Values
+from gradhesion.cli.study.rules.axes import Values, repeated
+from gradhesion.cli.study.rules.scenes import MOST_SCENES
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.terminal.wording import nearest
+from gradhesion.cli.study.text.foreign import as_written
+from gradhesion.cli.terminal.wording import did_you_mean, nearest
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
-from gradhesion.wording import without_tables
+from gradhesion.values import array_of, numbers_of
 
 MOST_LISTED: Final = 10_000
 """Values of all axes together up to which a dataset keeps them in the text of its study as well."""
+
+HOMES: Final = {"control": "loading", "solver": "method", "check_contact": "method", "contact_radius_over_R": "states"}
+"""The tables of a study that arguments of a call stand in; a sentence about one names the argument alone."""
 
 
 @dataclass(kw_only=True, eq=False)
@@ -53,24 +59,23 @@ class Given:
 
     def study(self) -> Study:
         """
-        Check everything as a study is checked; of long arrays the ends of their values stand in it.
+        Check everything as a study is checked; of arrays the ends of their values stand in it.
 
         Raises
         ------
         StudyError
             Something is wrong; the error lists all of them.
         """
-        ends = {name: _ends(array) for name, array in self.arrays.items()}
-        short = {name: [array.values.flat[i] for i in ends[name]] for name, array in self.arrays.items()}
+        short = {name: self._ends(name, array) for name, array in self.arrays.items()}
         if not self.is_grid and "k" in short:  # whether k = 1 meets nu = 1/2 is asked of each scene instead
             short["k"] = list(dict.fromkeys(0.5 if value == 1.0 else value for value in short["k"]))
             self._check_stiffness()
         try:
-            study = study_from(self._data(short), self.caller)
+            study = study_from(self._data({name: ends for name, ends in short.items() if ends}), self.caller)
         except StudyError as error:
-            found = [_with_own_index(without_tables(sentence), self.arrays, ends) for sentence in error.mistakes]
             unread = tuple(f"{self.caller}: {name}: this " for name in self.unread)
-            raise StudyError([*self.mistakes, *(one for one in found if not one.startswith(unread))]) from None
+            found = [one for one in map(self._without_table, error.mistakes) if not one.startswith(unread)]
+            raise StudyError([*self.mistakes, *found]) from None
         if self.mistakes:
             raise StudyError(self.mistakes)
         return study
@@ -95,53 +100,174 @@ class Given:
         if not self.arrays:
             return study.text
         values = [array.values for array in self.arrays.values()]
-        ordered = self.is_points or (
-            self.is_grid and all(np.all(np.diff(axis) > 0) or np.all(np.diff(axis) < 0) for axis in values)
-        )
+        ordered = self.is_points or (self.is_grid and all(map(is_monotone, values)))
         if not ordered or sum(axis.size for axis in values) > MOST_LISTED:
             return ""
         return text_of(self.whole(), study)
 
     def whole(self) -> dict[str, Any]:
         """Give all of it as the keys of a study; every array is an axis, or all are lists of points."""
-        layout = "points" if self.is_points else "grid"
-        return self._data({name: array.values.tolist() for name, array in self.arrays.items()}, layout)
+        layout = {"layout": "points"} if self.is_points else {}
+        return self._data({name: array.values.tolist() for name, array in self.arrays.items()}) | layout
 
-    def check_threads(self, threads: object) -> None:
-        """Check the number of threads."""
-        if threads is not None and not (isinstance(threads, int) and threads >= 1):
-            self.refuse(f"threads = {threads!r}", "the number of threads is 1 or more, or None for all processors")
+    def _ends(self, name: str, array: xarray.DataArray) -> list[float]:
+        """Find the least and the greatest value of an array, those out of range aside, which are refused."""
+        inside = np.asarray(INPUTS[name].admits(array.values))
+        if not inside.all():
+            index = np.unravel_index(int(np.argmin(inside)), array.shape)
+            what = f"{name}[{', '.join(map(str, index))}] = {float(array.values[index])!r}"
+            self.refuse(what, f"out of range; choose a value with {INPUTS[name].allowed}")
+            self.unread.add(name)
+        values = array.values[inside]
+        return [*dict.fromkeys((float(values.min()), float(values.max())))] if values.size else []
 
-    def _data(self, arrays: Mapping[str, Sequence[float]], layout: str = "grid") -> dict[str, Any]:
+    def _data(self, arrays: Mapping[str, Sequence[float]]) -> dict[str, Any]:
         """Give the keys of a study, with these values for the arrays."""
         data = {key: {**value} if isinstance(value, Mapping) else value for key, value in self.settings.items()}
         data.setdefault("parameters", {})
-        if layout != "grid":
-            data["layout"] = layout
-        given = {name: arrays.get(name, self.fixed.get(name)) for name in (*self.fixed, *arrays)}
-        for name, value in sorted(given.items(), key=lambda item: [*INPUTS, item[0]].index(item[0])):
+        given = {**self.fixed, **arrays}
+        for name in sorted(given, key=[*INPUTS, *given].index):
             key = name if name in INPUTS else nearest(name, list(INPUTS)) or "k"
-            data.setdefault(INPUTS[key].table, {})[name] = _with_unit(name, value)
+            data.setdefault(INPUTS[key].table, {})[name] = _with_unit(name, given[name])
         return data
+
+    def _without_table(self, sentence: str) -> str:
+        """Name an argument in the place of a key of a study, which stands in a table."""
+        table, dot, rest = sentence.removeprefix(f"{self.caller}: ").partition(".")
+        known = {*HOMES.values(), *(one.table for one in INPUTS.values())}
+        return f"{self.caller}: {rest}" if dot and table in known else sentence
 
     def _check_stiffness(self) -> None:
         """Check that the surface has a stiffness in every scene."""
         k, nu = (self.arrays.get(name, self.fixed.get(name)) for name in ("k", "nu"))
         if self.mistakes or not isinstance(nu, float | xarray.DataArray):
             return
-        wrong = (k == 1.0) & (nu != 0.5)
-        if bool(np.any(wrong)):
+        if bool(np.any((k == 1.0) & (nu != 0.5))):
             self.refuse("k = 1.0", "with k = 1 and nu other than 0.5 the surface has no stiffness; use nu = 0.5 there")
+
+
+def given_in(
+    caller: str,
+    parameters: Mapping[str, Any] | None,
+    more: Mapping[str, Any],
+    settings: Mapping[str, Any],
+    threads: object = None,
+) -> Given:
+    """
+    Take the arguments of a call apart.
+
+    Parameters
+    ----------
+    caller
+        The function that is called, for messages.
+    parameters, more
+        Parameters by name, in a mapping and as keywords; these stand in the place of those in the mapping.
+    settings
+        The arguments that stand for keys of a study: outputs, profile, control, solver, check_contact, title, kind.
+    threads
+        The number of threads, 1 or more, or None.
+    """
+    given = Given(caller=caller, settings=_settings(settings))
+    table: Any = {} if parameters is None else parameters
+    if hasattr(table, "columns") and hasattr(table, "to_xarray"):  # pandas
+        for name in sorted({*map(str, table.columns[table.columns.duplicated()])}):
+            given.unread.add(name)
+            given.refuse(name, "the table has more than one column of this name; keep one of them")
+        table = {name: table[name] for name in table.columns if str(name) not in given.unread}
+    if not isinstance(table, Mapping):
+        given.refuse("parameters", f"a mapping from names to values is expected, not a {type(table).__name__}")
+        table = {}
+    arguments = [*settings, "threads"]
+    for key, value in {**table, **more}.items():
+        name = str(key)
+        near = name if name in INPUTS else nearest(name, [*INPUTS, *arguments])
+        if near not in INPUTS:
+            given.refuse(name, f"unknown argument; {did_you_mean(name, list(INPUTS) if near is None else arguments)}")
+        elif name not in INPUTS or isinstance(value, str | Mapping) or value is None:
+            given.fixed[name] = as_written(value, bare=name not in PHYSICAL)
+        elif isinstance(value, float):
+            given.fixed[name] = float(value) + 0.0  # no negative zero; what most calls give needs no array
+        else:
+            _take_values(given, name, value)
+    _align(given)
+    count = math.prod({dim: size for array in given.arrays.values() for dim, size in array.sizes.items()}.values())
+    most = MOST_SCENES[settings.get("kind", "map")]
+    if count > most:
+        given.refuse("parameters", f"they make {count:,} scenes, more than {most:,}; use fewer values")
+    if threads is not None and not (isinstance(threads, int) and threads >= 1):
+        given.refuse(f"threads = {threads!r}", "the number of threads is 1 or more, or None for all processors")
+    return given
+
+
+def _take_values(given: Given, name: str, value: Any) -> None:
+    """Take a parameter that is known and no string: a number, an axis, or an array over named dimensions."""
+    try:
+        array = array_of(name, value)
+        numbers = numbers_of(name, array)
+    except ValueError as error:
+        given.refuse(name, str(error))
+        given.unread.add(name)
+        return
+    if numbers is None or array.size == 0:
+        given.fixed[name] = as_written(array.values)
+    elif array.ndim == 0:
+        given.fixed[name] = float(numbers)
+    else:
+        taken = array.copy(data=numbers)
+        given.arrays[name] = taken.assign_coords({name: numbers}) if array.dims == (name,) else taken
+        for _, sentence in repeated(name, numbers) if array.dims == (name,) else ():
+            given.refuse(name, sentence)
+
+
+def _align(given: Given) -> None:
+    """Check that the dimensions of all arrays go together."""
+    taken = {*OUTPUTS, SOLVER, PARAMETER, PHYSICAL_PARAMETER, "status"}
+    for name, array in given.arrays.items():
+        for dim in map(str, array.dims):
+            if dim in taken:
+                given.refuse(name, f'its dimension "{dim}" has the name of a variable; rename it')
+            elif dim in INPUTS and (dim not in given.arrays or given.arrays[dim].dims != (dim,)):
+                sentence = f'its dimension "{dim}" has the name of a parameter that is not an axis; rename it, or give'
+                given.refuse(name, f"{sentence} {dim} as a list")
+    arrays = {name: array.reset_coords(drop=True) for name, array in given.arrays.items()}
+    try:
+        xarray.align(*arrays.values(), join="exact", copy=False)
+    except ValueError:
+        sizes = "; ".join(
+            f"{name} over {', '.join(f'{dim} ({size})' for dim, size in array.sizes.items())}"
+            for name, array in arrays.items()
+        )
+        sentence = f"dimensions of the same name differ in length or coordinates ({sizes}); rename one of them"
+        given.refuse("parameters", sentence)
+
+
+def _settings(settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Put the arguments of a call into the tables of a study, leaving out those that are None."""
+    found = {key: value for key, value in settings.items() if value is not None}
+    outputs = found.get("outputs")
+    if isinstance(outputs, Iterable):
+        found["outputs"] = [outputs] if isinstance(outputs, str) else list(outputs)
+        found.setdefault("title", ", ".join(map(str, found["outputs"])))
+    for key in ("profile", "toughness", "rate"):
+        if is_dataclass(own := found.get(key)) and not isinstance(own, type):
+            found[key] = as_written(asdict(own))
+    if "contact_radius_over_R" in found:
+        radii = as_written(found["contact_radius_over_R"])
+        found["contact_radius_over_R"] = radii if isinstance(radii, list) else [radii]
+    for key in found.keys() & HOMES.keys():
+        found.setdefault(HOMES[key], {})[key] = found.pop(key)
+    return found
+
+
+def is_monotone(values: Any) -> bool:
+    """Report whether values rise or fall throughout."""
+    steps = np.diff(values)
+    return bool(np.all(steps > 0.0) or np.all(steps < 0.0))
 
 
 def _named(name: str, values: Values) -> float | xarray.DataArray:
     """Give the axis of a study its dimension."""
     return values if isinstance(values, float) else xarray.DataArray(values, dims=(name,), coords={name: values})
-
-
-def _ends(array: xarray.DataArray) -> list[int]:
-    """Find the least and the greatest value, or the first that is not a number."""
-    return [*dict.fromkeys((int(np.argmin(array.values)), int(np.argmax(array.values))))]
 
 
 def _with_unit(name: str, value: Any) -> Any:
@@ -153,12 +279,3 @@ def _with_unit(name: str, value: Any) -> Any:
     if name in PHYSICAL and isinstance(value, int | float | np.number) and not isinstance(value, bool):
         return f"{float(value)!r} {PHYSICAL[name].unit}"
     return value
-
-
-def _with_own_index(sentence: str, arrays: Mapping[str, xarray.DataArray], ends: Mapping[str, Sequence[int]]) -> str:
-    """Name the item of an array, not that of its ends."""
-    found = re.match(r"(gr\.\w+: (\w+))\[(\d)\]", sentence)
-    if not found or found[2] not in arrays:
-        return sentence
-    index = np.unravel_index(ends[found[2]][int(found[3])], arrays[found[2]].shape)
-    return f"{found[1]}[{', '.join(map(str, index))}]{sentence[found.end() :]}"

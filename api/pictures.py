@@ -25,8 +25,8 @@ from gradhesion.cli.picture.values.picture import drawn
 from gradhesion.cli.study.text.foreign import as_written
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.datasets import Data, data_of
+from gradhesion.names import as_keywords
 from gradhesion.shown import is_shown, show_later
-from gradhesion.wording import in_python
 
 Limits = tuple[float | str | None, float | str | None]
 """Two ends of a part of an axis: numbers in SI, quantities, or None for all there is."""
@@ -157,7 +157,7 @@ def plot(
     '$\\lambda/R$'
     """
     names = _listed(variables)
-    with in_python(), data_of(dataset) as values:
+    with as_keywords(), data_of(dataset) as values:
         looks = looks_of(
             kind=kind,
             width=width,
@@ -238,7 +238,7 @@ def explore(
     path = Path(dataset).with_suffix(".html") if file is None else Path(file)
     if path.suffix.lower() not in {".html", ".htm"}:
         raise OutputError(f"{path}: the name of a page ends in .html")
-    with in_python(), data_of(dataset) as values, replacement(path, overwrite=overwrite) as temporary:
+    with as_keywords(), data_of(dataset) as values, replacement(path, overwrite=overwrite) as temporary:
         refuse_fit(values, "a page")
         _check_dimensions(values)
         name = str(values.attrs["title"]) if isinstance(dataset, xarray.Dataset) else Path(dataset).name

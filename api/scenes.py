@@ -1,10 +1,10 @@
 """Solve or draw scenes without a file: parameters in, an xarray dataset out."""
 
-from collections.abc import Mapping, Sequence
+import inspect
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, Final, Unpack
+from typing import Any, Final, TypeVar
 
-import numpy as np
 import xarray
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
@@ -12,16 +12,26 @@ from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.names.scenes import SCENE
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.work.compiling import prepare
+from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.rate import Rate
-from gradhesion.core.problem.toughness import Toughness
-from gradhesion.names import Given
+from gradhesion.core.problem.toughness import Rate, Toughness
+from gradhesion.given import given_in, is_monotone
 from gradhesion.solved import solved
-from gradhesion.taken import given_in
 
+_Function = TypeVar("_Function", bound=Callable[..., Any])
 FORCE_AND_ENERGY: Final = ("pull_off_force", "dissipated_energy")
 
 
+def _with_inputs(function: _Function) -> _Function:
+    """Name every input of a study among the keywords of a function, for help and for editors to complete."""
+    plain = inspect.signature(function)
+    own = [one for one in plain.parameters.values() if one.kind is not one.VAR_KEYWORD]
+    inputs = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Any) for name in INPUTS]
+    function.__signature__ = plain.replace(parameters=[*own, *inputs])  # type: ignore[attr-defined]
+    return function
+
+
+@_with_inputs
 def solve(
     parameters: Mapping[str, Any] | None = None,
     outputs: Sequence[str] | str = FORCE_AND_ENERGY,
@@ -34,20 +44,18 @@ def solve(
     check_contact: bool | None = None,
     threads: int | None = None,
     title: str | None = None,
-    **more: Unpack[Given],
+    **more: Any,
 ) -> xarray.Dataset:
     """
     Solve scenes: every combination of axes, or arrays over named dimensions.
 
     Parameters
     ----------
-    parameters, **more
-        The parameters of a study by name, in a mapping, as keywords, or both (a keyword overrides the mapping, as in
-        `dict(parameters, **more)`): k in [0, 1], nu in (-1, 0.5], the positive ratios modulus E*
-        R/dgamma, c0_over_R (not needed if k = 0) and lambda_over_R (not needed if A = 0), A >= 0, and a_max_over_R >
-        0, inf by default; their reduced forms (chi, lambda_over_L, ...); quantities with units, such as R = "1 um" or
-        one of pint, astropy or unyt (a plain number is in SI units: R = 1e-6); and machine_stiffness S/(E* R), or
-        spring_constant, with control "machine". Each of them is
+    parameters, and keywords
+        The inputs of a study by name, in a mapping, as keywords, or both (a keyword overrides the mapping): k, nu, the
+        ratios modulus E* R/dgamma, c0_over_R (not needed if k = 0) and lambda_over_R (not needed if A = 0), A, and
+        a_max_over_R, inf by default; their reduced forms (chi, lambda_over_L, ...); and quantities with units, such as
+        R = "1 um" or one of pint, astropy or unyt (a plain number is in SI units: R = 1e-6). Each of them is
 
         - a number (or a quantity with its unit; for a ratio a dimensionless one, such as percent): the same in all
           scenes;
@@ -121,13 +129,13 @@ def solve(
     """
     settings: dict[str, Any] = {"outputs": outputs, "profile": profile, "control": control, "solver": solver}
     settings |= {"check_contact": check_contact, "title": title, "toughness": toughness, "rate": rate}
-    given = given_in("gr.solve", parameters, more, settings)
-    given.check_threads(threads)
+    given = given_in("gr.solve", parameters, more, settings, threads)
     study = given.study()
     prepare(study)
     return solved(replace(study, text=given.text(study)), given.parameters(study), threads)
 
 
+@_with_inputs
 def curves(
     parameters: Mapping[str, Any] | None = None,
     outputs: Sequence[str] | str = ("equilibrium", "path"),
@@ -139,14 +147,14 @@ def curves(
     contact_radius_over_R: Sequence[float] | float | None = None,
     threads: int | None = None,
     title: str | None = None,
-    **more: Unpack[Given],
+    **more: Any,
 ) -> xarray.Dataset:
     """
     Draw the curves of scenes: contact radius, depth and load at points that adapt to them.
 
     Parameters
     ----------
-    parameters, **more
+    parameters, and keywords
         As in `solve`, but for arrays over named dimensions, which are axes, or all of them over the one dimension
         `scene`; 1,000 scenes at most. The values of an axis must rise or fall.
     outputs
@@ -179,13 +187,12 @@ def curves(
     settings: dict[str, Any] = {"kind": "curve", "outputs": outputs, "profile": profile, "control": control}
     more_settings: dict[str, Any] = {"contact_radius_over_R": contact_radius_over_R, "title": title}
     more_settings |= {"toughness": toughness, "rate": rate}
-    given = given_in("gr.curves", parameters, more, settings | more_settings)
-    given.check_threads(threads)
+    given = given_in("gr.curves", parameters, more, settings | more_settings, threads)
     for name, array in given.arrays.items():
         if not (given.is_grid or given.is_points):
             if array.dims not in ((name,), (SCENE,)):
                 given.refuse(name, f"curves are drawn over axes, or over one dimension {SCENE}; rename its dimensions")
-        elif given.is_grid and not (np.all(np.diff(array) > 0.0) or np.all(np.diff(array) < 0.0)):
+        elif given.is_grid and not is_monotone(array):
             given.refuse(name, "the values of an axis of curves must rise or fall; sort them")
     given.study()
     return compute(study_from(given.whole(), "gr.curves"), threads=threads)

@@ -14,7 +14,8 @@ from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.study.reading import any_from, load_any
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.text.foreign import as_written
-from gradhesion.wording import in_python
+from gradhesion.cli.study.text.written import value_of
+from gradhesion.names import as_keywords
 
 
 def load(
@@ -52,11 +53,11 @@ def load(
     {'k': 2, 'A': 3}
     """
     changes = _checked({} if set is None else set)
-    with in_python():
-        if isinstance(study, Mapping):
-            return any_from(_changed(study, changes))
-        written = {key: as_written(value, tuple(key.split("."))) for key, value in changes.items()}
-        return load_any(study, [f"{key}={_toml(value)}" for key, value in written.items()])
+    if isinstance(study, Mapping):
+        return any_from(_changed(study, changes))
+    written = {key: as_written(value, tuple(key.split("."))) for key, value in changes.items()}
+    with as_keywords():
+        return load_any(study, [f"{key}={value_of(value)}" for key, value in written.items()])
 
 
 def run(
@@ -98,14 +99,12 @@ def run(
     if not isinstance(study, Study | FitStudy):
         study = load(study, set=set)
     elif set:
-        with in_python():
-            study = any_from(_changed(tomllib.loads(study.text), _checked(set)), folder=study.folder)
+        study = any_from(_changed(tomllib.loads(study.text), _checked(set)), folder=study.folder)
     if isinstance(study, FitStudy):
         with checked():
             from gradhesion.cli.dataset.fits.fit import compute_fit  # noqa: PLC0415 (the compiler, for which `load` has no use)
 
-        with in_python():
-            return compute_fit(study)
+        return compute_fit(study)
     with checked():
         from gradhesion.cli.dataset.dataset import compute  # noqa: PLC0415 (the compiler, as above)
 
@@ -139,21 +138,3 @@ def _changed(study: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, 
             table = inner
         table[last] = value
     return data
-
-
-def _toml(value: Any) -> str:
-    """Write a value as TOML."""
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, str):
-        return '"' + "".join(_escaped(letter) for letter in value) + '"'
-    if isinstance(value, list | tuple):
-        return "[" + ", ".join(map(_toml, value)) + "]"
-    if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{key} = {_toml(item)}" for key, item in value.items()) + " }"
-    return str(value)
-
-
-def _escaped(letter: str) -> str:
-    """Write a letter of a string."""
-    return f"\\u{ord(letter):04x}" if letter in '"\\' or not letter.isprintable() else letter

@@ -22,8 +22,7 @@ from benchmarks.clock import table
 from benchmarks.draw import Parameters, mixture, waves
 from gradhesion import core
 from gradhesion.core import SENSITIVITIES, Harmonic, Loading, Profile, solve
-from gradhesion.core.problem.rate import Rate
-from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
+from gradhesion.core.problem.toughness import Rate, Toughness, ToughnessHarmonic
 
 FORCE: Final = ("pull_off_force",)
 BOTH: Final = ("pull_off_force", "dissipated_energy")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gradhesion.core.closed.reach import radius_of, slope_at
 from gradhesion.core.problem.control import BY_DISPLACEMENT, CONTROLS, Loading
 from gradhesion.core.problem.names import (
     CLOSING,
@@ -27,9 +28,7 @@ from gradhesion.core.problem.names import (
     TURNS,
     WITHOUT_LOAD,
 )
-from gradhesion.core.problem.profile import WAVY, Profile
-from gradhesion.core.problem.reach import radius_of, slope_at
-from gradhesion.core.problem.shape import in_own_wavelength, starts_downwards
+from gradhesion.core.problem.profile import WAVY, Profile, in_own_wavelength, starts_downwards
 from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE
 from gradhesion.core.problem.toughness import rows_of_pattern
 from gradhesion.core.scenes.results import INTEGERS, NAMES, Wanted
@@ -37,8 +36,7 @@ from gradhesion.core.scenes.tasks import Request, solve_all
 from gradhesion.core.table.layout import BY_DEPTH, EXACT
 
 if TYPE_CHECKING:
-    from gradhesion.core.problem.rate import Rate
-    from gradhesion.core.problem.toughness import Toughness
+    from gradhesion.core.problem.toughness import Rate, Toughness
 
 Results: TypeAlias = dict[str, NDArray[Any]]
 _GAINS: Final = {"adhesion_gain": "pull_off_force", "energy_gain": "dissipated_energy"}
@@ -218,7 +216,7 @@ def solve(
         chi = r/s; saturation_radius in R, beyond which there is no fold; adhesion_gain and energy_gain over the smooth
         punch of the same material and rim; and pull_off_force_sensitivity and dissipated_energy_sensitivity,
         d ln(value)/d ln p of every parameter, for k and nu d ln(value)/dp. And contact_slope, (a/R)^(m-1) at the
-        largest radius on which the other outputs depend (problem/reach.py); of an unbounded punch to about 1e-12, by
+        largest radius on which the other outputs depend (closed/reach.py); of an unbounded punch to about 1e-12, by
         the asymptotic solver 1e-6.
     solver
         One of `SOLVERS`.

@@ -11,8 +11,7 @@ from gradhesion.core.draw.draw import draw_curves
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import CURVES, OUTPUTS, REPORTS, SENSITIVITIES
 from gradhesion.core.problem.profile import Harmonic, Profile
-from gradhesion.core.problem.rate import Rate
-from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
+from gradhesion.core.problem.toughness import Rate, Toughness, ToughnessHarmonic
 from gradhesion.core.sweep import solve
 
 SCENE: Final[dict[str, float]] = {

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal.amounts import counted, percent
 from gradhesion.core.answers.flags import ANSWER_FLAGS
-from gradhesion.core.problem.reach import SMALL, depends_on_contact
+from gradhesion.core.closed.reach import SMALL, depends_on_contact
 
 CONE: Final = "the punch is a cone of slope 1, which is not small, at every contact radius of {}"
 """What is said once of a study of a cone."""

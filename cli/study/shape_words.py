@@ -3,8 +3,7 @@
 from gradhesion.core.answers.spectrum import Spectrum
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.profile import Harmonic, Profile
-from gradhesion.core.problem.rate import Rate
-from gradhesion.core.problem.toughness import Toughness
+from gradhesion.core.problem.toughness import Rate, Toughness
 
 
 def shape_in_words(profile: Profile, spectrum: Spectrum | None = None) -> str:

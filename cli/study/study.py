@@ -20,13 +20,12 @@ from gradhesion.cli.study.rules.answers import Search, Uncertainty
 from gradhesion.cli.study.rules.axes import Values
 from gradhesion.cli.study.tiling import CHUNK, Block, Tiling
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
+from gradhesion.core.closed.reach import depends_on_contact
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.names import CLOSING, MACHINE, PARAMETERS, PATTERN, RANGE, SENSITIVITIES, TURNS
 from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.rate import Rate
-from gradhesion.core.problem.reach import depends_on_contact
-from gradhesion.core.problem.toughness import Toughness
+from gradhesion.core.problem.toughness import Rate, Toughness
 
 FEW_SAMPLES: Final = 32
 """Samples of each scene that check a linear standard deviation."""
@@ -170,7 +169,7 @@ class Study:
 
     @property
     def watches_slope(self) -> bool:
-        """Whether a contact may reach radii at which the punch is no longer shallow (core/problem/reach.py)."""
+        """Whether a contact may reach radii at which the punch is no longer shallow (core/closed/reach.py)."""
         given = self.parameters
         if "a_max" in given and "R" in given:
             return self.may_reach(np.max(given["a_max"]) / np.min(given["R"]))

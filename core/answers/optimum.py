@@ -14,7 +14,7 @@ from typing import Final, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.ndimage import maximum_filter
+from scipy.ndimage import maximum_filter, maximum_filter1d
 
 from gradhesion.core.types import Floats, Integers, Truths
 
@@ -57,8 +57,7 @@ class Optima:
     """From 0 to 1; shape (inputs, cells). NaN where nothing is feasible."""
     merits: Floats
     too_coarse: Truths
-    """Whether the sweep at the stated resolution, half of that computed, misses the basin, as it does where a peak was
-    found between the points of the finer one."""
+    """Whether the sweep at the stated resolution, half of that computed, misses the basin."""
 
 
 def axis_of(resolution: int) -> Floats:
@@ -96,7 +95,8 @@ def optima_of(merit: Merit, merits: Floats) -> Optima:
     Returns
     -------
     Places to 1e-12 of their ranges where the peak is a kink of one input, or where exact slopes are known; else to some
-    1e-8, where the merit is within rounding of its peak. Peaks narrower than half a spacing may be missed.
+    1e-8, where the merit is within rounding of its peak. Peaks narrower than half a spacing may be missed: a finer
+    resolution is the remedy.
     """
     inputs, cells = merits.ndim - 1, merits.shape[-1]
     heights, spacing = _finite(merits), 1.0 / (merits.shape[0] - 1)
@@ -111,11 +111,11 @@ def optima_of(merit: Merit, merits: Floats) -> Optima:
     if inputs == 1:
         way = merit.values(first + (where - first) * np.array([[[0.0], [0.25], [0.5], [0.75]]]), np.arange(cells))
         too_coarse |= (way < way[0] - _ALIKE * np.abs(way[0])).any(axis=0)  # a valley lies between, so another peak
-        starts, own = _between(merit, heights, best, where[0])
+        starts, own = _between(merit, heights, best, where)
         places, found = _refined(merit, starts, own, spacing / (_BETWEEN + 1))
-        for cell, place, height in zip(own, places[0], found, strict=True):
-            if height > best[cell] + _CLOSE * abs(best[cell]):
-                best[cell], where[0, cell], too_coarse[cell] = height, place, True
+        for i in np.argsort(found):
+            if found[i] > best[own[i]] + _CLOSE * abs(best[own[i]]):
+                best[own[i]], where[:, own[i]], too_coarse[own[i]] = found[i], places[:, i], True
     return Optima(places=where, merits=np.where(np.isfinite(best), best, np.nan), too_coarse=too_coarse)
 
 
@@ -153,17 +153,22 @@ def _peaks(heights: Floats) -> Truths:
 def _peaks_that_count(heights: Floats) -> tuple[Integers, ...]:
     """Return the indices, arrays (peaks,), of peaks of a sweep (*places, cells) that may hold the optimum of a cell.
 
-    A peak is assumed to rise above its highest point by no more than that is above its neighbours.
+    A peak is assumed to rise above its highest point by no more than that is above its neighbours, all axes together;
+    next to what is infeasible there is no bound.
     """
-    steps = _steps(heights, np.inf)  # next to infeasible points there is no bound
-    best = heights.reshape(-1, heights.shape[-1]).max(axis=0)
+    rise = np.zeros_like(heights)
     with np.errstate(invalid="ignore"):  # where nothing is feasible
-        found = np.nonzero(_peaks(heights) & (steps >= best - heights))
-    numbers = np.arange(found[-1].size)
-    order = np.lexsort((-numbers, -heights[found], found[-1]))  # of a plateau the last
-    cells = found[-1][order]
-    kept = np.sort(order[numbers - np.searchsorted(cells, cells) < _MOST_PEAKS])
-    return tuple(index[kept] for index in found)
+        for axis in range(heights.ndim - 1):
+            apart = np.abs(np.diff(heights, axis=axis))
+            apart[np.isnan(apart)] = np.inf
+            ends = np.zeros_like(heights.take([0], axis))
+            rise += np.maximum(np.concatenate([ends, apart], axis), np.concatenate([apart, ends], axis))
+        best = heights.max(axis=tuple(range(heights.ndim - 1)))
+        *places, cells = np.nonzero(_peaks(heights) & (rise >= best - heights))
+    order = np.lexsort((-np.arange(cells.size), -heights[(*places, cells)], cells))  # of a plateau the last
+    rank = np.arange(cells.size) - np.searchsorted(cells[order], cells[order])
+    kept = np.sort(order[rank < _MOST_PEAKS])
+    return tuple(index[kept] for index in (*places, cells))
 
 
 def _is_new(heights: Floats, places: Floats) -> Truths:
@@ -180,46 +185,22 @@ def _is_new(heights: Floats, places: Floats) -> Truths:
 
 
 def _between(merit: Merit, heights: Floats, best: Floats, where: Floats) -> tuple[Floats, Integers]:
-    """Search for peaks of one input that a sweep (places, cells) does not show and that can be above the best.
+    """Return places (1, peaks), and cells, of peaks between the points of a sweep that may be above the best.
 
-    `best` and `where`, (cells,), are the optima so far. Return places, (1, peaks), and cells, (peaks,).
+    That is `best` (cells,), at `where` (1, cells). Between two feasible points a merit of one input is assumed to rise
+    above both by no more than it changes between them, or from one of them to the next.
     """
-    with np.errstate(invalid="ignore"):  # where nothing is feasible
-        reach = best + _CLOSE * np.abs(best)
-    index, cells = np.nonzero(_promised(heights) > reach)
+    with np.errstate(invalid="ignore"):
+        steps = np.abs(np.diff(heights, axis=0))
+        steps[~np.isfinite(steps)] = 0.0
+        promised = np.maximum(heights[:-1], heights[1:]) + maximum_filter1d(steps, 3, axis=0, mode="nearest")
+        promised[~np.isfinite(heights[:-1] + heights[1:])] = -np.inf
+        index, cells = np.nonzero(promised > best + _CLOSE * np.abs(best))
     spacing = 1.0 / (heights.shape[0] - 1)
     places = spacing * (index + np.linspace(0.0, 1.0, _BETWEEN + 2)[:, None])
-    own = np.empty(places.shape)
-    own[0], own[-1] = heights[index, cells], heights[index + 1, cells]
-    own[1:-1] = _finite(merit.values(places[None, 1:-1], cells))
-    promised = _promised(own)
-    peaks = (own[1:-1] >= own[:-2]) & (own[1:-1] > own[2:])
-    peaks &= np.maximum(promised[:-1], promised[1:]) > reach[cells]
-    peaks &= np.abs(places[1:-1] - where[cells]) > spacing / (_BETWEEN + 1)
+    peaks = _peaks(_finite(merit.values(places[None], cells)))[1:-1]
+    peaks &= np.abs(places[1:-1] - where[0, cells]) > spacing / (_BETWEEN + 1)
     return places[1:-1][peaks][None], np.broadcast_to(cells, peaks.shape)[peaks]
-
-
-def _promised(heights: Floats) -> Floats:
-    """Return for each interval of the first axis how high a peak within may be; -inf next to infeasible points.
-
-    It rises above both ends by no more than the merit changes between these, or between one of them and the next.
-    """
-    steps = _steps(heights, 0.0)
-    with np.errstate(invalid="ignore"):
-        promised = np.maximum(heights[:-1], heights[1:]) + np.maximum(steps[:-1], steps[1:])
-    return np.where(np.isfinite(heights[:-1]) & np.isfinite(heights[1:]), promised, -np.inf)
-
-
-def _steps(heights: Floats, unknown: float) -> Floats:
-    """Return how far heights (*places, cells) are from those beside them, the sum of all axes; unknown by infinity."""
-    total = np.zeros_like(heights)
-    for axis in range(heights.ndim - 1):
-        with np.errstate(invalid="ignore"):
-            apart = np.abs(np.diff(heights, axis=axis))
-        apart = np.where(np.isfinite(apart), apart, unknown)
-        none = np.zeros_like(heights.take([0], axis))
-        total += np.maximum(np.concatenate([none, apart], axis), np.concatenate([apart, none], axis))
-    return total
 
 
 def _refined(merit: Merit, starts: Floats, cells: Integers, spacing: float) -> tuple[Floats, Floats]:

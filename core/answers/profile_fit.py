@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import least_squares, minimize_scalar
 from threadpoolctl import threadpool_limits
 
@@ -113,9 +113,9 @@ def fit_profile(
     Parameters
     ----------
     r
-        Places along a line through the axis, in any unit. Where some are negative, or both ends are well above the
-        lowest height, it is a line over both flanks, whose centre is fitted; otherwise the axis is at 0, and the first
-        place within half of the last one of it.
+        Finite places along a line through the axis, in any unit and order. Where some are negative, or both ends are
+        well above the lowest height, it is a line over both flanks, whose centre is fitted; otherwise the axis is at 0,
+        and the first place within half of the last one of it.
     height
         Height of the punch above them, in the same unit: it grows away from the half-space.
     up_to
@@ -134,8 +134,8 @@ def fit_profile(
     Raises
     ------
     ValueError
-        For values that are not finite, too few points, a position given twice with different heights, or heights
-        that do not grow with the distance; the message says what to do.
+        For too few points, none near the axis, or heights that do not grow with the distance; the message says what to
+        do.
 
     Examples
     --------
@@ -151,13 +151,9 @@ def fit_profile(
         raise ValueError(f"terms = {terms}: a series has 1 to {MOST_HARMONICS} terms")
     if exponent is not None and not 1.0 < exponent < math.inf:
         raise ValueError(f'exponent = {exponent}: it is above 1 (a cone of any slope has exponent = "fit"), and finite')
-    places, heights = _in_order(places, heights)
-    vertex = _vertex(places, heights) if places.size >= _FEWEST else 0.0
-    if vertex is None and places[0] < 0.0:
-        raise ValueError(_WRONG_WAY)
-    flanks = places[0] < 0.0 or (vertex is not None and places[0] < vertex < places[-1] and _is_lowest_inside(heights))
-    both = vertex is not None and bool(flanks)
-    centre = vertex if vertex is not None and both else 0.0
+    order = np.argsort(places, kind="stable")
+    places, heights = places[order], heights[order]
+    centre, both = _axis(places, heights) if places.size >= _FEWEST else (0.0, False)
     reach = float(np.max(np.abs(places - centre))) if up_to is None else float(up_to)
     inside = np.abs(places - centre) <= reach * (1.0 + 0.05 * both)  # the centre moves by less
     places, heights = places[inside], heights[inside]
@@ -172,52 +168,33 @@ def fit_profile(
             f"no heights within {places[0]:g} of the axis, which is at r = 0; shift r, so that it is the distance from "
             "the axis"
         )
-    # flanks are no finer together than one of them
-    spacing = (1.0 + both) / max(1, np.unique(np.abs(places / reach - centre / reach)).size - 1)
     lowest, unit = float(heights.min()), float(np.ptp(heights)) or 1.0
     points = _Points(
         x=places / reach,
         y=(heights - lowest) / unit,
         terms=terms,
-        spacing=spacing,
+        # flanks are no finer together than one of them
+        spacing=(1.0 + both) / max(1, np.unique(np.abs(places / reach - centre / reach)).size - 1),
         free=np.array([True, exponent is None, both]),
     )
     with threadpool_limits(1):  # matrices of a few columns: threads only wait for each other
-        numbers = points.best(exponent, centre / reach)
-        return _described(points, numbers, reach, lowest, unit)
+        return _described(points, points.best(exponent, centre / reach), reach, lowest, unit)
 
 
-def _in_order(places: Floats, heights: Floats) -> tuple[Floats, Floats]:
-    """Return points, of shape (n,), from left to right, each place once."""
-    if places.shape != heights.shape or places.ndim != 1 or not places.size:
-        raise ValueError("places and heights are two lists of one length")
-    if not (np.isfinite(places).all() and np.isfinite(heights).all()):
-        raise ValueError("places and heights are to be finite numbers; leave the others out")
-    order = np.argsort(places, kind="stable")
-    places, heights = places[order], heights[order]
-    again = np.flatnonzero(np.diff(places) == 0.0)
-    if np.any(heights[again] != heights[again + 1]):
-        at = places[again[heights[again] != heights[again + 1]][0]]
-        raise ValueError(f"not a function of r: r = {at:g} stands twice with different heights; leave one of them out")
-    keep = np.concatenate([[True], np.diff(places) > 0.0])
-    return places[keep], heights[keep]
+def _axis(places: Floats, heights: Floats) -> tuple[float, bool]:
+    """Return where the axis is, and whether points (n,), from left to right, are those of both flanks.
 
-
-def _is_lowest_inside(heights: Floats) -> bool:
-    """Return whether a line, of shape (n,), has two flanks: at both its ends it is well above its lowest point."""
-    few = max(1, heights.size // 50)
-    ends = min(float(np.median(heights[:few])), float(np.median(heights[-few:])))
-    return ends - float(heights.min()) > 0.25 * float(np.ptp(heights))
-
-
-def _vertex(places: Floats, heights: Floats) -> float | None:
-    """Return the vertex of the parabola that fits points (n,) best, or the end of the line next to it.
-
-    None if the parabola does not open upwards.
+    They are if they begin left of 0, or are well above their lowest one at both ends; the axis is next to the vertex of
+    a parabola then.
     """
     middle, half = 0.5 * (places[0] + places[-1]), 0.5 * (places[-1] - places[0]) or 1.0
     bend, slope, _ = np.polyfit((places - middle) / half, heights, 2)
-    return float(middle + half * np.clip(-0.5 * slope / bend, -1.0, 1.0)) if bend > 0.0 else None
+    few = max(1, heights.size // 50)
+    ends = min(float(np.median(heights[:few])), float(np.median(heights[-few:])))
+    rises = ends - float(heights.min()) > 0.25 * float(np.ptp(heights))
+    if not (bend > 0.0 and (places[0] < 0.0 or (rises and abs(slope) < 2.0 * bend))):
+        return 0.0, False
+    return float(middle + half * np.clip(-0.5 * slope / bend, -1.0, 1.0)), True
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -254,7 +231,11 @@ class _Points:
         step = -(-self.x.size // _SEARCHED)
         few = replace(self, x=self.x[::step], y=self.y[::step])
         rho = np.abs(few.x - centre)
-        m = exponent or _exponent_of_power(rho, few.y)
+        m = exponent or float(
+            minimize_scalar(
+                lambda m: float(np.sum(_left_of_power(m, rho, few.y) ** 2)), bounds=_EXPONENTS, method="bounded"
+            ).x
+        )
         starts = [np.array([waves, m, centre]) for waves in few.periods(rho, _left_of_power(m, rho, few.y))]
         sizes = [float(np.sum(few.projected(start) ** 2)) for start in starts]
         found = [few.refined(starts[i]) for i in np.argsort(sizes)[:_REFINED]]
@@ -310,63 +291,42 @@ def _left_of_power(m: float, rho: Floats, y: Floats) -> Floats:
     return np.asarray(y - columns @ np.linalg.lstsq(columns, y, rcond=None)[0])
 
 
-def _exponent_of_power(rho: Floats, y: Floats) -> float:
-    """Return the exponent of the power alone that fits points (n,) best."""
-
-    def size(m: float) -> float:
-        return float(np.sum(_left_of_power(m, rho, y) ** 2))
-
-    return float(minimize_scalar(size, bounds=_EXPONENTS, method="bounded").x)
-
-
 def _described(points: _Points, numbers: Floats, reach: float, lowest: float, unit: float) -> FittedProfile:
     """Describe a fit in the units of the measurement, with the errors that its residual implies."""
-    waves, m, centre = numbers.tolist()
     columns, roots = points.design(numbers)
-    linear = np.asarray(np.linalg.lstsq(columns * roots[:, None], points.y * roots, rcond=None)[0])
+    linear = np.linalg.lstsq(columns * roots[:, None], points.y * roots, rcond=None)[0]
     if not linear[1] > 0.0:
         raise ValueError(_WRONG_WAY)
-    count = (linear.size - 2) // 2
+    waves, m, centre = numbers.tolist()
     rho, left = np.abs(points.x - centre), (points.y - columns @ linear) * unit
     order = np.argsort(rho)
     inside = order[rho[order] <= 1.0]
-    moving = []  # derivatives of the heights by the numbers, 0 for those that are not free
-    for step in np.diag(1e-6 * np.maximum(1.0, np.abs(numbers)) * points.free):
-        ahead, behind = (points.design(numbers + way * step)[0] @ linear for way in (1.0, -1.0))
-        moving.append((ahead - behind) / (2.0 * step.max() or 1.0))
-    rows = np.linalg.pinv(np.column_stack([columns, *moving]) * roots[:, None]) * roots
-    rows[-3:] *= points.free[:, None]  # 0, where it was so to rounding
-    degrees = max(1.0, float(np.sum(roots**2)) - linear.size - np.count_nonzero(points.free))
-    deviation = math.sqrt(float(np.sum((left * roots) ** 2)) / degrees) / unit
-    spread = deviation * np.sqrt(np.sum(rows**2, axis=1))
-    # R = (m g)^(-1/(m-1)) moves with g = 1/(m R^(m-1)), whose relative error is that of its column, and with m
-    g = linear[1] * unit / reach**m
-    radius = float((m * g) ** (-1.0 / (m - 1.0)))
-    by_m = math.log(m * g) / (m - 1.0) ** 2 - (1.0 / m - math.log(reach)) / (m - 1.0)
-    radius_moves = by_m * rows[-2] - rows[1] / ((m - 1.0) * linear[1])
 
-    def lengths(coefficients: Floats) -> Floats:
-        """Return the coefficients of all harmonics, those left out as 0, in the unit of heights."""
-        return np.pad(coefficients, (0, points.terms - count)) * unit
+    def named(height: float, amplitudes: NDArray[Any]) -> dict[str, Any]:
+        """Return the linear part by name, in the unit of heights; harmonics that are left out are 0."""
+        cosines, sines = np.pad(amplitudes.reshape(2, -1), ((0, 0), (0, points.terms - amplitudes.size // 2))) * unit
+        return {"height": float(height) * unit, "cosines": cosines, "sines": sines}
 
-    return FittedProfile(
-        exponent=m,
-        radius=radius,
-        wavelength=reach / waves,
-        up_to=reach,
-        cosines=lengths(linear[2 : 2 + count]),
-        sines=lengths(linear[2 + count :]),
-        centre=centre * reach,
-        height=float(linear[0]) * unit + lowest,
-        errors={
-            "exponent": float(spread[-2]),
-            "radius": radius * deviation * float(np.linalg.norm(radius_moves)),
-            "wavelength": float(spread[-3]) * reach / waves**2,
-            "cosines": lengths(spread[2 : 2 + count]),
-            "sines": lengths(spread[2 + count : 2 + 2 * count]),
-            "centre": float(spread[-1]) * reach,
-            "height": float(spread[0]) * unit,
-        },
-        distance=rho[inside] * reach,
-        residual=left[inside],
-    )
+    found = named(linear[0] + lowest / unit, linear[2:]) | {
+        "radius": reach * float(linear[1] * m * unit / reach) ** (-1.0 / (m - 1.0)),
+        "wavelength": reach / waves,
+        "exponent": m,
+        "centre": centre * reach,
+    }
+    fit = FittedProfile(**found, errors={}, up_to=reach, distance=rho[inside] * reach, residual=left[inside])
+
+    def slope_to(name: str) -> Floats:
+        """Return the derivative of the fitted heights, by central differences."""
+        step = 1e-6 * (reach if name == "centre" else found[name])
+        ahead, behind = (replace(fit, **{name: found[name] + way}) for way in (step, -step))
+        steps = [one.heights(np.abs(points.x * reach - one.centre)) for one in (ahead, behind)]
+        return np.asarray(steps[0] - steps[1]) / (2.0 * step * unit)
+
+    names = [name for name, free in zip(("wavelength", "exponent", "centre"), points.free, strict=True) if free]
+    jacobian = np.column_stack([columns[:, :1], columns[:, 2:], *map(slope_to, ("radius", *names))]) * roots[:, None]
+    degrees = max(1.0, float(np.sum(roots**2)) - jacobian.shape[1])
+    scales = np.linalg.norm(jacobian, axis=0)
+    spread = math.sqrt(float(np.sum((left * roots) ** 2)) / degrees) / unit / scales
+    spread *= np.linalg.norm(np.linalg.pinv(jacobian / scales) * roots, axis=1)
+    errors = dict.fromkeys(found, 0.0) | named(spread[0], spread[1 : linear.size - 1])
+    return replace(fit, errors=errors | dict(zip(("radius", *names), spread[linear.size - 1 :].tolist(), strict=True)))

@@ -33,29 +33,22 @@ _LEAST_SHARE: Final = 2.0**-54  # samples are strictly between the bounds: a mod
 
 @dataclass(frozen=True, kw_only=True)
 class Spread:
-    """How an input is distributed about the value of a scene.
+    """How an input is distributed about the value of a scene: normally between bounds, or uniformly.
 
-    Parameters
-    ----------
-    deviation, relative
-        The standard deviation of a normal distribution, > 0, and whether it is a share of the value of the scene.
-    low, high
-        Where the normal distribution is truncated; `high` may be an array that broadcasts with the values.
-    uniform
-        Whether all values between `low` and `high` are equally likely instead, whatever the scene.
-
-    Examples
-    --------
     >>> amplitude = Spread(deviation=0.05, relative=True, low=0.0)
     >>> amplitude.quantiles(0.02, [0.5]).round(12).tolist(), round(float(amplitude.standard_deviation(0.02)), 9)
     ([0.02], 0.001)
     """
 
     deviation: float = 1.0
+    """The standard deviation of the normal distribution, > 0."""
     relative: bool = False
+    """Whether that is a share of the value of the scene."""
     low: float = -np.inf
     high: Any = np.inf
+    """Where the distribution ends; an array that broadcasts with the values."""
     uniform: bool = False
+    """Whether all values between the bounds are equally likely, whatever the scene."""
 
     def _normal(self, values: ArrayLike) -> tuple[Floats, Floats, Floats, Floats]:
         """Return centre and deviation of the normal distribution, and its bounds in deviations from the centre."""
@@ -119,12 +112,10 @@ def statistics_of(samples: Floats) -> Mapping[str, Floats]:
     """
     there = ~np.isnan(samples)
     counts = there.sum(-1)
-    last = np.maximum(counts - 1, 0)
-    ordered = np.sort(samples, -1)  # NaN last
+    last, ordered = np.maximum(counts - 1, 0), np.sort(samples, -1)  # NaN last
     with np.errstate(all="ignore"):  # without samples there is no mean, and infinite ones have no deviation
         mean = np.sum(samples, -1, where=there) / counts
-        apart = samples - mean[..., None]
-        found = {"mean": mean, "std": np.sqrt(np.sum(apart * apart, -1, where=there) / counts)}
+        found = {"mean": mean, "std": np.sqrt(np.sum((samples - mean[..., None]) ** 2, -1, where=there) / counts)}
         for name, share in QUANTILES.items():
             low = np.floor(share * last).astype(np.int64)
             ends = np.stack([low, np.minimum(low + 1, last)], -1)

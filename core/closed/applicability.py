@@ -21,8 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from gradhesion.core.closed.envelope import chis
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import PARAMETERS, RANGE, VALIDITY
-from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.shape import rows_of, swings
+from gradhesion.core.problem.profile import Profile, rows_of, swings
 
 _Array = NDArray[np.float64]
 _SLOPE: Final = -1.0

@@ -23,8 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 from gradhesion.core.equations import envelopes, hertz
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import INTEGERS, REACH, RESULTS
-from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.shape import rows_of, swings_of
+from gradhesion.core.problem.profile import Profile, rows_of, swings_of
 from gradhesion.core.problem.status import NO_VALUE
 
 _Array = NDArray[np.float64]

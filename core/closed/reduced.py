@@ -7,12 +7,13 @@ loading, at the work of closing; all others are at work_of_adhesion, that of ope
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gradhesion.core.closed.similarity import amplitude_of_ratio, jump_in_radius_of_envelope, similarity_length
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
 from gradhesion.core.problem.names import CLOSING, PARAMETERS
 
@@ -23,12 +24,28 @@ def _ways() -> dict[str, dict[str, tuple[str, ...]]]:
     """Return for each parameter the inputs that can give it and what else that needs, reduced ones first."""
     found: dict[str, dict[str, tuple[str, ...]]] = {}
     for name, one in sorted(INPUTS.items(), key=lambda item: item[0] in PHYSICAL):
-        if one.follows:
+        if one.needs:
             found.setdefault(one.instead_of or one.gives, {})[name] = one.needs
     return found
 
 
-_FORMULAS: Final = {name: one.follows for name, one in INPUTS.items() if one.follows}
+def _of_chi(chi: Any, k: Any, nu: Any, modulus: Any, c0_over_R: Any, lambda_over_R: Any) -> Any:
+    """Return the amplitude over the wavelength that makes a roughness parameter."""
+    return amplitude_of_ratio(k, nu, modulus, c0_over_R, lambda_over_R, chi)
+
+
+def _over_length(ratio: Any, *material: Any) -> Any:
+    """Return what is given over the similarity length L, over R."""
+    return ratio * similarity_length(*material)
+
+
+_FORMULAS: Final[dict[str, Callable[..., Any]]] = {
+    **{name: one.follows for name, one in INPUTS.items() if one.follows},
+    "lambda_over_L": _over_length,
+    "chi": _of_chi,
+    "a_max_over_L": _over_length,
+    "a_max_over_a2": lambda ratio, *scene: ratio * jump_in_radius_of_envelope(*scene),
+}
 WAYS: Final = _ways()
 """Variables that can give a parameter, and what else that needs; in the order in which they follow from another."""
 _IN_WAYS: Final = {name for ways in WAYS.values() for way, needed in ways.items() for name in (way, *needed)}

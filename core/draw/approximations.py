@@ -11,7 +11,7 @@ effective    the path along them, without the single waves, (5.28)-(5.35): jump-
              surface; loading along its envelope; early unloading at the radius of the turn, where the load is linear in
              the depth; unloading along its envelope; jump-out at its fold
 
-What is drawn has the names of CURVES (problem/names.py): arrays (points,) of a/R, depth/R and load/(1.5 pi R w_o).
+What is drawn are arrays (points,) of a/R, depth/R and load/(1.5 pi R w_o), in the order of CURVES (problem/names.py).
 """
 
 from typing import Any, Final
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from gradhesion.core.curve.values import Curve
 from gradhesion.core.draw.sampling import Line, line_of, sample, spans_of
 from gradhesion.core.draw.scene import Drawn, Frame, extrema_of, table_for, waves_of
-from gradhesion.core.problem.shape import swings
+from gradhesion.core.problem.profile import swings
 from gradhesion.core.scenes.reduced import BY_POWER, BY_WAVES, WINDOW
 from gradhesion.core.table.layout import BY_DEPTH, BY_LOAD
 from gradhesion.core.table.leading import amplitude_of
@@ -53,25 +53,25 @@ def _turns(frame: Frame, pulls: tuple[float, ...], end: float) -> Floats:
     return places[(places > 0.0) & (places < end)]
 
 
-def _through(drawn: Drawn, line: Line, places: Floats) -> Floats:
+def _sampled(drawn: Drawn, line: Line, places: Floats) -> Floats:
     """Return points of a line from no contact through places to the end of what is drawn, (3, n)."""
     corners = line.points(np.concatenate([[0.0], places, [drawn.end]]))
     return sample(line, corners, np.arange(corners.shape[1]) > 0, spans_of(corners))[0]
 
 
-def _named(drawn: Drawn, points: Floats, name: str) -> dict[str, Floats]:
-    """Return the variables `name_...` of points."""
-    radii = drawn.frame.radii(points[0], drawn.end)
-    return {f"{name}_contact_radius": radii, f"{name}_indentation": points[1], f"{name}_load": points[2]}
+def _through(drawn: Drawn, line: Line, places: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return their radii a/R, depths and loads."""
+    y, depth, load = _sampled(drawn, line, places)
+    return drawn.frame.radii(y, drawn.end), depth, load
 
 
-def draw_smooth(drawn: Drawn, name: str = "smooth") -> dict[str, Floats]:
+def draw_smooth(drawn: Drawn) -> tuple[Floats, ...]:
     """Return the curve of the same power without waves, at the work of opening."""
     places = _turns(drawn.frame, (1.0,), drawn.end)
-    return _named(drawn, _through(drawn, _smooth_line(drawn.frame, 1.0), places), name)
+    return _through(drawn, _smooth_line(drawn.frame, 1.0), places)
 
 
-def draw_asymptotic(drawn: Drawn) -> dict[str, Floats] | None:
+def draw_asymptotic(drawn: Drawn) -> tuple[Floats, ...] | None:
     """Return the curve of the leading terms of short waves, (5.15)-(5.20), None if it folds too often.
 
     Depth includes the mean height that the printed form drops. It is not valid where the contact is no larger than a
@@ -79,7 +79,7 @@ def draw_asymptotic(drawn: Drawn) -> dict[str, Floats] | None:
     """
     frame, end = drawn.frame, drawn.end
     if frame.reduced[BY_WAVES, 0] == 0.0:
-        return draw_smooth(drawn, "asymptotic")
+        return draw_smooth(drawn)
     B, g = frame.reduced[[BY_POWER, BY_WAVES], 0].tolist()
     need = min(frame.reduced[WINDOW, 0], end)
     while True:
@@ -92,7 +92,7 @@ def draw_asymptotic(drawn: Drawn) -> dict[str, Floats] | None:
             break
         need = min(3.0 * need, end)
     line = line_of(by_depth, made[1], frame.units, *waves_of(frame))
-    return _named(drawn, _through(drawn, line, np.union1d(folds, extrema)), "asymptotic")
+    return _through(drawn, line, np.union1d(folds, extrema))
 
 
 def _envelopes(frame: Frame) -> tuple[float, float, float]:
@@ -103,7 +103,7 @@ def _envelopes(frame: Frame) -> tuple[float, float, float]:
     return float(1.0 - one * up), float(1.0 + one * down), float(g * waves[:, 1].sum())
 
 
-def draw_envelope(drawn: Drawn) -> dict[str, Floats]:
+def draw_envelope(drawn: Drawn) -> tuple[Floats, ...]:
     """Return the two envelopes of the asymptotic curve at common radii, (5.21)-(5.27).
 
     Depths include the mean height of the waves; without it the exact curve would not lie between.
@@ -113,28 +113,24 @@ def draw_envelope(drawn: Drawn) -> dict[str, Floats]:
     rise += frame.root - 1.0
     lines = [_smooth_line(frame, pull, height) for pull in (rise, fall)]
     corners = _turns(frame, (rise, fall), drawn.end)
-    y = np.unique(np.concatenate([_through(drawn, line, corners)[0] for line in lines]))
-    found = {"envelope_contact_radius": frame.radii(y, drawn.end)}
-    for name, line in zip(("loading", "unloading"), lines, strict=True):
-        _, depth, load = line.points(y)
-        found |= {f"{name}_envelope_indentation": depth, f"{name}_envelope_load": load}
-    return found
+    y = np.unique(np.concatenate([_sampled(drawn, line, corners)[0] for line in lines]))
+    return frame.radii(y, drawn.end), *(row for line in lines for row in line.points(y)[1:])
 
 
-def draw_effective(drawn: Drawn, *, turned: bool) -> dict[str, NDArray[Any]]:
-    """Return the effective path of a cycle; `effective_jump` is 1 at a point that is reached by a jump.
+def draw_effective(drawn: Drawn) -> tuple[NDArray[Any], ...]:
+    """Return the effective path of a cycle; its last variable is 1 at a point that is reached by a jump.
 
     Loading starts without contact at depth 0, touches the mean surface and jumps in there, to the a_2 of (5.34). For
     chi_+ >= 1 there is no radius a_2: contact grows from a point, without a jump. A rim within a_2 is reached by the
     jump-in, and unloading starts from there along the line (5.32). At k = 1 contact ends by shrinking to a point. An
-    unbounded punch that is not `turned` is loaded up to 2 a_2, or to the pull-off radius of its unloading envelope if
+    unbounded punch that does not turn is loaded up to 2 a_2, or to the pull-off radius of its unloading envelope if
     that is larger. The sum of P d(delta) over its lines is the energy of the solver of envelopes with the rim at the
     turn, chords apart.
     """
     frame, m, k = drawn.frame, drawn.frame.punch.exponent, drawn.frame.k
     rise, fall, height = _envelopes(frame)
     turn = drawn.turn
-    if frame.rim == np.inf and not turned:
+    if frame.rim == np.inf and not drawn.turned:
         turn = max(REACH * frame.place(1.0, rise), frame.place(0.5 * (3.0 + k) / m, fall))
     rise += frame.root - 1.0
     up, down = (_smooth_line(frame, pull, height) for pull in (rise, fall))
@@ -159,13 +155,6 @@ def draw_effective(drawn: Drawn, *, turned: bool) -> dict[str, NDArray[Any]]:
         sample(line, own, np.arange(own.shape[1]) > 0, scales)[0] for line, own in ((up, loading), (down, unloading))
     ]
     y, depth, load = np.concatenate([before, *smooth, out], axis=1)
-    jump = np.zeros(y.size, dtype=np.int8)
-    jump[before.shape[1]] = start > 0.0
-    jump[-1] = stop > 0.0
-    radii = frame.radii(y, turn if turn == drawn.turn else np.nan)
-    return {
-        "effective_contact_radius": radii,
-        "effective_indentation": depth,
-        "effective_load": load,
-        "effective_jump": jump,
-    }
+    jump = np.zeros(y.size)
+    jump[before.shape[1]], jump[-1] = start > 0.0, stop > 0.0
+    return frame.radii(y, turn if turn == drawn.turn else np.nan), depth, load, jump

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
@@ -14,71 +14,61 @@ from gradhesion.core.draw.approximations import draw_asymptotic, draw_effective,
 from gradhesion.core.draw.path import draw_equilibrium, draw_jumps, draw_path
 from gradhesion.core.draw.scene import Drawn, draw_scene, frame_of
 from gradhesion.core.problem.control import BY_DISPLACEMENT, Loading
-from gradhesion.core.problem.names import CLOSING, CURVES, PARAMETERS, PATTERN, PATTERN_CURVES, TURNS, WITHOUT_LOAD
-from gradhesion.core.problem.profile import WAVY, Profile
-from gradhesion.core.problem.shape import starts_downwards
+from gradhesion.core.problem.names import (
+    CLOSING,
+    CURVES,
+    GENERAL_CURVES,
+    PARAMETERS,
+    PATTERN,
+    PATTERN_CURVES,
+    TURNS,
+    WITHOUT_LOAD,
+)
+from gradhesion.core.problem.outputs import VARIABLES
+from gradhesion.core.problem.profile import WAVY, Profile, starts_downwards
 from gradhesion.core.problem.status import FAILED, NO_VALUE
 from gradhesion.core.sweep import request_of, solve
 
 if TYPE_CHECKING:
-    from gradhesion.core.problem.rate import Rate
-    from gradhesion.core.problem.toughness import Toughness
+    from gradhesion.core.problem.toughness import Rate, Toughness
 
-_TYPES: Final[dict[str, type[np.signedinteger[Any]]]] = {
-    "stable": np.int8,
-    "closing_stable": np.int8,
-    "path_branch": np.int32,
-    "path_jump": np.int8,
-    "path_unloading": np.int8,
-    "effective_jump": np.int8,
-    "jump_unloading": np.int8,
-    "jump_at_rim": np.int8,
-}
-INTEGERS: Final = frozenset(_TYPES)
+_TYPES: Final = {name: np.dtype(VARIABLES[name].dtype) for names in CURVES.values() for name in names}
+INTEGERS: Final = frozenset(name for name, dtype in _TYPES.items() if dtype.kind == "i")
 """The variables that are integers; the others are float64."""
 _OF_A_CYCLE: Final = ("path", "jumps", "effective")
 """The curves that turn where the cycle does."""
-GENERAL_CURVES: Final = ("equilibrium", "closing_equilibrium", "path", "smooth", "jumps")
-"""The curves of any profile under any control."""
 _Curves = dict[str, NDArray[Any]]
 
 
-def _without_contact(curve: str, scene: Mapping[str, float]) -> _Curves:
-    """Return a curve of a cycle that turns before it makes contact: one point, no jump."""
+def _blank(curve: str, value: float) -> _Curves:
+    """Return a curve of one point, or of no jump, whose variables have a value (NaN: integers are -1)."""
     size = 0 if curve == "jumps" else 1
-    variables: _Curves = {name: np.zeros(size, _TYPES.get(name, np.float64)) for name in CURVES[curve]}
-    if curve == "path":
-        variables["path_indentation"][:] = scene["indentation_max_over_R"]
-    return variables
+    blank = {name: -1 if math.isnan(value) and name in INTEGERS else value for name in CURVES[curve]}
+    return {name: np.full(size, one, _TYPES[name]) for name, one in blank.items()}
 
 
-def _without_value(curve: str) -> _Curves:
-    """Return a curve that has no value."""
-    size = 0 if curve == "jumps" else 1
-    return {
-        name: np.full(size, -1, _TYPES[name]) if name in _TYPES else np.full(size, np.nan) for name in CURVES[curve]
-    }
-
-
-def _draw(drawn: Drawn, curve: str, *, turned: bool, grows: bool) -> _Curves | None:
+def _draw(drawn: Drawn, curve: str, *, grows: bool) -> _Curves | None:
     """Return the variables of a curve by name, as those of `draw_curves`; None where it has no value.
 
-    `turned`: the cycle turns at a given depth or load, not at the rim; `grows`: its contact grows from a point, so
-    that its first jump is none.
+    `grows`: contact grows from a point, so that its first jump is none.
     """
-    if curve in _OF_A_CYCLE and math.isnan(drawn.turn):
+    drawers: dict[str, Callable[[], tuple[NDArray[Any], ...] | None]] = {
+        "equilibrium": partial(draw_equilibrium, drawn),
+        "closing_equilibrium": partial(draw_equilibrium, drawn, closing=True),
+        "path": partial(draw_path, drawn, grows=grows),
+        "jumps": partial(draw_jumps, drawn, grows=grows),
+        "asymptotic": partial(draw_asymptotic, drawn),
+        "envelope": partial(draw_envelope, drawn),
+        "effective": partial(draw_effective, drawn),
+        "smooth": partial(draw_smooth, drawn),
+    }
+    of_sides = curve in ("equilibrium", "closing_equilibrium", "path", "jumps")
+    if (curve in _OF_A_CYCLE and math.isnan(drawn.turn)) or (of_sides and not drawn.sides):
         return None
-    if curve == "effective":
-        return draw_effective(drawn, turned=turned)
-    if curve in ("smooth", "envelope", "asymptotic"):
-        return {"smooth": draw_smooth, "envelope": draw_envelope, "asymptotic": draw_asymptotic}[curve](drawn)
-    if drawn.closing is None or drawn.opening is None:
+    found = drawers[curve]()
+    if found is None or not all(np.isfinite(values).all() for values in found):
         return None
-    if curve in ("path", "jumps"):
-        of_cycle = draw_path if curve == "path" else draw_jumps
-        return of_cycle(drawn, drawn.closing, drawn.opening, grows=grows)
-    side = drawn.opening if curve == "equilibrium" else drawn.closing
-    return dict(zip(CURVES[curve], draw_equilibrium(drawn, side), strict=True))
+    return {name: values.astype(_TYPES[name]) for name, values in zip(CURVES[curve], found, strict=True)}
 
 
 def _check(
@@ -137,7 +127,7 @@ def draw_curves(
         and `scene` has the parameters of the pattern.
     rate
         How the work of adhesion grows with the speed, as in `solve`: the path is that of the moving edge then
-        (rate/curves.py), and `scene` has speed_over_reference.
+        (rate/cycle.py), and `scene` has speed_over_reference.
 
     Returns
     -------
@@ -180,7 +170,7 @@ def draw_curves(
     profile, loading = profile or WAVY, loading or BY_DISPLACEMENT
     turn = _check(scene, curves, loading, toughness)
     if rate is not None:
-        from gradhesion.core.rate.curves import draw_at_speed  # noqa: PLC0415 (seldom wanted)
+        from gradhesion.core.rate.cycle import draw_at_speed  # noqa: PLC0415 (seldom wanted)
 
         own: dict[str, Any] = {"profile": profile, "loading": loading}
         return draw_at_speed(scene, curves, rate, own, partial(draw_curves, **own))
@@ -203,14 +193,14 @@ def draw_curves(
     failed = drawn_cycle = False
     for curve in curves:
         variables = None
-        if radius == 0.0 and curve in _OF_A_CYCLE:
-            variables = _without_contact(curve, scene)
+        if radius == 0.0 and curve in _OF_A_CYCLE:  # the cycle turns before it makes contact
+            variables = _blank(curve, 0.0)
+            if curve == "path":
+                variables["path_indentation"][:] = scene["indentation_max_over_R"]
         elif drawn is not None:
             with np.errstate(all="ignore"):
-                variables = _draw(drawn, curve, turned=turn is not None, grows=grows)
-        if variables is None or not all(np.isfinite(values).all() for values in variables.values()):
-            failed, variables = True, _without_value(curve)
-        elif curve in ("path", "jumps"):
-            drawn_cycle = True
-        result |= variables
+                variables = _draw(drawn, curve, grows=grows)
+        failed |= variables is None
+        drawn_cycle |= variables is not None and curve in ("path", "jumps")
+        result |= _blank(curve, math.nan) if variables is None else variables
     return result, (status & ~FAILED if drawn_cycle else 0) | (NO_VALUE if failed else 0)

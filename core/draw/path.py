@@ -36,13 +36,14 @@ _ROUNDING: Final = 1e-12
 """Relative distance of radii that are one."""
 
 
-def draw_equilibrium(drawn: Drawn, side: Side) -> tuple[Floats, Floats, Floats, NDArray[np.int8]]:
+def draw_equilibrium(drawn: Drawn, *, closing: bool = False) -> tuple[NDArray[Any], ...]:
     """Return the radius, depth and load of a whole curve, and whether it is stable, from no contact to the end.
 
-    Folds count as not stable, so that the line between two points is stable where one of them is: each branch has a
-    point in its inside.
+    It is that of opening, or of `closing`. Folds count as not stable, so that the line between two points is stable
+    where one of them is: each branch has a point in its inside.
     """
-    folds, end = side.folds(drawn.end), drawn.end
+    side, end = drawn.sides[0 if closing else 1], drawn.end
+    folds = side.folds(end)
     edges = np.concatenate([[0.0], folds, [end]])
     extrema = side.extrema[side.extrema < end]
     lonely = np.searchsorted(extrema, edges[1:]) == np.searchsorted(extrema, edges[:-1])
@@ -54,7 +55,7 @@ def draw_equilibrium(drawn: Drawn, side: Side) -> tuple[Floats, Floats, Floats, 
     branch = np.searchsorted(starts, y, "left") - 1  # the last one that starts below
     stable = (branch >= 0) & (y < np.append(ends, 0.0)[branch])
     stable |= (y == 0.0) & (starts[:1] == 0.0).any()
-    return drawn.frame.radii(y, end), points[1], points[2], stable.astype(np.int8)
+    return drawn.frame.radii(y, end), points[1], points[2], stable
 
 
 @kernel
@@ -129,9 +130,9 @@ def _put_jump(frame: Frame, side: Side, corners: list[_Corner], y: float, branch
     corners.append((y, depth, load, 0.0, branch, 1.0))
 
 
-def find_corners(drawn: Drawn, closing: Side, opening: Side, *, grows: bool) -> Corners:
+def find_corners(drawn: Drawn, *, grows: bool) -> Corners:
     """Return the corners of the path of a cycle; where the contact `grows` from a point its first jump is none."""
-    frame, turn = drawn.frame, drawn.turn
+    frame, turn, (closing, opening) = drawn.frame, drawn.turn, drawn.sides
     jumps = np.empty((JUMP_ROWS, 2 * (closing.trace.shape[1] + opening.trace.shape[1])))
     traces = closing.trace, closing.visited, opening.trace, opening.branches
     loading, total = list_jumps(closing.curve, opening.curve, turn, *traces, jumps)
@@ -161,32 +162,25 @@ def find_corners(drawn: Drawn, closing: Side, opening: Side, *, grows: bool) -> 
     return Corners(np.array(up).T, np.array(down).T, pinned, jumps[:, :total], loading)
 
 
-def draw_path(drawn: Drawn, closing: Side, opening: Side, *, grows: bool) -> dict[str, NDArray[Any]]:
+def draw_path(drawn: Drawn, *, grows: bool) -> tuple[NDArray[Any], ...]:
     """Return the path of a cycle: from depth zero without contact up to the turn, and back until contact ends.
 
     The line from the point before is a jump, or unloading, if a point is marked so. Unloading begins pinned where the
     equilibrium of opening at the turn is not as deep as loading comes there. The path of an unbounded punch turns at
     the end of the drawn range. The sum of P d(delta) over its lines is the energy of a cycle but for the chords.
     """
-    corners = find_corners(drawn, closing, opening, grows=grows)
+    corners = find_corners(drawn, grows=grows)
     scales = spans_of(np.concatenate([corners.up[:3], corners.down[:3]], axis=1))
     rows = []
-    for unloading, (own, side) in enumerate(((corners.up, closing), (corners.down, opening))):
+    for unloading, (own, side) in enumerate(zip((corners.up, corners.down), drawn.sides, strict=True)):
         points, owner = sample(side.line, np.ascontiguousarray(own[:3]), own[JOINED] > 0.0, scales)
         found = np.array([*points, own[BRANCH, owner], own[JUMP, owner], np.full(owner.size, unloading)])
         rows.append(found if corners.pinned or not unloading else found[:, 1:])
-    y, depth, load, branch, jump, unloads = np.concatenate(rows, axis=1)
-    return {
-        "path_contact_radius": drawn.frame.radii(y, drawn.turn),
-        "path_indentation": depth,
-        "path_load": load,
-        "path_branch": branch.astype(np.int32),
-        "path_jump": jump.astype(np.int8),
-        "path_unloading": unloads.astype(np.int8),
-    }
+    y, *others = np.concatenate(rows, axis=1)
+    return drawn.frame.radii(y, drawn.turn), *others
 
 
-def draw_jumps(drawn: Drawn, closing: Side, opening: Side, *, grows: bool) -> dict[str, NDArray[Any]]:
+def draw_jumps(drawn: Drawn, *, grows: bool) -> tuple[NDArray[Any], ...]:
     """Return every jump of a cycle, in the order of the path: from the jump-in to the jump-out.
 
     An energy may be negative: a jump on loading over a groove that adhesion does not close gains some, but the contact
@@ -194,7 +188,7 @@ def draw_jumps(drawn: Drawn, closing: Side, opening: Side, *, grows: bool) -> di
     `dissipated_energy`.
     """
     frame = drawn.frame
-    corners = find_corners(drawn, closing, opening, grows=grows)
+    corners = find_corners(drawn, grows=grows)
     all_corners = np.concatenate([corners.up, corners.down[:, 0 if corners.pinned else 1 :]], axis=1)
     after = np.flatnonzero(all_corners[JUMP])
     jumps, unloading = corners.jumps, np.arange(corners.jumps.shape[1]) >= corners.loading
@@ -204,13 +198,13 @@ def draw_jumps(drawn: Drawn, closing: Side, opening: Side, *, grows: bool) -> di
     jumps, unloading, after = jumps[:, kept], unloading[kept], after[kept]
     before, rim = after - 1, drawn.turn if drawn.turn == frame.rim else np.nan
     work = 2.0 * np.pi * frame.units[0] ** 2 * np.where(unloading, 1.0, frame.root**2)
-    return {
-        "jump_indentation": all_corners[DEPTH, before],
-        "jump_radius_before": frame.radii(jumps[LEFT], drawn.turn),
-        "jump_radius_after": frame.radii(jumps[LANDED], drawn.turn),
-        "jump_energy": work * jumps[LOSS],
-        "jump_load_before": all_corners[LOAD, before],
-        "jump_load_after": all_corners[LOAD, after],
-        "jump_unloading": unloading.astype(np.int8),
-        "jump_at_rim": ((jumps[LEFT] == rim) | (jumps[LANDED] == rim)).astype(np.int8),
-    }
+    return (
+        all_corners[DEPTH, before],
+        frame.radii(jumps[LEFT], drawn.turn),
+        frame.radii(jumps[LANDED], drawn.turn),
+        work * jumps[LOSS],
+        all_corners[LOAD, before],
+        all_corners[LOAD, after],
+        unloading,
+        (jumps[LEFT] == rim) | (jumps[LANDED] == rim),
+    )

@@ -148,16 +148,15 @@ class Drawn(NamedTuple):
     frame             in reduced form
     end               how far it is drawn
     turn              where its cycle turns; 0: before it makes contact; NaN: not known
-    source            what its bins are filled from
-    closing, opening  its curves; None if they fold too often to be drawn
+    turned            whether it turns at a given depth or load, not at the rim
+    sides             its curves of closing and opening; none if they fold too often to be drawn
     """
 
     frame: Frame
     end: float
     turn: float
-    source: Source | None
-    closing: Side | None
-    opening: Side | None
+    turned: bool
+    sides: tuple[Side, ...]
 
 
 def frame_of(request: Request) -> Frame | None:
@@ -259,31 +258,27 @@ def draw_scene(frame: Frame, turn: float | None, pulled: float) -> Drawn:
     pulled
         a/R of the pull-off, if an unbounded punch turns.
     """
-    length, y_end = frame.units[0], frame.rim
+    length, y_end, sides, complete = frame.units[0], frame.rim, tuple[Side, ...](), False
     turned = frame.rim if turn is None else turn / length
     if y_end == math.inf and turn is not None:
         y_end = BEYOND * float(np.fmax(turned, pulled / length))
-    need = min(max(frame.reduced[WINDOW, 0], frame.reduced[PULL, 0]), y_end)
+    end, need = y_end, min(max(frame.reduced[WINDOW, 0], frame.reduced[PULL, 0]), y_end)
     if frame.is_patterned and y_end < math.inf:
         need = y_end
-    source, sides, end = None, None, y_end
-    while sides is None and (made := table_for(frame, EXACT, need)) is not None:
-        source = made[1]
-        opening = _side(frame, 1.0, made, y_end)
-        closing = opening if frame.root == 1.0 else _side(frame, frame.root, made, y_end)
-        if opening is not None and closing is not None:
-            sides = closing, opening
+    while not complete and (made := table_for(frame, EXACT, need)) is not None:
+        roots = (frame.root, 1.0) if frame.root != 1.0 else (1.0,)
+        found = [side for root in roots if (side := _side(frame, root, made, y_end)) is not None]
+        if len(found) == len(roots):
+            sides = found[0], found[-1]
             end = y_end if y_end < math.inf else _end_of(frame, sides)
-            if frame.is_patterned and end > span_of(opening.curve.table):
-                sides = None
+            complete = not (frame.is_patterned and end > span_of(sides[1].curve.table))
         need = min(3.0 * need, y_end)
-    if sides is None:
+    if not complete:
         end = y_end if y_end < math.inf else _end_of(frame, ())
-        return Drawn(frame, end, turned if turned < math.inf else end, source, None, None)
-    closing, opening = sides
+        return Drawn(frame, end, turned if turned < math.inf else end, turn is not None, ())
     turned = end if turned == math.inf else turned
-    landings = closing.trace[LANDING, closing.visited]
+    landings = sides[0].trace[LANDING, sides[0].visited]
     near = landings[np.abs(landings - turned) <= _SAME * turned]
     if turned < frame.rim and near.size:
         turned = float(near[0])
-    return Drawn(frame, end, turned, source, closing, opening)
+    return Drawn(frame, end, turned, turn is not None, sides)

@@ -17,12 +17,13 @@ from gradhesion.core.equations import general, quadrature
 from gradhesion.core.equations._arguments import Array
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
+from gradhesion.core.problem.outputs import CURVES
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.sweep import solve
 
 NAMED_STATES: Final = ("turning_point", "pull_off", "jump_out")
 """The states of a cycle that have a name."""
-STATE_CURVES: Final = ("pressure", "surface")
+STATE_CURVES: Final = tuple(name for name, curve in CURVES.items() if curve.of_a_state)
 """The curves of a state."""
 _FEWEST: Final = 96
 _MOST: Final = 4096
@@ -35,17 +36,8 @@ _WAVES_BEYOND: Final = 2.0
 
 
 def series_of(amplitude: float, profile: Profile) -> tuple[list[float], list[float]]:
-    """Return a profile's waves as coefficients of general.py: a_1, a_2, ... and b_1, b_2, ...
+    """Return a profile's waves of an amplitude A as coefficients of general.py: a_1, a_2, ... and b_1, b_2, ...
 
-    Parameters
-    ----------
-    amplitude
-        A, amplitude over wavelength.
-    profile
-        The shape of the punch.
-
-    Examples
-    --------
     >>> series_of(0.02, Profile())
     ([-0.02], [0.0])
     """
@@ -181,34 +173,29 @@ def draw_states(
         material = float(stiffness(k, scene["nu"], scene["modulus"], scene["c0_over_R"]))
     cosines, sines = series_of(scene["A"], shape)
     wave = (wavelength, cosines, sines, shape.exponent)
-    furthest = float(np.nanmax(states[0], initial=0.0))
-    waves = furthest * len(cosines) / wavelength
+    waves = float(np.nanmax(states[0], initial=0.0)) * len(cosines) / wavelength
     count = int(min(_MOST, max(_FEWEST, math.ceil(_A_WAVE * waves))))
+    half = count // 2
+
+    def pressure(a: float, depth: float) -> tuple[Array, ...]:
+        """Return the pressure of a state, in steps that fall to zero towards the edge, which is left out."""
+        r = a * np.sin(0.5 * math.pi * np.arange(count) / count)
+        return r, quadrature.pressure(k, material, r, a, depth, *wave)
+
+    def surface(a: float, depth: float) -> tuple[Array, ...]:
+        """Return the surface of a state, dense outside the edge, where it leaves the punch with an upright tangent."""
+        end = max(_BEYOND * a, a + (_WAVES_BEYOND * wavelength if cosines else 0.0))
+        outside = a + (end - a) * (np.arange(half + 1) / half) ** 2
+        r = np.concatenate([a * np.arange(half) / half, outside])
+        opening = np.concatenate([np.zeros(half), quadrature.series_gap(k, outside, a, depth, *wave)])
+        height = r**shape.exponent / shape.exponent + wavelength * general.waviness(r / wavelength, cosines, sines)
+        return r, depth - height + opening, np.where(r <= scene["a_max_over_R"], opening, np.nan)
+
     found: dict[str, Array] = {}
-    there = [i for i in range(states.shape[1]) if not np.isnan(states[:, i]).any()]
-    if "pressure" in curves:
-        # steps that fall to zero towards the edge, which itself is left out
-        share = np.sin(0.5 * math.pi * np.arange(count) / count)
-        found["pressure_radius"], found["pressure"] = (np.full((states.shape[1], count), np.nan) for _ in range(2))
-        for i in there:
-            a, depth = states[:, i]
-            found["pressure_radius"][i] = a * share
-            found["pressure"][i] = quadrature.pressure(k, material, a * share, a, depth, *wave)
-    if "surface" in curves:
-        half = count // 2
-        names = ("surface_radius", "surface_displacement", "surface_gap")
-        found |= {name: np.full((states.shape[1], 2 * half + 1), np.nan) for name in names}
-        for i in there:
-            a, depth = states[:, i]
-            end = max(_BEYOND * a, a + (_WAVES_BEYOND * wavelength if cosines else 0.0))
-            # outside they are dense at the edge, where the surface leaves the punch with an upright tangent
-            inside = a * np.arange(half) / half
-            outside = a + (end - a) * (np.arange(half + 1) / half) ** 2
-            r = np.concatenate([inside, outside])
-            opening = np.concatenate([np.zeros(half), quadrature.series_gap(k, outside, a, depth, *wave)])
-            m = shape.exponent
-            height = r**m / m + wavelength * general.waviness(r / wavelength, cosines, sines)
-            found["surface_radius"][i] = r
-            found["surface_displacement"][i] = depth - height + opening
-            found["surface_gap"][i] = np.where(r <= scene["a_max_over_R"], opening, np.nan)
+    for curve, draw, points in (("pressure", pressure, count), ("surface", surface, 2 * half + 1)):
+        if curve in curves:
+            drawn = np.full((len(CURVES[curve].names), states.shape[1], points), np.nan)
+            for i in np.flatnonzero(~np.isnan(states).any(axis=0)):
+                drawn[:, i] = draw(*states[:, i])
+            found |= dict(zip(CURVES[curve].names, drawn, strict=True))
     return found

@@ -20,7 +20,7 @@ from scipy.special import gamma
 from gradhesion.core.equations import hertz, jkr
 from gradhesion.core.equations._arguments import Array, Real, Waves, exponent_of, not_negative, positive, power_of
 from gradhesion.core.equations.general import harmonics
-from gradhesion.core.problem.shape import swings_of
+from gradhesion.core.problem.profile import swings_of
 
 
 def adhesion_strength(k: Real, stiffness: Real) -> Array:

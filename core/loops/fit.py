@@ -34,8 +34,7 @@ from gradhesion.core.loops.starts import starts as starts_of
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import CLOSING, TURNS
 from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.rate import Rate
-from gradhesion.core.problem.toughness import Toughness
+from gradhesion.core.problem.toughness import Rate, Toughness
 from gradhesion.core.types import Floats, Truths
 
 ONE_NUMBER: Final = ("E_star", "E", "modulus", "c0", "c0_over_R", "nu")

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Final
 
-from gradhesion.core.problem.settings import check_settings, setting
+from gradhesion.core.problem.inputs import check_settings, setting
 
 CONTROLS: Final = ("displacement", "load", "machine")
 """What is prescribed: the depth, the load, or the far end of a spring (its stiffness is a parameter of the scene)."""

@@ -1,13 +1,15 @@
 """Every input of a study, declared once: all that schema, messages, manual, datasets and pictures say derives from it.
 
+Those of a whole study are `INPUTS`; those of a table with a class of its own are fields of that, declared by `setting`.
+
 A parameter is what `solve` takes; a reduced or a physical input stands in the place of one, with the formula by which
 that follows. Importing this costs no compiler.
 """
 
 import math
 import operator
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import MISSING, dataclass, field, fields
 from typing import Any, Final
 
 POSITIVE: Final = {"gt": 0.0}
@@ -40,7 +42,7 @@ class Input:
     gives: str = ""
     """The parameter that it is, or that it gives alone or with others."""
     follows: Callable[..., Any] | None = None
-    """How that follows from it and from what it `needs`."""
+    """How that follows from it and from what it `needs`; of reduced inputs closed/reduced.py has the formulas."""
     needs: tuple[str, ...] = ()
     instead_of: str = ""
     """The input that follows from it, where that is no parameter."""
@@ -86,18 +88,6 @@ class Input:
         return inside
 
 
-def _similarity() -> Any:
-    """Return the module of the reduced variables, which takes the compiler."""
-    from gradhesion.core.closed import similarity  # noqa: PLC0415 (as above)
-
-    return similarity
-
-
-def _over_length(ratio: Any, *material: Any) -> Any:
-    """Return what is given over the similarity length L, over R."""
-    return ratio * _similarity().similarity_length(*material)
-
-
 _MATERIAL: Final = ("k", "nu", "modulus", "c0_over_R")
 _UNIT: Final[dict[str, Any]] = {"table": "physical"}
 _LENGTH: Final[dict[str, Any]] = {"table": "physical", "unit": "m", "needs": ("R",), "follows": operator.truediv}
@@ -126,7 +116,7 @@ INPUTS: Final = {one.name: one for one in (
     Input("wavelength", "wavelength lambda of the waviness", r"$\lambda$", '"20 um"', gives="lambda_over_R",
           **_LENGTH, called=("lambda", "lam", "period")),
     Input("lambda_over_L", "wavelength lambda/L of the waviness over the similarity length", r"$\lambda/L$", "0.5",
-          gives="lambda_over_R", needs=_MATERIAL, follows=_over_length),
+          gives="lambda_over_R", needs=_MATERIAL),
     Input("lambda_over_R", "wavelength lambda/R of the waviness", r"$\lambda/R$",
           '{ start = 0.02, stop = 1.0, num = 200, spacing = "log" }', idle_without="A",
           called=("wavelength_over_r", "lam_over_r", "lambda", "lam", "wavelength")),
@@ -134,8 +124,7 @@ INPUTS: Final = {one.name: one for one in (
           gives="A", needs=("R", "lambda_over_R"), follows=lambda height, R, ratio: height / R / ratio, **_UNIT,
           called=("height", "wave_height")),
     Input("chi", "roughness parameter chi = r/s of the waviness", r"$\chi$", "0.5", NOT_NEGATIVE, gives="A",
-          needs=(*_MATERIAL, "lambda_over_R"),
-          follows=lambda chi, *scene: _similarity().amplitude_of_ratio(*scene, chi)),
+          needs=(*_MATERIAL, "lambda_over_R")),
     Input("A", "amplitude over wavelength of the waviness", "$A$", "0.1", NOT_NEGATIVE,
           called=("amplitude_over_wavelength", "amplitude_over_lambda", "a_over_lambda", "amplitude")),
     Input("spring_constant", "spring constant S of the loading machine", "$S$", '"0.2 N/m"', unit="N/m",
@@ -146,10 +135,9 @@ INPUTS: Final = {one.name: one for one in (
     Input("a_max", "radius a_max of the punch (inf: unbounded)", r"$a_{\max}$", '"0.5 mm" or a_max = inf',
           gives="a_max_over_R", infinite=True, **_LENGTH, called=("contact_radius", "max_radius")),
     Input("a_max_over_L", "radius a_max/L of the punch over the similarity length (inf: unbounded)", r"$a_{\max}/L$",
-          "5.0", gives="a_max_over_R", needs=_MATERIAL, follows=_over_length, infinite=True),
+          "5.0", gives="a_max_over_R", needs=_MATERIAL, infinite=True),
     Input("a_max_over_a2", "radius a_max/a_2 of the punch over the jump-in radius of the loading envelope",
-          r"$a_{\max}/a_2$", "2.0", gives="a_max_over_R", needs=(*_MATERIAL, "lambda_over_R", "A"), infinite=True,
-          follows=lambda ratio, *scene: ratio * _similarity().jump_in_radius_of_envelope(*scene)),
+          r"$a_{\max}/a_2$", "2.0", gives="a_max_over_R", needs=(*_MATERIAL, "lambda_over_R", "A"), infinite=True),
     Input("a_max_over_R", "radius a_max/R of the punch (inf: unbounded)", r"$a_{\max}/R$", "inf", infinite=True),
     Input("indentation_max", "depth delta_max at which the cycle turns", r"$\delta_{\max}$", '"50 nm"', ANY,
           gives="indentation_max_over_R", group="turn", **_LENGTH,
@@ -201,3 +189,36 @@ def parameters_in(group: str) -> tuple[str, ...]:
     ('indentation_max_over_R', 'load_max')
     """
     return tuple(name for name, one in INPUTS.items() if one.is_parameter and one.group == group)
+
+
+def setting(about: str, example: str, *, default: Any = MISSING, choices: Sequence[str] = (), **bounds: float) -> Any:
+    """Declare a field.
+
+    Parameters
+    ----------
+    about
+        What it is, for schema and manual.
+    example
+        A value that would do, as TOML has it.
+    default
+        What it is where it is left out.
+    choices
+        The words that it may be.
+    **bounds
+        Of a number, by the names of the comparisons of `operator`: gt, ge, le.
+    """
+    return field(
+        default=default, metadata={"about": about, "example": example, "choices": tuple(choices), "bounds": bounds}
+    )
+
+
+def check_settings(made: Any) -> None:
+    """Raise ValueError for the first setting that is none of its choices, or out of its bounds."""
+    for one in fields(made):
+        value, choices = getattr(made, one.name), one.metadata["choices"]
+        if choices and value not in choices:
+            raise ValueError(f"{one.name} = {value!r}: it is one of {', '.join(choices)}")
+        for sign, limit in one.metadata["bounds"].items():
+            if not getattr(operator, sign)(value, limit):
+                words = {"gt": "above", "ge": "at least", "le": "at most"}[sign]
+                raise ValueError(f"{one.name} = {value!r}: it is {words} {limit:,}")

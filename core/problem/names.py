@@ -19,20 +19,20 @@ RATE: Final = outputs_in("rate")
 OUTPUTS: Final = outputs_in("cycle", "turn")
 """All results of a scene: those of its cycle, and where it turns."""
 REACH: Final = "reach"
-"""The largest end of a jump of an unbounded punch, a/R: `contact_slope` is computed from it (problem/reach.py)."""
+"""The largest end of a jump of an unbounded punch, a/R: `contact_slope` is computed from it (closed/reach.py)."""
 CONTACT_SLOPE: Final = "contact_slope"
-"""The slope (a/R)^(m-1) of the punch at the largest radius on which the other outputs depend (problem/reach.py)."""
+"""The slope (a/R)^(m-1) of the punch at the largest radius on which the other outputs depend (closed/reach.py)."""
 TURNS: Final = parameters_in("turn")
 """Where the cycle turns before the rim, at most one of them: a depth in R, or a load in 1.5 pi R dgamma."""
 PATTERN: Final = parameters_in("toughness")
 """The parameters of a pattern of toughness (problem/toughness.py); the amplitude is 1 where it is not given."""
 (SPEED,) = parameters_in("rate")
-"""The parameter V/v* of an edge whose work grows with its speed (problem/rate.py); 0 where it is not given."""
+"""The parameter V/v* of an edge whose work grows with its speed (problem/toughness.py); 0 where it is not given."""
 (CLOSING,) = parameters_in("works")
 """The parameter w_c/w_o in [0, 1]: the work of adhesion of closing over that of opening; 1 where it is not given."""
 (MACHINE,) = parameters_in("machine")
 """The parameter S/(E* R) of a machine of finite stiffness (problem/control.py)."""
-PULL_OFF: Final = ("pull_off_force", "pull_off_radius")
+PULL_OFF: Final = tuple(name for name in RESULTS if outputs.OUTPUTS[name].depends_on == "pull-off")
 """The results that need no path of loading and unloading."""
 REPORTS: Final = outputs_in("report")
 """All other outputs on request, in the order of their rows."""
@@ -54,6 +54,10 @@ WITHOUT_LOAD: Final[dict[str, str]] = {
     "recoil",
 }
 """Why the other solvers, and the curves of short waves, have displacement control only."""
+GENERAL_CURVES: Final = tuple(
+    name for name, curve in outputs.CURVES.items() if not (curve.needs_depth or curve.of_a_state)
+)
+"""The curves of any profile under any control."""
 PATTERN_CURVES: Final = tuple(name for name, curve in outputs.CURVES.items() if curve.knows_pattern)
 """The curves of an interface whose toughness varies with the radius."""
 CURVES: Final = {

@@ -43,6 +43,9 @@ class Output:
     of the model, the "slope" of the punch, or a "sensitivity"."""
     unit: str = ""
     """In SI; empty for a number."""
+    depends_on: str = "cycle"
+    """What of a cycle it depends on: how "loading" reaches full contact, the "pull-off" alone, all of the "cycle", or
+    nothing."""
     is_count: bool = False
     exact_alone: bool = False
     """Whether the exact solver alone has it."""
@@ -64,18 +67,19 @@ class Output:
 
 
 OUTPUTS: Final = {one.name: one for one in (
-    Output("pull_off_force", "pull-off force F/(1.5 pi R dgamma)", "pull-off force $F$", "cycle", "N"),
-    Output("pull_off_radius", "contact radius a/R at pull-off", "radius at pull-off $a$", "cycle", "m"),
+    Output("pull_off_force", "pull-off force F/(1.5 pi R dgamma)", "pull-off force $F$", "cycle", "N", "pull-off"),
+    Output("pull_off_radius", "contact radius a/R at pull-off", "radius at pull-off $a$", "cycle", "m", "pull-off"),
     Output("dissipated_energy", "energy dissipated in a loading cycle, H/(R^2 dgamma)", "dissipated energy $H$",
-           "cycle", "J", needs_turn=True),
+           "cycle", "J", "loading", needs_turn=True),
     Output("loading_jumps", "number of jumps on loading, including the jump-in", "jumps on loading", "cycle",
-           is_count=True, has_spread=False),
+           depends_on="loading", is_count=True, has_spread=False),
     Output("unloading_jumps", "number of jumps on unloading, including the jump-out", "jumps on unloading", "cycle",
            is_count=True, has_spread=False),
     Output("delta_max", "indentation depth delta/R at which unloading starts, the greatest if the depth is controlled",
-           r"greatest depth $\delta_{\max}$", "cycle", "m"),
+           r"greatest depth $\delta_{\max}$", "cycle", "m", "loading"),
     Output("delta_jump_out", "indentation depth delta/R at the jump-out", r"depth at jump-out $\delta$", "cycle", "m"),
-    Output("loading_energy", "energy dissipated on loading, H/(R^2 dgamma)", "energy of loading $H$", "cycle", "J"),
+    Output("loading_energy", "energy dissipated on loading, H/(R^2 dgamma)", "energy of loading $H$", "cycle", "J",
+           "loading"),
     Output("unloading_energy", "energy dissipated on unloading, H/(R^2 dgamma)", "energy of unloading $H$", "cycle",
            "J"),
     Output("turning_radius", "contact radius a/R at which unloading starts (0: no contact is made)",
@@ -93,28 +97,29 @@ OUTPUTS: Final = {one.name: one for one in (
     Output("energy_residual", "dissipated energy less the loop integral of the load over the depth, in R^2 dgamma",
            "residual of the energy", "report", "J", exact_alone=True, has_spread=False, needs_turn=True),
     Output("roughness_parameter", "roughness parameter chi = r/s of the waviness", r"roughness parameter $\chi$",
-           "report", exact_alone=True),
+           "report", depends_on="", exact_alone=True),
     Output("saturation_radius", "contact radius a/R beyond which the curve has no fold", "saturation radius $a$",
            "report", "m", exact_alone=True),
     Output("adhesion_gain", "pull-off force over that of the smooth punch of the same material and radius",
-           "gain in force $F/F_0$", "report", exact_alone=True),
+           "gain in force $F/F_0$", "report", depends_on="pull-off", exact_alone=True),
     Output("energy_gain", "dissipated energy over that of the smooth punch of the same material and radius",
-           "gain in energy $H/H_0$", "report", exact_alone=True, needs_turn=True),
+           "gain in energy $H/H_0$", "report", depends_on="loading", exact_alone=True, needs_turn=True),
     Output("tabor_parameter", "Tabor parameter of the punch: height of its neck over the range of the attraction",
-           r"Tabor parameter $\mu$", "validity", needs="range"),
+           r"Tabor parameter $\mu$", "validity", depends_on="", needs="range"),
     Output("wave_tabor_parameter", "Tabor parameter of the crests of the waviness",
-           r"Tabor parameter of crests $\mu_w$", "validity", needs="range"),
-    Output("wave_slope", "steepest slope of the waviness", "steepest slope of the waves", "validity"),
+           r"Tabor parameter of crests $\mu_w$", "validity", depends_on="", needs="range"),
+    Output("wave_slope", "steepest slope of the waviness", "steepest slope of the waves", "validity",
+           depends_on=""),
     Output("johnson_alpha", "Johnson's parameter alpha = 1/(sqrt(pi) chi) of the waviness", r"Johnson's $\alpha$",
-           "validity"),
+           "validity", depends_on=""),
     Output("contact_slope", "slope of the punch at the largest contact radius that the other outputs depend on",
            r"contact slope $(a/R)^{m-1}$", "slope", has_spread=False),
     Output("pull_off_force_sensitivity",
            "sensitivity of the pull-off force F to each parameter p: d ln F/d ln p (k, nu: /dp)", r"strongest on $F$",
-           "sensitivity", exact_alone=True, has_spread=False),
+           "sensitivity", depends_on="pull-off", exact_alone=True, has_spread=False),
     Output("dissipated_energy_sensitivity",
            "sensitivity of the energy H to each parameter p: d ln H/d ln p (k, nu: /dp)", r"strongest on $H$",
-           "sensitivity", exact_alone=True, has_spread=False, needs_turn=True),
+           "sensitivity", depends_on="loading", exact_alone=True, has_spread=False, needs_turn=True),
 )}  # fmt: skip
 """Every output of a map, in the order of a dataset."""
 GIVEN_UP: Final = {
@@ -155,6 +160,8 @@ class Curve:
     extent: str
     """The dimension along it."""
     variables: tuple[Variable, ...]
+    depends_on: str = ""
+    """What of a cycle it depends on: how "loading" reaches full contact, or nothing of that."""
     needs_depth: bool = False
     """Whether it is known at a prescribed depth alone."""
     knows_pattern: bool = False
@@ -198,7 +205,7 @@ CURVES: Final = {one.name: one for one in (
         Variable("path_jump", "whether the point is reached by a jump", dtype="i1",
                  meanings="along_a_branch by_a_jump"),
         Variable("path_unloading", "whether the path is loading or unloading", dtype="i1", meanings=_WAYS),
-    ), knows_pattern=True),
+    ), depends_on="loading", knows_pattern=True),
     Curve("asymptotic", "asymptotic_point", (
         Variable("asymptotic_contact_radius", "contact radius a/R of the asymptotic curve", "m"),
         Variable("asymptotic_indentation", "indentation depth delta/R of the asymptotic curve", "m"),
@@ -236,7 +243,7 @@ CURVES: Final = {one.name: one for one in (
         Variable("jump_unloading", "whether the jump is on loading or on unloading", dtype="i1", meanings=_WAYS),
         Variable("jump_at_rim", "whether the jump starts or ends at the rim", dtype="i1",
                  meanings="within_the_rim at_the_rim"),
-    ), knows_pattern=True, knows_rate=False, count="jump_count"),
+    ), depends_on="loading", knows_pattern=True, knows_rate=False, count="jump_count"),
     Curve("pressure", "pressure_point", (
         Variable("pressure_radius", "distance r/R from the axis under the punch", "m"),
         Variable("pressure", "contact pressure p R/dgamma, positive in compression", "Pa"),

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import Final
 
+from gradhesion.core.problem.outputs import CURVES, OUTPUTS
+
 LOADING_NOT_ONE_DISC: Final = 1
 """On loading the surfaces would overlap outside the contact, so that it is not one disc; or a punch of several waves
 touches elsewhere before its centre does. Reported if the loading path is followed, that is, if an output other than
@@ -71,27 +73,16 @@ OF_FITS: Final = {flag.name: flag.bit for flag in OF_LOOPS}
 
 DOUBTFUL: Final = LOADING_NOT_ONE_DISC | UNLOADING_NOT_ONE_DISC | TOLERANCE_NOT_MET
 """The bits of a scene whose values exist but may be wrong."""
-_OF_LOADING: Final = (
-    "dissipated_energy",
-    "loading_energy",
-    "energy_gain",
-    "loading_jumps",
-    "delta_max",
-    "path",
-    "jumps",
-)
-"""Results and curves that depend on how full contact is reached (docs/theory.md, section 12)."""
+FAILED: Final = TOLERANCE_NOT_MET | NO_VALUE
+"""The bits that mean that a scene has failed (the others only inform)."""
 
 
 def doubts_about(result: str, *, turned: bool = False) -> int:
     """Return the bits of `DOUBTFUL` that cast doubt on a result or a curve.
 
-    Where cycles turn at a depth or a load (`turned`), loading determines the turning radius, so a loading that is not
-    one disc casts doubt on every value.
+    That loading is not one disc counts where a result depends on how full contact is reached (docs/theory.md, section
+    12), and for every value where cycles turn at a depth or a load (`turned`): loading determines the turning radius.
     """
-    value = result.split("_sensitivity", maxsplit=1)[0]  # which is as reliable as its value
-    return DOUBTFUL if turned or value in _OF_LOADING else DOUBTFUL & ~LOADING_NOT_ONE_DISC
-
-
-FAILED: Final = TOLERANCE_NOT_MET | NO_VALUE
-"""The bits that mean that a scene has failed (the others only inform)."""
+    name = result.split("_sensitivity", maxsplit=1)[0]  # which is as reliable as its value
+    of_loading = any(name in known and known[name].depends_on == "loading" for known in (OUTPUTS, CURVES))
+    return DOUBTFUL if turned or of_loading else DOUBTFUL & ~LOADING_NOT_ONE_DISC

@@ -1,9 +1,11 @@
-"""A toughness that varies with the radius: a Fourier series that multiplies the toughness, or the work of adhesion.
+"""A toughness that varies with the radius, and a work of adhesion that grows with the speed of the edge.
+
+A Fourier series multiplies the toughness, or the work of adhesion:
 
     t(r) = 1 + toughness_amplitude sum_n [ cos_n cos(2 pi n r/lambda_t) + sin_n sin(2 pi n r/lambda_t) ]
 
 of="toughness": K_c(r) = K_c t, t >= 0;   of="work": w(r) = w t, t > 0. Either way the edge of a contact of radius r has
-the toughness kappa(r) K_c, with kappa = t or its root.
+the toughness kappa(r) K_c, with kappa = t or its root. An edge with a speed v opens at G = w_o [1 + (v/v*)^n].
 """
 
 import math
@@ -13,11 +15,17 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.core.problem.inputs import check_settings, setting
 from gradhesion.core.problem.profile import check_harmonic, check_numbers, number_of_wave
-from gradhesion.core.problem.settings import check_settings, setting
 
 OF: Final = ("toughness", "work")
 """What a pattern multiplies."""
+CLOSINGS: Final = ("quasi-static", "same")
+"""How the contact closes: at the work of closing whatever the speed, or at w_c/[1 + (v/v*)^n]."""
+MOST_WAVES: Final = 16_000.0
+"""Most waves of the shortest harmonic that are followed: a table of them has 75 MB."""
+EXPONENTS: Final = (0.1, 2.0)
+"""The range of n within which the solver has been measured; elastomers have 0.1 to 0.8."""
 _SAMPLES: Final = 16
 """Parts of the shortest wave with which the search for the lowest value begins."""
 _ROUNDING: Final = 8.0 * 2.0**-52
@@ -91,6 +99,42 @@ class Toughness:
     def __post_init__(self) -> None:
         check_settings(self)
         check_numbers("toughness harmonics", [harmonic.n for harmonic in self.harmonics])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rate:
+    """The law of a moving edge (Maugis & Barquins 1978).
+
+    Parameters
+    ----------
+    exponent
+        n, from 0.1 to 2.
+    closing
+        One of `CLOSINGS`.
+
+    Raises
+    ------
+    ValueError
+        For an exponent out of range, or an unknown closing.
+
+    Examples
+    --------
+    >>> Rate(exponent=0.6).closing
+    'quasi-static'
+    """
+
+    exponent: float = setting(
+        "power n of the speed of the edge in its work, 1 + (v/v*)^n", "0.6", ge=EXPONENTS[0], le=EXPONENTS[1]
+    )
+    closing: str = setting(
+        "law of closing: quasi-static whatever the speed, or the same law as for opening",
+        '"same"',
+        default="quasi-static",
+        choices=CLOSINGS,
+    )
+
+    def __post_init__(self) -> None:
+        check_settings(self)
 
 
 def rows_of_pattern(toughness: Toughness) -> NDArray[np.float64]:

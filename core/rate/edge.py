@@ -97,3 +97,29 @@ def lag_of(edge: Edge, slow: float) -> float:
     u = slow ** (-edge.power)
     far = math.sqrt(1.0 + u)
     return float(u / (1.0 + far) if edge.sense > 0.0 else edge.root * u / (far * (1.0 + far)))
+
+
+@kernel
+def pulls_at(edge: Edge, y: float, lag: float) -> tuple[float, float]:
+    """Return need and force at a radius with a lag > 0."""
+    place = place_at(edge, y)
+    return place.push - place.level * (edge.root + edge.sense * lag), place.drag * slowness(edge, lag)[0]
+
+
+@kernel
+def load_at(edge: Edge, y: float, lag: float, slow: float) -> tuple[float, float, float]:
+    """Return the load in opening, its slope by ln y, and what falls from 1 to -1 as y does, through 0 in a trough.
+
+    y dP/dy = T Delta [force - ((3+k)/2 - level) rho]
+    """
+    place, rho = place_at(edge, y), edge.root + edge.sense * lag
+    need, force = (0.5 * (3.0 + edge.curve.table.k) - place.level) * rho, place.drag * slow
+    return state_of(place, rho)[1], place.front * place.adhesion * (force - need), (force - need) / (force + need)
+
+
+@kernel
+def goal(edge: Edge, y: float, lag: float, slow: float, target: float) -> float:
+    """Return what is 0 where a step is to end: a trough of the load in opening, the depth `target` in closing."""
+    if edge.sense > 0.0:
+        return load_at(edge, y, lag, slow)[2]
+    return state_of(place_at(edge, y), edge.root - lag)[0] - target

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from gradhesion.core.jit import kernel
-from gradhesion.core.rate.edge import Edge, lag_of, place_at, slowness, state_of
+from gradhesion.core.rate.edge import Edge, goal, lag_of, place_at, pulls_at, slowness
 from gradhesion.core.types import Floats
 
 Pair: TypeAlias = tuple[float, float]
@@ -53,6 +53,17 @@ class Room(NamedTuple):
     track: Floats  # radii, depths and loads, (3, .), their number in [0, 0]; (3, 0) where nobody asks
 
 
+class Step(NamedTuple):
+    """A step that was made, and where it ends."""
+
+    length: float  # NaN where Newton's method did not converge
+    y: float
+    lag: float
+    slow: float  # u^(-1/n)
+    work: float  # int y rho^2 dy
+    relaxed: float  # how much the lag relaxes in it
+
+
 class Way(NamedTuple):
     """How an edge is followed: s = pace x^grade away from where it starts."""
 
@@ -63,27 +74,10 @@ class Way(NamedTuple):
 
 
 @kernel
-def note(edge: Edge, y: float, lag: float, track: Floats) -> None:
-    """Note where an edge is, in a track that has room for it."""
-    if track.shape[1] > 0 and track[0, 0] < track.shape[1] - 1:
-        track[0, 0] += 1
-        number = int(track[0, 0])
-        track[0, number] = y
-        track[1, number], track[2, number] = state_of(place_at(edge, y), edge.root + edge.sense * lag)
-
-
-@kernel
 def _along(edge: Edge, way: Way, x: float) -> tuple[float, float]:
     """Return y, and ds/dx."""
     away = way.pace * x**way.grade
     return way.start * math.exp(-edge.sense * away), way.grade * (away / x if x > 0.0 else 1.0)
-
-
-@kernel
-def pulls_at(edge: Edge, y: float, lag: float) -> tuple[float, float]:
-    """Return need and force at a radius with a lag > 0."""
-    place = place_at(edge, y)
-    return place.push - place.level * (edge.root + edge.sense * lag), place.drag * slowness(edge, lag)[0]
 
 
 @kernel
@@ -122,12 +116,9 @@ def _set_equations(edge: Edge, drive: float, lag: float, h: float, room: Room) -
 
 
 @kernel
-def advance(edge: Edge, way: Way, x: float, lag: float, h: float, room: Room) -> float:
-    """Make a step of length h from the state (x, lag); `room` then has its nodes.
-
-    Return how much the lag relaxes in the step, NaN if Newton's method did not converge.
-    """
-    nodes, change, done = room.nodes, way.drive, False
+def advance(edge: Edge, way: Way, x: float, lag: float, h: float, room: Room) -> Step:
+    """Make a step of length h from the state (x, lag); `room` then has its nodes."""
+    nodes, change, done, relaxed, length = room.nodes, way.drive, False, 0.0, math.nan
     if lag > 0.0:
         y, pace = _along(edge, way, x)
         need, force = pulls_at(edge, y, lag)
@@ -140,13 +131,12 @@ def advance(edge: Edge, way: Way, x: float, lag: float, h: float, room: Room) ->
     for _ in range(17):
         relaxed = _set_equations(edge, way.drive, lag, h, room)
         if done:
-            return relaxed
+            length = h
+            break
         _solve(room.matrix)
         done = True
         for i in range(STAGES):
             change, old = room.matrix[i, STAGES], nodes[LAG, i]
-            if not abs(change) < math.inf:
-                return math.nan
             part = slowness(edge, old)[1] * change  # of the slowness
             if nodes[SLOW, i] > 0.0 and part > -0.9:
                 nodes[LAG, i] = lag_of(edge, nodes[SLOW, i] * (1.0 + part))
@@ -154,16 +144,10 @@ def advance(edge: Edge, way: Way, x: float, lag: float, h: float, room: Room) ->
                 nodes[LAG, i] = max(old + change, 0.5 * old)
             settled = abs(change) * (1.0 + relaxed) < _ROUNDING * (1.0 + old)
             done = done and (settled or max(abs(part), abs(change)) < _CLOSE)
-    return math.nan
-
-
-@kernel
-def end_of_step(h: float, room: Room) -> tuple[float, float, float, float]:
-    """Return radius, lag and slowness at the end of a step of length h, and its work, int y rho^2 dy."""
     work = 0.0
     for j in range(STAGES):
-        work += h * _WEIGHTS[j] * room.nodes[WORK, j]
-    return room.nodes[RADIUS, -1], room.nodes[LAG, -1], room.nodes[SLOW, -1], work
+        work += h * _WEIGHTS[j] * nodes[WORK, j]
+    return Step(length, nodes[RADIUS, -1], nodes[LAG, -1], nodes[SLOW, -1], work, relaxed)
 
 
 @kernel
@@ -181,66 +165,45 @@ def _spared(values: Floats, loss: float) -> float:
 
 
 @kernel
-def stride(edge: Edge, way: Way, x: float, lag: float, h: float, area: float, room: Room) -> tuple[float, float]:
+def stride(edge: Edge, way: Way, x: float, lag: float, h: float, area: float, room: Room) -> tuple[Step, float]:
     """Make a step as long as its error allows, at most h, from the state (x, lag); `area` is the largest y^2.
 
-    Return its length (NaN if none is possible), and one to try after it.
+    Return it (its length is NaN if none is possible), and a length to try after it.
     """
     nodes, longest = room.nodes, min(_LONGEST, _PART * edge.shortest / _along(edge, way, x)[0])
     h = min(h, (x**way.grade + longest / way.pace) ** (1.0 / way.grade) - x)
+    step = advance(edge, way, x, lag, h, room)
     for _ in range(200):
-        relaxed, error = advance(edge, way, x, lag, h, room), math.inf
-        if not math.isnan(relaxed):
+        error = math.inf
+        if not math.isnan(step.length):
             low, high = edge.root - np.max(nodes[LAG]), edge.root - np.min(nodes[LAG])
-            loss = _LOST * min(1.0, (0.1 * relaxed) ** (STAGES - 1))
+            loss = _LOST * min(1.0, (0.1 * step.relaxed) ** (STAGES - 1))
             loss += _KINK if lag == 0.0 or (edge.sense < 0.0 and 2.0 * low < high and high > 0.0) else 0.0
-            error = h * max(_spared(nodes[BY_LAG], loss) / (1.0 + nodes[LAG, -1]), _spared(nodes[WORK], 0.0) / area)
+            error = h * max(_spared(nodes[BY_LAG], loss) / (1.0 + step.lag), _spared(nodes[WORK], 0.0) / area)
         factor = 0.9 * (_TOLERANCE / max(error, 1e-16 * _TOLERANCE)) ** (1.0 / (2 * STAGES - 1))
         if error <= _TOLERANCE:
-            return h, h * min(4.0, factor)
+            return step, h * min(4.0, factor)
         h *= max(0.15, factor)
-    return math.nan, 0.0
+        step = advance(edge, way, x, lag, h, room)
+    return Step(math.nan, math.nan, math.nan, math.nan, math.nan, math.nan), 0.0
 
 
 @kernel
-def load_at(edge: Edge, y: float, lag: float, slow: float) -> tuple[float, float, float]:
-    """Return the load in opening, its slope by ln y, and what falls from 1 to -1 as y does, through 0 in a trough.
-
-    y dP/dy = T Delta [force - ((3+k)/2 - level) rho]
-    """
-    place, rho = place_at(edge, y), edge.root + edge.sense * lag
-    need, force = (0.5 * (3.0 + edge.curve.table.k) - place.level) * rho, place.drag * slow
-    return state_of(place, rho)[1], place.front * place.adhesion * (force - need), (force - need) / (force + need)
-
-
-@kernel
-def goal(edge: Edge, y: float, lag: float, slow: float, target: float) -> float:
-    """Return what is 0 where a step is to end: a trough of the load in opening, the depth `target` in closing."""
-    if edge.sense > 0.0:
-        return load_at(edge, y, lag, slow)[2]
-    return state_of(place_at(edge, y), edge.root - lag)[0] - target
-
-
-@kernel
-def step_until(
-    edge: Edge, way: Way, x: float, lag: float, ends: Pair, values: Pair, target: float, room: Room
-) -> float:
-    """Make the step from (x, lag) whose end is the goal; return its length, NaN if that fails.
+def step_until(edge: Edge, way: Way, x: float, lag: float, ends: Pair, values: Pair, target: float, room: Room) -> Step:
+    """Make the step from (x, lag) whose end is the goal; its length is NaN if that fails.
 
     Steps of two lengths `ends` reach `values` on either side of it. The rule of false position (Illinois).
     """
     (old, length), (first, last) = ends, values
     for _ in range(60):
         new = length - last * (length - old) / (last - first)
-        if math.isnan(advance(edge, way, x, lag, new, room)):
-            return math.nan
-        y, own, slow, _ = end_of_step(new, room)
-        value = goal(edge, y, own, slow, target)
+        step = advance(edge, way, x, lag, new, room)
+        value = goal(edge, step.y, step.lag, step.slow, target)
         if value * last > 0.0:
             first *= 0.5
         else:
             old, first = length, last
         length, last = new, value
-        if value == 0.0 or not abs(length - old) > 2e-15 * length:
+        if value == 0.0 or not abs(length - old) > 2e-15 * abs(length):
             break
-    return length
+    return step

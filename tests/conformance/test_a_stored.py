@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core import PARAMETERS, solve
-from gradhesion.core.problem.rate import Rate
-from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
+from gradhesion.core.problem.toughness import Rate, Toughness, ToughnessHarmonic
 
 from .kinds import DEPTH, LOAD, ONE, Kind, Scenes
 from .promises import SENSITIVITY, agree

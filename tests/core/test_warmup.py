@@ -19,8 +19,7 @@ from gradhesion.core import (
     solve,
     warm_up,
 )
-from gradhesion.core.problem.rate import Rate
-from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
+from gradhesion.core.problem.toughness import Rate, Toughness, ToughnessHarmonic
 
 SCENE: dict[str, Any] = {
     "k": 0.31,

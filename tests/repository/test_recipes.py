@@ -13,12 +13,6 @@ ROOT = Path(__file__).parents[2]
 ROOMS = ("cli", "configs", "core", "twin")
 
 OUTPUT = {
-    "core/problem/names.py": [
-        (
-            'PULL_OFF: Final = ("pull_off_force", "pull_off_radius")',
-            'PULL_OFF: Final = ("pull_off_force", "pull_off_radius", "pull_off_area")',
-        ),
-    ],
     "core/scenes/results.py": [
         ("SATURATION, STATUS = range(7, 17)", "SATURATION, AREA, STATUS = range(7, 18)"),
         ("RESULT_ROWS: Final = 17", "RESULT_ROWS: Final = 18"),
@@ -38,7 +32,8 @@ OUTPUT = {
         (
             '    Output("turning_radius",',
             (
-                '    Output("pull_off_area", "contact area at pull-off, in R^2", "area at pull-off $/R^2$", "cycle"),\n'
+                '    Output("pull_off_area", "contact area at pull-off, in R^2", "area at pull-off $/R^2$", "cycle",\n'
+                '           depends_on="pull-off"),\n'
                 '    Output("turning_radius",'
             ),
         ),

@@ -9,9 +9,9 @@ from gradhesion.cli.dataset.cautions import CONE
 from gradhesion.cli.dataset.read.model_range import tabor_warnings
 from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.work.solve.fitting import range_words, tabor_of
+from gradhesion.core.closed.reach import SMALL, is_steep, slopes_of
 from gradhesion.core.loops.fitted import FittedLoop
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
-from gradhesion.core.problem.reach import SMALL, is_steep, slopes_of
 
 _CLEAR: Final = 6.0
 """Standard deviations of a tilt that noise does not make: the points of the base line were chosen as level ones."""

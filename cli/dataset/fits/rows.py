@@ -12,8 +12,8 @@ from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.terminal.amounts import bytes_in_words
 from gradhesion.cli.work.solve.fitting import Fit, tabor_of
+from gradhesion.core.closed.reach import is_steep, slopes_of
 from gradhesion.core.loops.fitted import FittedLoop
-from gradhesion.core.problem.reach import is_steep, slopes_of
 from gradhesion.core.problem.status import NO_VALUE
 
 Row = tuple[tuple[str, ...], NDArray[np.generic]]

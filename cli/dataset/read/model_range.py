@@ -12,8 +12,8 @@ from gradhesion.cli.dataset.read.reader import tiling_of
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.terminal.amounts import counted
+from gradhesion.core.closed.reach import SMALL, is_steep
 from gradhesion.core.problem.names import CONTACT_SLOPE, RANGE
-from gradhesion.core.problem.reach import SMALL, is_steep
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -23,7 +23,7 @@ from gradhesion.cli.study.text.quantities import ratio_sentence, si_value
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 from gradhesion.core.loops.paths.offsets import NO_OFFSETS, Offsets
 from gradhesion.core.problem.inputs import INPUTS, Input
-from gradhesion.core.problem.rate import EXPONENTS, Rate
+from gradhesion.core.problem.toughness import EXPONENTS, Rate
 
 DATA: Final = "data"
 """What stands for the deepest point of the data, where the cycle turns."""

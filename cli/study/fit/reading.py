@@ -14,7 +14,7 @@ from gradhesion.cli.study.rules.scenes import shape_of
 from gradhesion.cli.study.text.source import Source
 from gradhesion.cli.study.text.written import toml_of, with_fingerprint
 from gradhesion.core.problem.control import Loading
-from gradhesion.core.problem.rate import Rate
+from gradhesion.core.problem.toughness import Rate
 
 
 def fit_from(source: Source) -> tuple[FitStudy | None, list[Mistake]]:

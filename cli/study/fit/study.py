@@ -15,8 +15,7 @@ from gradhesion.core.loops.paths.offsets import Offsets
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.rate import Rate
-from gradhesion.core.problem.toughness import Toughness
+from gradhesion.core.problem.toughness import Rate, Toughness
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -11,8 +11,7 @@ from gradhesion.cli.study.rules.asked import Asked, curve_of
 from gradhesion.cli.study.rules.axes import Found, home
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.outputs import CURVES, OUTPUTS
-from gradhesion.core.problem.rate import MOST_WAVES
-from gradhesion.core.problem.toughness import violation
+from gradhesion.core.problem.toughness import MOST_WAVES, violation
 
 _MOST_AMPLITUDES: Final = 1000
 """Different amplitudes of points up to which each is looked at."""

@@ -31,8 +31,7 @@ from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.inputs import INPUTS, Input
 from gradhesion.core.problem.outputs import CURVES, OUTPUTS
 from gradhesion.core.problem.profile import MOST_HARMONICS, Profile
-from gradhesion.core.problem.rate import Rate
-from gradhesion.core.problem.toughness import Toughness
+from gradhesion.core.problem.toughness import Rate, Toughness
 
 Kind = Literal["map", "curve", "fit", "optimum"]
 KINDS: Final[tuple[str, ...]] = get_args(Kind)

@@ -8,22 +8,23 @@ from typing import Any
 from gradhesion.cli.study.text.places import lines_of
 
 
+def value_of(value: Any) -> str:
+    """Write a value as TOML."""
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(value_of, value)) + "]"
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{key} = {value_of(item)}" for key, item in value.items()) + " }"
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
 def toml_of(data: Mapping[str, Any]) -> str:
     """Write a valid study as TOML."""
-
-    def written(value: Any) -> str:
-        if isinstance(value, str):
-            return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-        if isinstance(value, list):
-            return "[" + ", ".join(map(written, value)) + "]"
-        if isinstance(value, Mapping):
-            return "{ " + ", ".join(f"{key} = {written(item)}" for key, item in value.items()) + " }"
-        return str(value).lower() if isinstance(value, bool) else str(value)
-
     tables = {key: value for key, value in data.items() if isinstance(value, Mapping)}
-    lines = [f"{key} = {written(value)}" for key, value in data.items() if key not in tables]
+    lines = [f"{key} = {value_of(value)}" for key, value in data.items() if key not in tables]
     for key, table in tables.items():
-        lines += ["", f"[{key}]", *(f"{name} = {written(value)}" for name, value in table.items())]
+        lines += ["", f"[{key}]", *(f"{name} = {value_of(value)}" for name, value in table.items())]
     return "\n".join(lines) + "\n"
 
 

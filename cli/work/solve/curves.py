@@ -17,7 +17,7 @@ from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.work.solve.blocks import awaited
 from gradhesion.cli.work.solve.given import driven_by, scales_of, scenes_of
-from gradhesion.core.problem.reach import is_steep, slopes_of
+from gradhesion.core.closed.reach import is_steep, slopes_of
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.processors import processors
 

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from gradhesion import core
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.core import SENSITIVITIES, VALIDITY
+from gradhesion.core.closed.reach import is_steep
 from gradhesion.core.problem.names import CONTACT_SLOPE
 from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.reach import is_steep
 from gradhesion.core.problem.status import NO_VALUE
 
 

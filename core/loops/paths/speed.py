@@ -16,7 +16,7 @@ from gradhesion.core.draw.draw import draw_curves
 from gradhesion.core.loops.paths.model import EXPONENT
 from gradhesion.core.loops.paths.path import LoopModel, LoopPath
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, SPEED
-from gradhesion.core.problem.rate import EXPONENTS, Rate
+from gradhesion.core.problem.toughness import EXPONENTS, Rate
 from gradhesion.core.types import Floats
 
 

@@ -12,8 +12,7 @@ import gradhesion as gr
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.study.reading import study_from
 from gradhesion.core import solve
-from gradhesion.core.problem.rate import Rate
-from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
+from gradhesion.core.problem.toughness import Rate, Toughness, ToughnessHarmonic
 
 Call = Callable[..., Result]
 Write = Callable[[str], Path]

@@ -73,16 +73,10 @@ def test_with_noise_everything_is_within_its_errors_and_the_residual_is_the_nois
     assert np.mean(residuals) == pytest.approx(1.0, abs=0.02), "but for the dozen of coefficients of 1,300 points"
 
 
-def test_the_shortest_period_that_fits_is_taken() -> None:
-    found = fit_profile(*drawn(2e-4), up_to=1.0, terms=16, exponent=2.37)
-    assert found.wavelength == pytest.approx(PUNCH["wavelength"], rel=1e-3), (
-        "and not a multiple, whose series holds it too"
-    )
-
-
-@pytest.mark.parametrize("wavelength", [0.02, 0.0618, 0.41, 0.77])
-def test_short_and_long_waves(wavelength: float) -> None:
-    found = fit_profile(*drawn(1e-4, both=False, wavelength=wavelength), up_to=1.0, terms=4, exponent=2.37)
+@pytest.mark.parametrize(("wavelength", "terms"), [(0.02, 4), (0.0618, 4), (0.193, 16), (0.41, 4), (0.77, 4)])
+def test_the_shortest_period_that_fits_is_taken(wavelength: float, terms: int) -> None:
+    """And not a multiple, whose series holds it too; of short and of long waves."""
+    found = fit_profile(*drawn(1e-4, both=False, wavelength=wavelength), up_to=1.0, terms=terms, exponent=2.37)
     assert found.wavelength == pytest.approx(wavelength, abs=5 * found.errors["wavelength"])
 
 
@@ -134,9 +128,6 @@ WRONG = {
     "falls on both sides": ((R - 0.5, -((R - 0.5) ** 2)), {"terms": 2}, "reverse its sign"),
     "far from the axis": ((R + 2.5, R**2 + 0.01 * np.cos(30.0 * R)), {"terms": 2}, "no heights within 2.5 of the axis"),
     "a few far from the axis": ((R[:2] + 2.5, R[:2]), {"terms": 2}, "too few for 2 terms"),
-    "no function": ((np.append(R, 0.5025125628140703), np.append(R**2, 0.7)), {}, "not a function of r: r = 0.502513"),
-    "nan": ((R, np.where(R > 0.5, np.nan, R)), {}, "finite"),
-    "lengths": ((R, R[1:]), {}, "one length"),
     "terms": ((R, R**2), {"terms": 0}, f"1 to {MOST_HARMONICS} terms"),
     "exponent": ((R, R**2), {"exponent": 1.0}, "above 1"),
 }
@@ -150,8 +141,9 @@ def test_what_cannot_be_fitted_is_refused(name: str) -> None:
     assert words in str(caught.value)
 
 
-def test_the_same_point_twice_counts_once() -> None:
+def test_points_may_stand_in_any_order_and_twice() -> None:
     r, h = drawn()
-    one = fit_profile(r, h, up_to=1.0, terms=3)
-    other = fit_profile(np.concatenate([r, r[::7]]), np.concatenate([h, h[::7]]), up_to=1.0, terms=3)
-    assert other.radius == one.radius
+    again = np.random.default_rng(3).permutation(np.append(np.arange(r.size), np.arange(0, r.size, 7)))
+    found = fit_profile(r[again], h[again], up_to=1.0, terms=3, exponent=2.37)
+    assert found.radius == pytest.approx(PUNCH["R"], rel=1e-11)
+    assert found.residual_max < 64 * EPS * 6.0

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gradhesion.core import FAILED, OUTPUTS, Harmonic, Loading, Profile, solve
 from gradhesion.core.problem.material import stiffness
-from gradhesion.core.problem.shape import swings
+from gradhesion.core.problem.profile import swings
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.twin import stated
 from gradhesion.twin.general import Shape

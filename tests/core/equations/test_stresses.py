@@ -72,38 +72,6 @@ def test_the_pressure_makes_the_load_and_the_depth(
             assert found == pytest.approx(flat, rel=1e-11)
 
 
-@pytest.mark.parametrize(
-    ("k", "r"), [(0.0, 0.0), (0.0, 0.16), (0.43, 0.0), (0.43, 0.003), (0.43, 0.23), (0.9, 0.003), (0.9, 0.23)]
-)
-def test_quadrature_of_the_pressure(k: float, r: float) -> None:
-    a, cosine, sine = 0.24, -0.02, 0.005 if k > 0.0 or r > 0.0 else 0.0
-    n = (mpmath.mpf(k) + 1) / 2
-
-    def depth(t: mpmath.mpf) -> mpmath.mpf:  # s^2/(1+k) + 2 pi s [-a_1 S0 + b_1 C0], of Struve and Bessel functions
-        y = 2 * mpmath.pi * t / mpmath.mpf(WAVELENGTH)
-        factor = mpmath.sqrt(mpmath.pi) / 2 * mpmath.gamma(n) * (y / 2) ** (mpmath.mpf(1) / 2 - n)
-        waves = -cosine * mpmath.struveh(n - 0.5, y) + sine * mpmath.besselj(n - 0.5, y)
-        return t * t / (1 + k) + 2 * mpmath.pi * t * factor * waves
-
-    def slope(s: mpmath.mpf) -> mpmath.mpf:
-        return mpmath.re(mpmath.diff(depth, s))  # the powers of a negative s cancel but for rounding
-
-    with mpmath.workdps(15):  # s^2 = r^2 + (a^2-r^2) v^(1/n), or s = a v^(1/k) where the axis has a slope
-        if r == 0.0 and sine:
-            values = mpmath.quad(lambda v: slope(a * v ** (1 / mpmath.mpf(k))), mpmath.linspace(0, 1, 9))
-            integral = values * mpmath.mpf(a) ** k / k
-        else:
-            span = mpmath.mpf(a) ** 2 - mpmath.mpf(r) ** 2
-
-            def integrand(v: mpmath.mpf) -> mpmath.mpf:
-                s = mpmath.sqrt(mpmath.mpf(r) ** 2 + span * v ** (1 / n))
-                return slope(s) / s
-
-            integral = span**n / (2 * n) * mpmath.quad(integrand, [0, 0.001, 0.01, 0.1, *mpmath.linspace(0.25, 1, 7)])
-    expected = 2.0 ** (1.0 - k) * M / (2.0 * math.pi) * float(integral)
-    assert quadrature.hertz_pressure(k, M, r, a, WAVELENGTH, [cosine], [sine]) == pytest.approx(expected, rel=1e-10)
-
-
 def test_the_pressure_at_the_edge_and_at_the_apex_of_a_slope() -> None:
     top = float(general.hertz_indentation(0.3, 0.2, 0.1, [-0.02]))
     found = quadrature.pressure(0.3, M, 0.2, 0.2, np.array([top - 0.01, top, top + 0.01]), 0.1, [-0.02])

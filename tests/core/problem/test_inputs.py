@@ -9,18 +9,18 @@ import pytest
 from gradhesion.core.closed.reduced import WAYS
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL, Input
 from gradhesion.core.problem.outputs import CURVES, OUTPUTS, OVER, VARIABLES, without_scale
-from gradhesion.core.problem.rate import Rate
+from gradhesion.core.problem.toughness import EXPONENTS, Rate
 
 
 def test_what_an_input_names_is_declared() -> None:
     for name, one in INPUTS.items():
         assert INPUTS[one.gives].is_parameter, name
         assert {*one.needs} <= {*INPUTS}, name
-        assert bool(one.needs) == (one.follows is not None), name
         assert one.idle_without in ("", *INPUTS), name
         assert (one.unit != "1") == (one.table == "physical"), name
         assert one.group == INPUTS[one.gives].group or one.gives == "modulus", name
-    assert {way for ways in WAYS.values() for way in ways} == {name for name, one in INPUTS.items() if one.follows}
+        assert one.follows is None or one.needs, name
+    assert {way for ways in WAYS.values() for way in ways} == {name for name, one in INPUTS.items() if one.needs}
 
 
 @pytest.mark.parametrize("name", INPUTS)
@@ -66,8 +66,10 @@ def test_names_are_given_once() -> None:
 
 
 @pytest.mark.parametrize(
-    ("setting", "value"), [("exponent", 0.0999), ("exponent", 2.0001), ("exponent", math.nan), ("closing", "slow")]
+    ("setting", "value"),
+    [("exponent", value) for value in (0.0, 0.0999, 2.0001, math.nan, math.inf)] + [("closing", "slow")],
 )
 def test_a_setting_out_of_its_range_is_named(setting: str, value: object) -> None:
     with pytest.raises(ValueError, match=f"{setting} = "):
         Rate(**{"exponent": 0.6} | {setting: value})  # type: ignore[arg-type]
+    assert [Rate(exponent=end, closing="same").exponent for end in EXPONENTS] == [*EXPONENTS]

@@ -10,8 +10,8 @@ import pytest
 
 from gradhesion.core import Loading, solve
 from gradhesion.core.problem.names import EDGE, RATE
-from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.status import FLAGS
+from gradhesion.core.problem.toughness import Rate
 from gradhesion.core.rate.cycle import KNOWN
 
 BALL: dict[str, Any] = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.2, "A": 0.01}

@@ -15,8 +15,8 @@ from scipy.integrate import quad
 
 from gradhesion.core import Harmonic, Loading, Profile, solve
 from gradhesion.core.problem.material import stiffness
-from gradhesion.core.problem.rate import MOST_WAVES, Rate
 from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE, PULL_OFF_AT_RIM, TOLERANCE_NOT_MET, TOO_MANY_WAVES
+from gradhesion.core.problem.toughness import MOST_WAVES, Rate
 from tests.core.rate.second_way import Punch, closed, opened
 
 BY_DEPTH, BY_MACHINE = Loading(), Loading(control="machine")

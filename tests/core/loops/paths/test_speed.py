@@ -11,7 +11,7 @@ from gradhesion.core.loops.paths.model import EXPONENT
 from gradhesion.core.loops.paths.offsets import NO_OFFSETS
 from gradhesion.core.loops.paths.speed import SpeedModel
 from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.rate import Rate
+from gradhesion.core.problem.toughness import Rate
 from tests.core.loops.models import CASES, SCENE, TRUE, TURN, UNIT, Array, R
 
 RATE = Rate(exponent=0.6)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core import Harmonic, Loading, Profile, draw_curves, solve
-from gradhesion.core.problem.reach import depends_on_contact
+from gradhesion.core.closed.reach import depends_on_contact
 from gradhesion.core.problem.status import FLAGS, NO_CONTACT
 
 SCENE = {"k": 0.3, "nu": 0.3, "modulus": 30.0, "c0_over_R": 0.1, "lambda_over_R": 0.2, "A": 0.05}

@@ -13,15 +13,18 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.problem.names import PULL_OFF, REACH, TURNS, VALIDITY
+from gradhesion.core.problem.names import REACH, TURNS
+from gradhesion.core.problem.outputs import OUTPUTS
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE
 
 SMALL: Final = 1.0
 """The slope up to which the punch counts as shallow: at a = R a sphere is twice as deep as its paraboloid."""
-_OF_PULL_OFF: Final = (*PULL_OFF, "pull_off_force_sensitivity", "adhesion_gain")
-_OF_NOTHING: Final = (*VALIDITY, "roughness_parameter")
-"""Outputs that depend on no radius of contact."""
+
+
+def _parts(outputs: Sequence[str]) -> set[str]:
+    """Return on what of a cycle some outputs depend."""
+    return {OUTPUTS[name].depends_on if name in OUTPUTS else "cycle" for name in outputs} - {""}
 
 
 def depends_on_contact(outputs: Sequence[str]) -> bool:
@@ -30,7 +33,7 @@ def depends_on_contact(outputs: Sequence[str]) -> bool:
     >>> depends_on_contact(["wave_slope"]), depends_on_contact(["wave_slope", "pull_off_force"])
     (False, True)
     """
-    return not {*outputs} <= {*_OF_NOTHING}
+    return bool(_parts(outputs))
 
 
 def slopes_of(radii: NDArray[np.float64], profile: Profile) -> NDArray[np.float64]:
@@ -47,7 +50,7 @@ def is_steep(slopes: NDArray[np.float64]) -> NDArray[np.bool_]:
 
 def radius_of(outputs: Sequence[str], parameters: Mapping[str, ArrayLike]) -> str:
     """Name the result that is the largest radius on which outputs depend; without outputs that of the whole cycle."""
-    if {*outputs} & {*_OF_PULL_OFF} and {*outputs} <= {*_OF_PULL_OFF, *_OF_NOTHING}:
+    if _parts(outputs) == {"pull-off"}:
         return "pull_off_radius"
     turned = any(name in parameters for name in TURNS)
     return REACH if not turned and np.isinf(parameters["a_max_over_R"]).any() else "turning_radius"

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core import Loading, draw_curves, solve
-from gradhesion.core.problem.rate import Rate
+from gradhesion.core.problem.toughness import Rate
 
 BALL: dict[str, Any] = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.2, "A": 0.01}
 DRIVEN: list[tuple[dict[str, float], dict[str, Any]]] = [
