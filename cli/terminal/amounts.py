@@ -42,3 +42,18 @@ def percent(count: int, whole: int) -> str:
     """
     share = 100.0 * count / whole
     return f"{share:.2g} %" if share < 99.5 else f"{share:.0f} %"
+
+
+def duration(seconds: float) -> str:
+    """
+    Write a time in the unit that fits.
+
+    >>> duration(0.31), duration(75.0), duration(1e4), duration(float("inf"))
+    ('0.3 s', '75 s', '2.8 h', 'any time')
+    """
+    if seconds > 1e9:
+        return "any time"
+    for unit, size, most in (("s", 1.0, 120.0), ("min", 60.0, 7200.0), ("h", 3600.0, 172_800.0)):
+        if seconds < most:
+            return f"{seconds / size:.{0 if seconds / size >= 10 else 1}f} {unit}"
+    return f"{seconds / 86_400:.0f} d"

@@ -1,13 +1,10 @@
-"""The short form of the adversary, and the files that it found."""
+"""Datasets that somebody has changed, at random or as was found to matter."""
 
 import random
-import re
 import shutil
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import netCDF4
 import numpy as np
@@ -16,65 +13,76 @@ from click.testing import Result
 
 from tests.adversary import datasets
 from tests.adversary.commands import fault_of
-from tests.adversary.names import faults_of_names
-from tests.adversary.scenes import trials_of_scenes
-from tests.adversary.trials import CURVES, MAP, STATES, of_datasets, of_parts
 
 pytestmark = pytest.mark.slow
 
 Call = Callable[..., Result]
 
 
+PUNCH: Final = "[parameters]\nk = [0.0, 0.31]\nnu = 0.3\nmodulus = 430.0\nc0_over_R = 0.013\n"
+MAP: Final = f"""\
+outputs = ["pull_off_force", "dissipated_energy", "loading_jumps"]
+{PUNCH}lambda_over_R = {{ start = 0.11, stop = 0.47, num = 3, spacing = "log" }}
+A = [0.0, 0.023]
+a_max_over_R = [1.7, inf]
+"""
+CURVES: Final = f"""\
+kind = "curve"
+outputs = ["equilibrium", "path", "jumps"]
+{PUNCH}lambda_over_R = 0.2
+A = 0.02
+a_max_over_R = 1.7
+"""
+POINTS: Final = """\
+layout = "points"
+outputs = ["pull_off_force", "pull_off_radius"]
+[method]
+solver = ["exact", "envelope"]
+[parameters]
+k = [0.0, 0.3]
+nu = 0.3
+A = [0.01, 0.02]
+[physical]
+R = "1 um"
+E_star = "1 GPa"
+work_of_adhesion = "50 mJ/m^2"
+c0 = "13 nm"
+wavelength = ["100 nm", "200 nm"]
+a_max = "1 um"
+"""
+STATES: Final = CURVES.replace('"equilibrium", "path", "jumps"', '"pressure", "surface"')
+
+
 def test_datasets_changed_at_random_end_in_a_sentence(tmp_path: Path) -> None:
-    assert not of_datasets(tmp_path, 30, random.Random(1))
-
-
-def test_folders_of_parts_changed_at_random_end_in_a_sentence(tmp_path: Path) -> None:
-    assert not of_parts(tmp_path, 15, random.Random(1))
-
-
-def test_hostile_names_end_in_a_sentence(tmp_path: Path) -> None:
-    assert not faults_of_names(tmp_path, 10, random.Random(1))
-
-
-def test_scenes_keep_what_is_promised() -> None:
-    words, worst = trials_of_scenes(80, 3)
-    assert worst <= 1.0, words
-    assert words.startswith("80 scenes")
-
-
-@pytest.mark.skipif(shutil.which("strace") is None, reason="strace is not there")
-def test_kills_at_system_calls_lose_nothing(root: Path) -> None:
-    code = "from tests.adversary.kills import trials_of_kills; print(trials_of_kills(23))"
-    done = subprocess.run([sys.executable, "-c", code], cwd=root, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    killed, calls = re.match(r"(\d+) runs killed at (\d+) system calls", done.stdout).groups()
-    assert int(killed) >= 8
-    assert int(calls) > 100
-
-
-@pytest.mark.skipif(
-    subprocess.run(
-        ["unshare", "-m", "mount", "-t", "tmpfs", "none", "/mnt"], check=False, capture_output=True
-    ).returncode
-    != 0
-    if shutil.which("unshare")
-    else True,
-    reason="no disk can be mounted here",
-)
-def test_disks_that_are_full_read_only_or_gone_lose_nothing(root: Path) -> None:
-    """A run is stopped before its 1st, 8th ... change of a name; the dataset gets its name by the 12th."""
-    command = [sys.executable, "-m", "tests.adversary.disks", "7", "2"]
-    done = subprocess.run(command, cwd=root, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    ended = {what: int(failed) for what, failed in re.findall(r"([^:;]+): [\d,]+ \((\d+) ended with", done.stdout)}
-    assert ended.keys() == {
-        "runs on full disks, page by page",
-        *(f" {what} at a {when}" for what in ("read-only", "gone") for when in ("change of a name", "random moment")),
-    }
-    assert ended["runs on full disks, page by page"] > 0
-    assert ended[" read-only at a change of a name"] > 0, "before the first nothing is open for writing"
-    assert ended[" gone at a change of a name"] >= 2
+    """Each kind of dataset, changed in one to three places; every command takes it, or says what is wrong."""
+    draw, files = random.Random(1), []
+    for number, text in enumerate((MAP, CURVES, POINTS, STATES)):
+        study = tmp_path / f"{number}.toml"
+        study.write_text(text)
+        files.append(tmp_path / f"{number}.nc")
+        assert not fault_of("run", study, "-o", files[-1], codes=(0,))
+    changed, joined = tmp_path / "changed.nc", tmp_path / "joined.nc"
+    for trial in range(40):
+        file = draw.choice(files)
+        if draw.random() < 0.15:
+            changed.write_bytes(datasets.damage(file.read_bytes(), draw))
+            what = "bytes"
+        else:
+            content = datasets.Content.of(file)
+            what = "; ".join(datasets.mutate(content, draw) for _ in range(draw.choice([1, 1, 2, 3])))
+            content.write(changed)
+        commands = [
+            ("info",),
+            ("info", "--format", "csv"),
+            ("info", "--jumps"),
+            ("verify", "--sample", "1"),
+            ("status",),
+        ]
+        commands.append(("merge", str(files[0]), "-o", str(joined), "--overwrite"))
+        if trial % 20 == 0:  # they take longest
+            commands += [("plot", "--overwrite"), ("explore", "--overwrite")]
+        for name, *options in commands:
+            assert not (fault := fault_of(name, changed, *options)), f"{name}: {fault} ({file.stem}: {what})"
 
 
 @pytest.fixture(scope="module")
