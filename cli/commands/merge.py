@@ -50,7 +50,7 @@ def merge(files: tuple[Path, ...], output: Path | None, overwrite: bool, quiet: 
 def _merge_shards(file: Path, *, overwrite: bool, quiet: bool) -> None:
     """Join the blocks of shards."""
     from gradhesion.cli.dataset.writer import write
-    from gradhesion.cli.work.blocks import kept
+    from gradhesion.cli.work.engines import kept
     from gradhesion.cli.work.folder import claimed, folder_of, study_in
 
     start = time.monotonic()
@@ -65,7 +65,7 @@ def _merge_shards(file: Path, *, overwrite: bool, quiet: bool) -> None:
     if study is None:
         raise DatasetError(f"{file}: has no blocks to join; compute them first, with `gradhesion run --shard`")
     with progress(study.scenes, quiet=quiet) as advance:
-        written = write(study, file, history=history_now(), overwrite=overwrite, blocks=kept, advance=advance)
+        written = write(study, file, history=history_now(), overwrite=overwrite, engine=kept, advance=advance)
     finish(file, study.scenes, written, time.monotonic() - start, quiet=quiet)
 
 
@@ -77,8 +77,8 @@ def _merge_datasets(files: tuple[Path, ...], output: Path, *, overwrite: bool, q
     start = time.monotonic()
     with ExitStack() as stack:
         sources = opened_all(files, stack)
-        study, blocks = joined(sources)
+        study, engine = joined(sources)
         history = "\n".join([*(str(source.attrs["history"]) for source in sources.values()), history_now()])
         with progress(study.scenes, quiet=quiet) as advance:
-            written = write(study, output, history=history, overwrite=overwrite, blocks=blocks, advance=advance)
+            written = write(study, output, history=history, overwrite=overwrite, engine=engine, advance=advance)
     finish(output, study.scenes, written, time.monotonic() - start, quiet=quiet)

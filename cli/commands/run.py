@@ -22,7 +22,7 @@ from gradhesion.cli.terminal.written import dataset_to_write
 if TYPE_CHECKING:
     from gradhesion.cli.dataset.writer import Written
     from gradhesion.cli.study.study import Study
-    from gradhesion.cli.work.blocks import Blocks
+    from gradhesion.cli.work.engines import Engine
 
 
 def _shard(_context: click.Context, _option: click.Parameter, value: str | None) -> tuple[int, int] | None:
@@ -104,9 +104,9 @@ def run(
         return
     if scheduler is None:  # the workers of another cluster have caches of their own
         prepare(loaded)
-    blocks = _blocks(loaded, engine, scheduler, threads, quiet=quiet)
+    solver = _engine(loaded, engine, scheduler, threads, quiet=quiet)
     if shard is not None:
-        _run_shard(loaded, path, shard, blocks, overwrite=overwrite, quiet=quiet)
+        _run_shard(loaded, path, shard, solver, overwrite=overwrite, quiet=quiet)
         return
     start = time.monotonic()
     with progress(loaded.scenes, quiet=quiet) as advance:
@@ -117,7 +117,7 @@ def run(
             overwrite=overwrite,
             fresh=fresh,
             threads=threads,
-            blocks=blocks,
+            engine=solver,
             advance=advance,
         )
     finish(path, loaded.scenes, written, time.monotonic() - start, quiet=quiet)
@@ -150,9 +150,9 @@ def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet
         )
 
 
-def _blocks(study: "Study", engine: str, scheduler: str | None, threads: int | None, *, quiet: bool) -> "Blocks":
+def _engine(study: "Study", engine: str, scheduler: str | None, threads: int | None, *, quiet: bool) -> "Engine":
     """Choose who solves the blocks of a study."""
-    from gradhesion.cli.work.blocks import in_threads
+    from gradhesion.cli.work.engines import in_threads
 
     if engine == "dask":
         from gradhesion.cli.work.cluster import on_cluster, require_dask
@@ -166,7 +166,7 @@ def _blocks(study: "Study", engine: str, scheduler: str | None, threads: int | N
 
 
 def _run_shard(
-    study: "Study", path: Path, shard: tuple[int, int], blocks: "Blocks", *, overwrite: bool, quiet: bool
+    study: "Study", path: Path, shard: tuple[int, int], solver: "Engine", *, overwrite: bool, quiet: bool
 ) -> None:
     """Compute the blocks of a shard."""
     from gradhesion.cli.dataset.writer import write_shard
@@ -174,7 +174,7 @@ def _run_shard(
     if not study.has_parts:
         raise click.UsageError("--shard: the study has one block only, and needs no shards; run it without --shard")
     with progress(study.scenes // shard[1], quiet=quiet) as advance:
-        written = write_shard(study, path, shard, overwrite=overwrite, blocks=blocks, advance=advance)
+        written = write_shard(study, path, shard, overwrite=overwrite, engine=solver, advance=advance)
     if not quiet:
         messages.say(
             f"{path}.parts: shard {shard[0]} of {shard[1]}: reused {counted(written.reused, 'block')}, computed "

@@ -18,7 +18,7 @@ from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, size_of
 from gradhesion.cli.terminal.progress import Advance
-from gradhesion.cli.work.blocks import Blocks, in_threads
+from gradhesion.cli.work.engines import Engine, in_threads
 from gradhesion.cli.work.folder import Parts, Results, claimed, clear, is_written, mark_of
 from gradhesion.cli.work.solve.curves import within
 from gradhesion.core import FAILED
@@ -32,7 +32,7 @@ class Written:
     """Scenes without value."""
     reused: int = 0
     computed: int = 0
-    """Blocks."""
+    """Engine."""
     cautions: tuple[str, ...] = ()
     """What is to be known of its answers."""
     complete: bool = False
@@ -52,7 +52,7 @@ def write(
     history: str,
     overwrite: bool = False,
     fresh: bool = False,
-    blocks: Blocks | None = None,
+    engine: Engine | None = None,
     threads: int | None = None,
     advance: Advance = lambda *_, **__: None,
 ) -> Written:
@@ -65,8 +65,8 @@ def write(
     ----------
     fresh
         Drop the blocks of an earlier run.
-    blocks
-        Where the blocks of a map come from: `threads` of this process if not given; curves are drawn here.
+    engine
+        Who has the blocks of a map: `threads` of this process if not given; curves are drawn here.
 
     Raises
     ------
@@ -90,7 +90,7 @@ def write(
         refuse_existing(path, overwrite=overwrite)
         with writing(path):
             parts.begin(fresh=fresh)
-        solved = stack.enter_context(closing(_solved(parts, threads, blocks or in_threads(threads))))
+        solved = stack.enter_context(closing(_solved(parts, threads, engine or in_threads(threads))))
         written = _merge(parts, history, solved, advance)
         settle(parts.merged, path, overwrite=overwrite)
         clear(parts.folder)
@@ -103,7 +103,7 @@ def write_shard(
     shard: tuple[int, int],
     *,
     overwrite: bool = False,
-    blocks: Blocks,
+    engine: Engine,
     advance: Advance = lambda *_, **__: None,
 ) -> Written:
     """
@@ -121,7 +121,7 @@ def write_shard(
             stack.enter_context(claimed(path, f"-{shard[0]}-of-{shard[1]}"))
             parts.begin()
         numbers = range(shard[0] - 1, len(study.tiling), shard[1])
-        for number, values, reused in stack.enter_context(closing(blocks(parts, numbers))):
+        for number, values, reused in stack.enter_context(closing(engine(parts, numbers))):
             if not reused:
                 with writing(path):
                     parts.write(number, values)
@@ -131,12 +131,12 @@ def write_shard(
 
 
 def _solved(
-    parts: Parts, threads: int | None, blocks: Blocks
+    parts: Parts, threads: int | None, engine: Engine
 ) -> Generator[tuple[int, Block, Results, bool], None, None]:
     """Give the blocks of a study with their numbers, their values, and whether they exist already."""
     study = parts.study
     if study.in_blocks:
-        for number, values, reused in blocks(parts, range(len(study.tiling))):
+        for number, values, reused in engine(parts, range(len(study.tiling))):
             yield number, study.tiling[number], values, reused
     else:  # of curves each scene is one
         for number, (block, values) in enumerate(CONTENTS[study.sort].parts(study, threads)):

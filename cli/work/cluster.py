@@ -18,8 +18,8 @@ from typing import Any, Final
 from gradhesion.cli.errors import ClusterError, GradhesionError, MissingExtraError, OutputError
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import interrupts, messages
-from gradhesion.cli.work.blocks import Blocks, Solved
 from gradhesion.cli.work.compiling import prepare
+from gradhesion.cli.work.engines import Engine, Solved
 from gradhesion.cli.work.folder import Parts, Results, versions
 from gradhesion.cli.work.solve.blocks import solve_block
 
@@ -47,15 +47,15 @@ def require_dask() -> None:
         ) from None
 
 
-def on_cluster(scheduler: str | None = None, workers: int | None = None, *, quiet: bool = False) -> Blocks:
+def on_cluster(scheduler: str | None = None, workers: int | None = None, *, quiet: bool = False) -> Engine:
     """
     Have blocks solved by the workers of a scheduler (its address or its file), or by processes of this machine.
 
-    The blocks raise ClusterError where no scheduler answers or a worker has another version, and OutputError where the
+    The engine raises ClusterError where no scheduler answers or a worker has another version, and OutputError where the
     cluster is lost.
     """
 
-    def blocks(parts: Parts, numbers: Sequence[int]) -> Solved:
+    def engine(parts: Parts, numbers: Sequence[int]) -> Solved:
         left = []
         for number in numbers:
             values = parts.read(number)
@@ -81,7 +81,7 @@ def on_cluster(scheduler: str | None = None, workers: int | None = None, *, quie
                         "command resumes once there is a cluster with enough memory"
                     ) from error
 
-    return blocks
+    return engine
 
 
 def _solved(client: Any, study: Study, numbers: Sequence[int]) -> Solved:

@@ -15,7 +15,7 @@ from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of
-from gradhesion.cli.work.blocks import Solved
+from gradhesion.cli.work.engines import Solved
 from gradhesion.cli.work.folder import Parts, Results
 from gradhesion.core.problem.inputs import INPUTS
 
@@ -29,7 +29,7 @@ Places = Mapping[str, NDArray[np.intp]]
 
 def joined(sources: Sources) -> tuple[Study, "Joined"]:
     """
-    Make the study of several datasets together, and its blocks from them.
+    Make the study of several datasets together, and the engine that takes its values from them.
 
     Raises
     ------
@@ -107,7 +107,7 @@ def _with_axis(data: Mapping[str, Any], axis: str, values: NDArray[np.float64]) 
 
 @dataclass(frozen=True)
 class Joined:
-    """The blocks of a joined study, whose values are taken from its sources."""
+    """An engine that solves nothing: the values of a joined study are those of its sources."""
 
     sources: Sources
     places: Sequence[Places]

@@ -1,4 +1,4 @@
-"""Where the blocks of a study come from: what is kept of them is read, the rest solved in this process."""
+"""Engines: who has the blocks of a study that are not kept yet: this process, a cluster (`cluster.py`), or nobody."""
 
 from collections.abc import Callable, Generator, Sequence
 from functools import partial
@@ -9,11 +9,11 @@ from gradhesion.cli.work.folder import Parts, Results
 from gradhesion.cli.work.solve.blocks import one_ahead, solve_block
 
 Solved = Generator[tuple[int, Results, bool], None, None]
-Blocks = Callable[[Parts, Sequence[int]], Solved]
+Engine = Callable[[Parts, Sequence[int]], Solved]
 """Gives blocks by their numbers, each once, in any order: with its values, and whether these exist already."""
 
 
-def in_threads(threads: int | None = None) -> Blocks:
+def in_threads(threads: int | None = None) -> Engine:
     """Solve blocks in this process, one ahead of whoever takes them, each on `threads`, or as many as there are."""
 
     def solved_or_kept(parts: Parts, number: int) -> tuple[int, Results, bool]:
@@ -22,10 +22,10 @@ def in_threads(threads: int | None = None) -> Blocks:
             return number, values, True
         return number, solve_block(parts.study, parts.study.tiling[number], threads), False
 
-    def blocks(parts: Parts, numbers: Sequence[int]) -> Solved:
+    def engine(parts: Parts, numbers: Sequence[int]) -> Solved:
         yield from one_ahead(partial(solved_or_kept, parts, number) for number in numbers)
 
-    return blocks
+    return engine
 
 
 def kept(parts: Parts, numbers: Sequence[int]) -> Solved:
