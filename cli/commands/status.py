@@ -8,7 +8,6 @@ from typing import Any
 import click
 
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.files import is_file, kind_of
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted, duration
 from gradhesion.cli.terminal.examples import example
 from gradhesion.cli.terminal.output import show, show_block
@@ -65,11 +64,12 @@ def status_of(file: Path) -> dict[str, Any]:
             "kept": len(dates),
             "seconds_left": left,
         }
-    if not is_file(file):
-        raise DatasetError(f"{file}: there is neither a dataset nor a run of one; name the output of a run")
-    kind = kind_of(file)
-    if not kind.startswith("a dataset"):
-        what = f"it is {kind}" if kind else "it does not begin as a dataset does"
-        raise DatasetError(f"{file}: is not the output of a run ({what}); name a dataset that `gradhesion run` wrote")
-    found = file.stat()
+    import netCDF4
+
+    try:
+        with netCDF4.Dataset(file) as dataset:
+            dataset.getncattr("study")
+        found = file.stat()
+    except (OSError, RuntimeError, AttributeError) as error:
+        raise DatasetError(f"{file}: is neither a whole dataset nor one that a run is writing ({error})") from None
     return {"output": str(file), "state": "complete", "bytes": found.st_size, "written": found.st_mtime}

@@ -64,6 +64,8 @@ def test_running_stopped_and_complete(
     assert status().items() >= {"state": "stopped", "seconds_left": None}.items()
     assert gradhesion("run", study_file, "-o", output, "--quiet").exit_code == 0
     assert status()["state"] == "complete"
+    output.write_bytes(output.read_bytes()[:-1000])
+    assert gradhesion("status", output).exit_code == 2, "it is cut short"
 
 
 @pytest.mark.parametrize("content", ["{", "[]", "null", "{}"])
