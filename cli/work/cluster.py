@@ -103,7 +103,7 @@ def _solved(client: Any, study: Study, numbers: Sequence[int]) -> Solved:
         number, values = future.result()
         future.release()
         most = max(LEAST, AHEAD * sum(client.nthreads().values()))
-        running.update(submitted(most - running.count()))
+        running.update(submitted(max(0, most - running.count())))
         yield number, values, False
 
 
