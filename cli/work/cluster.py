@@ -66,7 +66,7 @@ def on_cluster(scheduler: str | None = None, workers: int | None = None, *, quie
         if left:
             with ExitStack() as stack:
                 stack.enter_context(_silent())
-                client = stack.enter_context(_client(scheduler, workers))
+                client = stack.enter_context(_client(scheduler, workers, len(left)))
                 if not quiet and not client.nthreads():
                     messages.say("--engine dask: the scheduler has no workers yet; waiting for them")
                 try:
@@ -127,9 +127,9 @@ def solve_there(study: Study, number: int, needed: dict[str, Any]) -> tuple[int,
 
 
 @contextmanager
-def _client(scheduler: str | None, workers: int | None) -> Iterator[Any]:
+def _client(scheduler: str | None, workers: int | None, most: int) -> Iterator[Any]:
     """
-    Make a client of a scheduler, or of workers on this machine.
+    Make a client of a scheduler, or of workers on this machine, `most` of them.
 
     Raises
     ------
@@ -141,7 +141,7 @@ def _client(scheduler: str | None, workers: int | None) -> Iterator[Any]:
     with ExitStack() as stack:
         try:
             if scheduler is None:
-                address = stack.enter_context(_workers_here(workers))
+                address = stack.enter_context(_workers_here(workers, most))
             else:
                 address = scheduler if "://" in scheduler else json.loads(Path(scheduler).read_bytes())["address"]
             client = stack.enter_context(Client(address, set_as_default=False))
@@ -153,17 +153,18 @@ def _client(scheduler: str | None, workers: int | None) -> Iterator[Any]:
         yield client
 
 
-def _workers_here(workers: int | None) -> Any:
+def _workers_here(workers: int | None, most: int) -> Any:
     """
-    Start as many processes of one thread as are asked for, or as this machine has cores.
+    Start as many processes of one thread as are asked for, or as this machine has cores, but `most`.
 
     They listen on the loopback interface alone, and to those alone who have a certificate that is made here: on a
     machine with several users the others cannot run code as this one.
     """
+    from dask.system import CPU_COUNT  # noqa: PLC0415
     from distributed import LocalCluster, Security  # noqa: PLC0415
 
     return LocalCluster(
-        n_workers=workers,
+        n_workers=min(workers or CPU_COUNT, most),
         threads_per_worker=1,
         host="127.0.0.1",
         security=Security.temporary(),
