@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from gradhesion.cli.commands.run import finish, history_now
+from gradhesion.cli.commands.status import status_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.files import is_file
 from gradhesion.cli.terminal import messages
@@ -57,6 +58,7 @@ def _merge_shards(file: Path, *, overwrite: bool, quiet: bool) -> None:
     folder = folder_of(file)
     study = study_in(folder)
     if study is None and is_file(file):
+        status_of(file)  # which refuses what is no dataset
         if folder.is_dir():  # of a merge that was killed when it was done
             with claimed(file):
                 pass

@@ -70,6 +70,6 @@ def status_of(file: Path) -> dict[str, Any]:
         with netCDF4.Dataset(file) as dataset:
             dataset.getncattr("study")
         found = file.stat()
-    except (OSError, RuntimeError, AttributeError) as error:
+    except (OSError, RuntimeError, AttributeError, UnicodeError) as error:
         raise DatasetError(f"{file}: is neither a whole dataset nor one that a run is writing ({error})") from None
     return {"output": str(file), "state": "complete", "bytes": found.st_size, "written": found.st_mtime}
