@@ -31,9 +31,6 @@ stress: .venv/complete ## the long form of the stress suite (minutes)
 faults: .venv/complete ## kill runs at 200 random moments and at every rename, and go on with them (a minute)
 	.venv/bin/python -m tests.faults.trials --random 200
 
-adversary: .venv/complete faults ## those, kills at system calls, disks, 10,000 crafted datasets, 1,000 folders, names, 10,000 scenes (hours)
-	.venv/bin/python -m tests.adversary.trials
-
 bench: .venv/complete ## measure time and error (minutes), and write docs/benchmarks.md and its figures
 	.venv/bin/python -m benchmarks
 
@@ -104,4 +101,4 @@ build/lowest/tested build/before/tested: build/%/tested: $(sources) $(shell find
 	build/$*/.venv/bin/pytest -n auto --dist loadfile -m 'not slow' -W ignore::DeprecationWarning -W ignore::FutureWarning -W 'ignore:numpy.ndarray size changed:RuntimeWarning' tests/api tests/cli tests/core
 	touch $@
 
-.PHONY: docs lowest reference help maps figures docs-figures test stress faults adversary bench clean
+.PHONY: docs lowest reference help maps figures docs-figures test stress faults bench clean

@@ -93,7 +93,7 @@ def solved(study: Study, parameters: Arrays, threads: int | None = None) -> xarr
 def _say_once(sentences: tuple[str, ...]) -> None:
     """Say what a call has to report; in a loop that is the same many times, and is said once."""
     for sentence in sentences:
-        messages.say("caution", f"gr.solve: {sentence}")
+        messages.say(f"gr.solve: {sentence}")
 
 
 def _as_read(variable: Variable, dims: tuple[str, ...], values: NDArray[Any], beside: list[str]) -> xarray.Variable:

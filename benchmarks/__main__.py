@@ -13,7 +13,6 @@ from benchmarks import (
     loop_fits,
     measured_loops,
     one_scene,
-    plan,
     scale,
     scenes,
     start_up,
@@ -134,11 +133,6 @@ that of Amdahl's law; it must not grow with the number of scenes.
 Medians, except what is done once. Aims: 0.15, 0.25, 0.6, 0.4, 6, 12, 6, 40 s.
 
 {start_up.start_up_table()}"""
-    yield f"""## Estimates of a plan
-
-Processor time that `gradhesion plan` estimates, and time that the run takes. Aim: within 20 %.
-
-{plan.plan_table(repeat=1 if quick else 5)}"""
 
 
 def main() -> None:

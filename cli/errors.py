@@ -10,13 +10,13 @@ from typing import Final
 EXIT_CODES: Final = {
     0: "success",
     2: "the command, the study or the dataset is wrong; a package is missing or too old; no scheduler answers, "
-    "or no worker is usable",
+    "or a worker has another version",
     3: "written, but some scenes have failed (their `status` reports why), or a fit is in doubt (it did not converge, "
     "has a residual above its noise, has another minimum, or ends at an end of a range), or `verify` has found a value "
     "beyond its stated error",
-    4: "the output cannot be written (it exists, no space, no permission, another run is writing it, or parts of "
-    "another study are kept), or the scheduler or all workers are gone; existing files are untouched",
-    130: "interrupted; existing files are untouched, finished parts are kept, and the same command resumes",
+    4: "the output cannot be written (it exists, no space, no permission, another run is writing it, or blocks "
+    "of another study are kept), or a cluster is lost; existing files are untouched",
+    130: "interrupted; existing files are untouched, finished blocks are kept, and the same command resumes",
     141: "the reader of the output has closed it, as with `| head`",
 }
 """What every exit code means."""
@@ -92,6 +92,6 @@ class OutputError(GradhesionError):
 
 
 class ClusterError(GradhesionError):
-    """A cluster cannot be used: no scheduler answers, or no worker is usable."""
+    """A cluster cannot be used: no scheduler answers, or a worker has another version."""
 
     exit_code = 2

@@ -27,7 +27,7 @@ from gradhesion.cli.errors import GradhesionError, OutputError
 from gradhesion.cli.installation import misfit
 from gradhesion.cli.terminal import interrupts, messages
 from gradhesion.cli.terminal.output import complain, open_streams
-from gradhesion.cli.terminal.room import refuse_without_room, refuse_without_threads
+from gradhesion.cli.terminal.room import refuse_without_threads
 
 INTERRUPTED = 130
 UNHEARD = 141
@@ -66,10 +66,9 @@ class Commands(click.Group):
     def resolve_command(
         self, context: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Find the command, and make sure that there is room for it."""
+        """Find the command, and make sure that it may compile."""
         name, command, rest = super().resolve_command(context, args)
         if name is not None and not {"-h", "--help"} & {*rest}:
-            refuse_without_room(name)
             refuse_without_threads()
         return name, command, rest
 
@@ -129,7 +128,7 @@ def _code_of(error: BaseException) -> int:
     """Report to the user what has ended the command, and to the shell by a code; an error of the program is raised."""
     # What an interrupt breaks can look like anything, an ImportError for one.
     if interrupts.heard() or isinstance(error, KeyboardInterrupt | click.Abort):
-        messages.say("interrupted", interrupts.last_words(), exit_code=INTERRUPTED)
+        messages.say(interrupts.last_words())
         return INTERRUPTED
     if isinstance(error, MemoryError):
         error = messages.Failure(OutputError("there is not enough memory; split the study, or give it more memory"))
@@ -143,11 +142,8 @@ def _code_of(error: BaseException) -> int:
         error.show()
         return error.exit_code
     if isinstance(error, click.ClickException):
-        if messages.in_json():
-            messages.say_json("error", exit_code=error.exit_code, message=error.format_message())
-        else:
-            text = io.StringIO()
-            error.show(text)
-            complain(text.getvalue().rstrip())
+        text = io.StringIO()
+        error.show(text)
+        complain(text.getvalue().rstrip())
         return error.exit_code
     raise error

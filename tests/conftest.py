@@ -75,8 +75,7 @@ def gradhesion(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Result]:
     """The command line, called in this process; without lines of progress, of which a busy machine has some."""
     from gradhesion.cli.main import cli
 
-    for period in ("PERIOD", "PERIOD_OF_JSON"):
-        monkeypatch.setattr(f"gradhesion.cli.terminal.progress.{period}", math.inf)
+    monkeypatch.setattr("gradhesion.cli.terminal.progress.PERIOD", math.inf)
 
     def call(*arguments: str | Path) -> Result:
         result = CliRunner().invoke(cli, [str(argument) for argument in arguments])

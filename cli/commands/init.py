@@ -60,4 +60,4 @@ def init(name: str, output: Path | None, overwrite: bool, listed: bool) -> None:
         with replacement(each, overwrite=overwrite) as temporary, writing(each):
             temporary.write_text(content, encoding="utf-8")
     and_others = "".join(f", with {each}" for each in others)
-    messages.say("done", f"{path}: written{and_others}; gradhesion run {path}")
+    messages.say(f"{path}: written{and_others}; gradhesion run {path}")

@@ -1,4 +1,4 @@
-"""`gradhesion merge`: join the parts that shards have computed, or datasets that differ along one axis."""
+"""`gradhesion merge`: join the blocks that shards have computed, or datasets that differ along axes."""
 
 import time
 from contextlib import ExitStack
@@ -6,13 +6,13 @@ from pathlib import Path
 
 import click
 
-from gradhesion.cli.commands.plan import chunk_option
 from gradhesion.cli.commands.run import finish, history_now
+from gradhesion.cli.commands.status import status_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.files import is_file
 from gradhesion.cli.terminal import messages
-from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.examples import example
+from gradhesion.cli.terminal.given_up import given_up
 from gradhesion.cli.terminal.progress import progress
 from gradhesion.cli.terminal.written import dataset_to_write
 
@@ -27,85 +27,59 @@ from gradhesion.cli.terminal.written import dataset_to_write
     help="Dataset to write, if several are joined.",
 )
 @click.option("--overwrite", is_flag=True, help="Replace an existing dataset.")
-@chunk_option
 @click.option("--quiet", is_flag=True, help="Print errors only.")
-@click.option("--log-json", is_flag=True, is_eager=True, callback=messages.speak_json, help="One JSON object per line.")
-def merge(
-    files: tuple[Path, ...],
-    output: Path | None,
-    overwrite: bool,
-    chunk: int | None,
-    quiet: bool,
-    log_json: bool,  # noqa: ARG001 (its callback has it)
-) -> None:
-    """Join the parts of shards, or datasets.
+@given_up("--chunk", "the size of blocks is chosen by itself")
+@given_up("--log-json", "`gradhesion status FILE --json` shows how far a run is")
+def merge(files: tuple[Path, ...], output: Path | None, overwrite: bool, quiet: bool) -> None:
+    """Join the blocks of shards, or datasets.
 
-    With one FILE, join the parts left by `gradhesion run STUDY.toml --shard I/N -o FILE`. With several FILES and -o,
-    join maps or optima whose studies differ along one axis; the result has the values of all.
+    With one FILE, join the blocks left by `gradhesion run STUDY.toml --shard I/N -o FILE`. With several FILES and -o,
+    join maps or optima whose studies differ along axes; the result has the values of all, and none may be missing.
     """
-    start = time.monotonic()
     if len(files) == 1 and output is None:
-        _merge_shards(files[0], start, overwrite=overwrite, quiet=quiet)
+        _merge_shards(files[0], overwrite=overwrite, quiet=quiet)
     elif output is None or len(files) == 1:
         raise click.UsageError(
-            "several datasets need an output, named with -o; a single FILE without -o joins the parts of its shards"
+            "several datasets need an output, named with -o; a single FILE without -o joins the blocks of its shards"
         )
     elif len({*files}) < len(files):
         raise click.UsageError("the same dataset is named twice; name each once")
     else:
-        _merge_datasets(files, output, start, chunk, overwrite=overwrite, quiet=quiet)
+        _merge_datasets(files, output, overwrite=overwrite, quiet=quiet)
 
 
-def _merge_shards(file: Path, start: float, *, overwrite: bool, quiet: bool) -> None:
-    """Join the parts of shards."""
-    from gradhesion.cli.dataset.writer import Written, write
-    from gradhesion.cli.engines.kept import Kept
-    from gradhesion.cli.work.parts.folder import claimed, folder_of
-    from gradhesion.cli.work.parts.manifest import study_in
+def _merge_shards(file: Path, *, overwrite: bool, quiet: bool) -> None:
+    """Join the blocks of shards."""
+    from gradhesion.cli.dataset.writer import write
+    from gradhesion.cli.work.engines import kept
+    from gradhesion.cli.work.folder import claimed, folder_of, study_in
 
+    start = time.monotonic()
     folder = folder_of(file)
-    if folder.manifest() is None and not folder.foreign() and is_file(file):
-        scenes, failed = _counted(file)
-        if folder.path.is_dir():  # empty: a killed merge had tidied up all else
+    study = study_in(folder)
+    if study is None and is_file(file):
+        status_of(file)  # which refuses what is no dataset
+        if folder.is_dir():  # of a merge that was killed when it was done
             with claimed(file):
                 pass
-        finish(file, scenes, Written(failed=failed, complete=True), 0.0, quiet=quiet)
+        messages.say(f"{file}: was complete already")
         return
-    study = study_in(folder, file)
-    count = len(study.tiling)
-    missing = [number + 1 for number in range(count) if not folder.part(number).exists()]
-    if missing and not folder.has_made(file):
-        shown = ", ".join(map(str, missing[:8])) + (", ..." if len(missing) > 8 else "")
-        raise DatasetError(
-            f"{file}: {len(missing):,} of {counted(count, 'block')} are missing ({shown}); run the shards that have "
-            "them, or `gradhesion run`, which computes the rest"
-        )
+    if study is None:
+        raise DatasetError(f"{file}: has no blocks to join; compute them first, with `gradhesion run --shard`")
     with progress(study.scenes, quiet=quiet) as advance:
-        written = write(study, file, history=history_now(), overwrite=overwrite, engine=Kept(), advance=advance)
+        written = write(study, file, history=history_now(), overwrite=overwrite, engine=kept, advance=advance)
     finish(file, study.scenes, written, time.monotonic() - start, quiet=quiet)
 
 
-def _counted(file: Path) -> tuple[int, int]:
-    """Count the scenes of a dataset, and those that have failed."""
-    from gradhesion.cli.dataset.read.reader import opened, tiling_of
-    from gradhesion.core.problem.status import FAILED
-
-    with opened(file) as dataset:
-        status = dataset["status"]
-        return status.size, sum(int((status[block].values & FAILED != 0).sum()) for block in tiling_of(status))
-
-
-def _merge_datasets(
-    files: tuple[Path, ...], output: Path, start: float, chunk: int | None, *, overwrite: bool, quiet: bool
-) -> None:
-    """Join datasets along the axis in which they differ."""
+def _merge_datasets(files: tuple[Path, ...], output: Path, *, overwrite: bool, quiet: bool) -> None:
+    """Join datasets along the axes in which they differ."""
     from gradhesion.cli.dataset.verify.joining import joined, opened_all
     from gradhesion.cli.dataset.writer import write
 
+    start = time.monotonic()
     with ExitStack() as stack:
         sources = opened_all(files, stack)
         study, engine = joined(sources)
-        study = study.chunked(chunk)
         history = "\n".join([*(str(source.attrs["history"]) for source in sources.values()), history_now()])
         with progress(study.scenes, quiet=quiet) as advance:
             written = write(study, output, history=history, overwrite=overwrite, engine=engine, advance=advance)

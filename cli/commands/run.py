@@ -10,19 +10,19 @@ from typing import TYPE_CHECKING
 
 import click
 
-from gradhesion.cli.commands.plan import chunk_option, show_fit_plan, show_plan
 from gradhesion.cli.errors import ScenesFailedError
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.terminal.examples import example
+from gradhesion.cli.terminal.given_up import given_up
 from gradhesion.cli.terminal.printable import printable_line
 from gradhesion.cli.terminal.progress import progress, rate
 from gradhesion.cli.terminal.written import dataset_to_write
 
 if TYPE_CHECKING:
     from gradhesion.cli.dataset.writer import Written
-    from gradhesion.cli.engines import Engine
     from gradhesion.cli.study.study import Study
+    from gradhesion.cli.work.engines import Engine
 
 
 def _shard(_context: click.Context, _option: click.Parameter, value: str | None) -> tuple[int, int] | None:
@@ -47,10 +47,8 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
 )
 @click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a key of the study; repeatable.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing dataset.")
-@click.option("--fresh", is_flag=True, help="Discard the finished parts of an earlier run.")
-@click.option("--fail-fast", is_flag=True, help="Stop at the first failed scene; write nothing.")
-@click.option("--shard", metavar="I/N", callback=_shard, help="Compute every N-th block, as parts for `merge`.")
-@click.option("--dry-run", is_flag=True, help="Same as `gradhesion plan`: write nothing.")
+@click.option("--fresh", is_flag=True, help="Discard the finished blocks of an earlier run.")
+@click.option("--shard", metavar="I/N", callback=_shard, help="Compute every N-th block, for `merge`.")
 @click.option(
     "--engine",
     type=click.Choice(["threads", "dask"]),
@@ -64,26 +62,22 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
     type=click.IntRange(min=1),
     help="Threads to use [all available to the process]; values do not depend on it.",
 )
-@chunk_option
 @click.option("--quiet", is_flag=True, help="Print errors, and a line if the solver is compiled.")
-@click.option(
-    "--log-json", is_flag=True, is_eager=True, callback=messages.speak_json, help="Log one JSON object per line."
-)
+@given_up("--dry-run", "use `gradhesion plan`")
+@given_up("--chunk", "the size of blocks is chosen by itself")
+@given_up("--fail-fast", "run fewer scenes first, and `gradhesion info` reports which have failed, and why")
+@given_up("--log-json", "`gradhesion status FILE --json` shows how far a run is")
 def run(
     study: Path,
     output: Path | None,
     overrides: tuple[str, ...],
     overwrite: bool,
     fresh: bool,
-    fail_fast: bool,
     shard: tuple[int, int] | None,
-    dry_run: bool,
     engine: str,
     scheduler: str | None,
     threads: int | None,
-    chunk: int | None,
     quiet: bool,
-    log_json: bool,  # noqa: ARG001 (its callback has it)
 ) -> None:
     """Compute a study into a dataset (NetCDF).
 
@@ -96,45 +90,37 @@ def run(
 
     if scheduler is not None and (engine != "dask" or threads is not None):
         raise click.UsageError("--scheduler needs --engine dask, without --threads: its workers have their own")
+    if shard is not None and fresh:
+        raise click.UsageError("--shard cannot be combined with --fresh, which discards the blocks of all shards")
     loaded = load_any(study, overrides)
     path = output or Path("outputs") / f"{loaded.name}.nc"
     if isinstance(loaded, FitStudy):
         from gradhesion.cli.commands.run_fit import run_fit
 
-        refused = {"--shard": shard, "--fresh": fresh, "--fail-fast": fail_fast, "--engine dask": engine != "threads"}
+        refused = {"--shard": shard, "--fresh": fresh, "--engine dask": engine != "threads"}
         if given := [word for word, on in refused.items() if on]:
             raise click.UsageError(f"{given[0]}: a fit has no blocks of scenes; run it without")
-        if dry_run:
-            show_fit_plan(loaded, path)
-            return
         run_fit(loaded, path, history=history_now(), overwrite=overwrite, quiet=quiet)
         return
-    requested = loaded.chunked(chunk)
-    if dry_run:
-        show_plan(requested, path, threads)
-        return
-    if engine == "threads":  # the workers of a cluster have caches of their own
-        prepare(requested)
-    solver = _engine(requested, engine, scheduler, threads, quiet=quiet)
+    if scheduler is None:  # the workers of another cluster have caches of their own
+        prepare(loaded)
+    solver = _engine(loaded, engine, scheduler, threads, quiet=quiet)
     if shard is not None:
-        if fresh or fail_fast:
-            raise click.UsageError("--shard cannot be combined with --fresh or --fail-fast; run without these two")
-        _run_shard(requested, path, shard, solver, overwrite=overwrite, quiet=quiet)
+        _run_shard(loaded, path, shard, solver, overwrite=overwrite, quiet=quiet)
         return
     start = time.monotonic()
-    with progress(requested.scenes, quiet=quiet) as advance:
+    with progress(loaded.scenes, quiet=quiet) as advance:
         written = write(
-            requested,
+            loaded,
             path,
             history=history_now(),
             overwrite=overwrite,
             fresh=fresh,
-            fail_fast=fail_fast,
             threads=threads,
             engine=solver,
             advance=advance,
         )
-    finish(path, requested.scenes, written, time.monotonic() - start, quiet=quiet)
+    finish(path, loaded.scenes, written, time.monotonic() - start, quiet=quiet)
 
 
 def history_now() -> str:
@@ -144,7 +130,7 @@ def history_now() -> str:
 
 def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet: bool) -> None:
     """
-    Say what was written, and what has failed.
+    Say what was written, how much of it an earlier run had done, and what has failed.
 
     Raises
     ------
@@ -152,69 +138,45 @@ def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet
         Some scenes have.
     """
     if not quiet:
-        numbers = {"blocks_reused": written.reused, "blocks_computed": written.computed, "failed": written.failed}
-        messages.say("done", _report(path, scenes, written, seconds), scenes=scenes, seconds=seconds, **numbers)
+        count, size = counted(scenes, "scene"), bytes_in_words(path.stat().st_size)
+        reused = f"; reused {counted(written.reused, 'block')}, computed {written.computed:,}" if written.reused else ""
+        took = f"{count} in {seconds:.2f} s ({rate(scenes, seconds)} per s), {size}{reused}"
+        messages.say(f"{path}: {f'{count}, {size}, were complete already' if written.complete else took}")
         for sentence in written.cautions:
-            messages.say("caution", f"{path}: {sentence}")
-    for sentence in written.raised:
-        messages.say("raised", f"{path}: {sentence}")
-    if written.raised:
-        raise ScenesFailedError(
-            f"{path}: {counted(len(written.raised), 'block')} could not be solved, and their scenes have no value; the "
-            "parts of the others are kept, and the same command with --overwrite tries these again"
-        )
+            messages.say(f"{path}: {sentence}")
     if written.failed:
         raise ScenesFailedError(
             f"{path}: {written.failed:,} of {counted(scenes, 'scene')} failed; `gradhesion info {path}` reports why"
         )
 
 
-def _engine(study: "Study", name: str, scheduler: str | None, threads: int | None, *, quiet: bool) -> "Engine":
+def _engine(study: "Study", engine: str, scheduler: str | None, threads: int | None, *, quiet: bool) -> "Engine":
     """Choose who solves the blocks of a study."""
-    from gradhesion.cli.engines.threads import Threads
+    from gradhesion.cli.work.engines import in_threads
 
-    if name == "dask":
-        from gradhesion.cli.engines.scheduler import require_dask
+    if engine == "dask":
+        from gradhesion.cli.work.cluster import on_cluster, require_dask
 
         require_dask()
         if study.has_parts:
-            from gradhesion.cli.engines.cluster import Cluster
-
-            return Cluster(scheduler, threads, quiet=quiet)
+            return on_cluster(scheduler, threads, quiet=quiet)
         if not quiet:
-            messages.say("engine", "the study has one block or consists of curves, and is solved in this process")
-    return Threads(threads)
+            messages.say("the study has one block or consists of curves, and is solved in this process")
+    return in_threads(threads)
 
 
 def _run_shard(
-    study: "Study", path: Path, shard: tuple[int, int], engine: "Engine", *, overwrite: bool, quiet: bool
+    study: "Study", path: Path, shard: tuple[int, int], solver: "Engine", *, overwrite: bool, quiet: bool
 ) -> None:
-    """Compute the parts of a shard."""
+    """Compute the blocks of a shard."""
     from gradhesion.cli.dataset.writer import write_shard
 
     if not study.has_parts:
         raise click.UsageError("--shard: the study has one block only, and needs no shards; run it without --shard")
     with progress(study.scenes // shard[1], quiet=quiet) as advance:
-        written = write_shard(study, path, shard, overwrite=overwrite, engine=engine, advance=advance)
+        written = write_shard(study, path, shard, overwrite=overwrite, engine=solver, advance=advance)
     if not quiet:
-        sentence = (
+        messages.say(
             f"{path}.parts: shard {shard[0]} of {shard[1]}: reused {counted(written.reused, 'block')}, computed "
             f"{written.computed:,}; `gradhesion merge {path}` joins them when all shards are done"
         )
-        messages.say("done", sentence, blocks_reused=written.reused, blocks_computed=written.computed)
-    for sentence in written.raised:
-        messages.say("raised", f"{path}: {sentence}")
-    if written.raised:
-        raise ScenesFailedError(
-            f"{path}: {counted(len(written.raised), 'block')} could not be solved; the same command tries these again"
-        )
-
-
-def _report(path: Path, scenes: int, written: "Written", seconds: float) -> str:
-    """Say what was written, and how much of it an earlier run had done."""
-    size, count = bytes_in_words(path.stat().st_size), counted(scenes, "scene")
-    if written.complete:
-        return f"{path}: {count}, {size}, were complete already"
-    speed = rate(scenes, seconds)
-    reused = f"; reused {counted(written.reused, 'block')}, computed {written.computed:,}" if written.reused else ""
-    return f"{path}: {count} in {seconds:.2f} s ({speed} per s), {size}{reused}"

@@ -35,10 +35,10 @@ def run_fit(study: "FitStudy", path: Path, *, history: str, overwrite: bool, qui
     from gradhesion.cli.work.compiling import prepare
     from gradhesion.cli.work.solve.fitting import doubts_of, fits_of
 
-    refuse_existing(path, path, overwrite=overwrite)
+    refuse_existing(path, overwrite=overwrite)
     refuse_size(study)
     for note in () if quiet else _first(study.notes):
-        messages.say("note", note)
+        messages.say(note)
     prepare()
     start = time.monotonic()
     with progress(len(study.loops), quiet=quiet or len(study.loops) == 1, noun="loop") as advance:
@@ -50,10 +50,10 @@ def run_fit(study: "FitStudy", path: Path, *, history: str, overwrite: bool, qui
         return f"{path}: " if study.is_of_one else f"{path}: {fit.loop.file}: "
 
     if not quiet:
-        messages.say("done", f"{path}: {_done(study, fits, seconds, path.stat().st_size)}", seconds=seconds)
+        messages.say(f"{path}: {_done(study, fits, seconds, path.stat().st_size)}")
         warnings = [f"{about(fit)}{one}" for fit in fits if fit.found for one in cautions_of_fit(study, fit.found)]
         for sentence in _first(warnings):
-            messages.say("caution", sentence)
+            messages.say(sentence)
     doubts = [f"{about(fit)}{one}" for fit in fits for one in (doubts_of(fit.found) if fit.found else [fit.problem])]
     if doubts:
         raise FitDoubtfulError(list(_first(doubts)))

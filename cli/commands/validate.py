@@ -26,7 +26,7 @@ def validate(study: Path, overrides: tuple[str, ...]) -> None:
     if isinstance(requested, FitStudy):
         show(f"{study}: valid; a fit of {requested.in_words}; fitted: {', '.join(requested.parameters)}")
         for note in requested.notes:
-            messages.say("note", note)
+            messages.say(note)
         return
     axes = ", ".join(f"{name} ({size:,})" for name, size in requested.sizes.items()) or "none"
     outputs = ", ".join(requested.outputs or requested.variables)

@@ -29,11 +29,11 @@ def warmup(everything: bool, workers: int | None, quiet: bool) -> None:  # noqa:
 
     def report(kind: str, seconds: float) -> None:
         if not quiet:
-            messages.say("compiled", f"{kind}: {seconds:.1f} s", kind=kind, seconds=seconds)
+            messages.say(f"{kind}: {seconds:.1f} s")
 
     start = time.monotonic()
     with alone():
         warm_up(report, everything=everything)
     if not quiet:
         where = f", kept in {place().folder}" if place().folder else ""
-        messages.say("done", f"all compiled in {time.monotonic() - start:.0f} s{where}")
+        messages.say(f"all compiled in {time.monotonic() - start:.0f} s{where}")

@@ -170,7 +170,7 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
     found = kind.joined(study, kind.parts(study, threads))
     steep = found.pop(STEEP, np.zeros(1, np.int8))
     for sentence in cautions(study, flagged_in(found["status"]), int(np.count_nonzero(steep))):
-        messages.say("caution", f"{study.name}: {sentence}")
+        messages.say(f"{study.name}: {sentence}")
     made = {}
     for name, variable in described.items():
         if variable.made:

@@ -3,7 +3,7 @@
 import hashlib
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Final
@@ -18,7 +18,7 @@ from gradhesion.cli.study.points import Points
 from gradhesion.cli.study.profile_file import Measured
 from gradhesion.cli.study.rules.answers import Search, Uncertainty
 from gradhesion.cli.study.rules.axes import Values
-from gradhesion.cli.study.tiling import CHUNK, Block, Tiling
+from gradhesion.cli.study.tiling import Block, Tiling, cells_of_chunk
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
 from gradhesion.core.closed.reach import depends_on_contact
 from gradhesion.core.problem.control import Loading
@@ -81,7 +81,7 @@ class Study:
     """The study as TOML: reading it again gives the same study."""
     left_out: frozenset[str] = frozenset()
     """The parameters that it does not give since they have no effect; they have a value all the same."""
-    chunk: int = CHUNK
+    chunk: int = field(default_factory=cells_of_chunk)
     """Cells of a chunk of the dataset of a map, at most; a block that is computed at a time has two."""
     folder: Path = Path()
     """The folder of the files that it names."""
@@ -289,10 +289,6 @@ class Study:
         """Give the lengths of a variable of a map for scenes of a shape: sensitivities have one dimension more."""
         own = labels_of(name)
         return (*scenes, len(self.labels[own])) if own else scenes
-
-    def chunked(self, cells: int | None) -> "Study":
-        """Give the same study with other chunks, unless `cells` is None."""
-        return self if cells is None else replace(self, chunk=cells)
 
     def apart(self, block: Block) -> tuple[Block, Block, tuple[Profile, ...]]:
         """Take a block apart: along the solvers, along the axes, and the profiles of its punches."""

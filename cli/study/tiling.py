@@ -1,6 +1,7 @@
 """How the scenes of a study are cut: into chunks of the file, and blocks of whole chunks that are solved one by one."""
 
 import math
+import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -14,6 +15,11 @@ CHUNKS_OF_BLOCK: Final = 2
 """Chunks of a block: a second or so of the slowest work, so that progress shows and an interrupt is heard."""
 
 Block = tuple[slice, ...]
+
+
+def cells_of_chunk() -> int:
+    """Give the cells of a chunk; tests set fewer, so that small studies have many blocks."""
+    return int(os.environ.get("GRADHESION_CHUNK", CHUNK))
 
 
 @dataclass(frozen=True)

@@ -11,26 +11,15 @@ def counted(number: int, noun: str) -> str:
     return f"{number:,} {noun}" + ("" if number == 1 else "s")
 
 
-def bytes_in_words(number: float, digits: int = 1) -> str:
+def bytes_in_words(number: float) -> str:
     """
-    Write a number of bytes in the unit that fits, with digits behind the point.
+    Write a number of bytes in the unit that fits.
 
     >>> bytes_in_words(2.5e9), bytes_in_words(300)
     ('2.5 GB', '0.3 kB')
     """
     unit, size = next((pair for pair in (("TB", 1e12), ("GB", 1e9), ("MB", 1e6)) if number >= pair[1]), ("kB", 1e3))
-    return f"{number / size:,.{digits}f} {unit}"
-
-
-def two_in_words(one: float, other: float) -> tuple[str, str]:
-    """
-    Write two numbers of bytes with enough digits to differ.
-
-    >>> two_in_words(2.5e9, 2.49e9), two_in_words(48, 30), two_in_words(5e8, 5e8)
-    (('2.50 GB', '2.49 GB'), ('0.05 kB', '0.03 kB'), ('500.0 MB', '500.0 MB'))
-    """
-    pairs = ((bytes_in_words(one, digits), bytes_in_words(other, digits)) for digits in range(1, 12))
-    return next((pair for pair in pairs if pair[0] != pair[1]), (bytes_in_words(one), bytes_in_words(other)))
+    return f"{number / size:,.1f} {unit}"
 
 
 def percent(count: int, whole: int) -> str:
@@ -42,3 +31,18 @@ def percent(count: int, whole: int) -> str:
     """
     share = 100.0 * count / whole
     return f"{share:.2g} %" if share < 99.5 else f"{share:.0f} %"
+
+
+def duration(seconds: float) -> str:
+    """
+    Write a time in the unit that fits.
+
+    >>> duration(0.31), duration(75.0), duration(1e4), duration(float("inf"))
+    ('0.3 s', '75 s', '2.8 h', 'any time')
+    """
+    if seconds > 1e9:
+        return "any time"
+    for unit, size, most in (("s", 1.0, 120.0), ("min", 60.0, 7200.0), ("h", 3600.0, 172_800.0)):
+        if seconds < most:
+            return f"{seconds / size:.{0 if seconds / size >= 10 else 1}f} {unit}"
+    return f"{seconds / 86_400:.0f} d"

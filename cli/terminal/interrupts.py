@@ -14,7 +14,6 @@ BURST: Final = 1.0
 
 _heard: list[float] = []
 _kept: list[str] = []
-_held: list[bool] = []
 
 
 def listen() -> None:
@@ -38,17 +37,6 @@ def check() -> None:
         raise KeyboardInterrupt
 
 
-def hold() -> None:
-    """Let a signal wait until `release`: what is begun in between is known to whoever tidies up."""
-    _held.append(True)
-
-
-def release() -> None:
-    """Raise KeyboardInterrupt if a signal has come, and at once when one comes from now on."""
-    _held.clear()
-    check()
-
-
 def keep(sentence: str) -> None:
     """Note what an interrupt has left, for the last words of the program."""
     _kept[:] = [sentence]
@@ -66,10 +54,9 @@ def _show(unraisable: "UnraisableHookArgs") -> None:
 
 
 def _hear(_number: int, _frame: FrameType | None) -> None:
-    """Raise KeyboardInterrupt, once in a burst, and not while signals wait."""
+    """Raise KeyboardInterrupt, once in a burst."""
     now = time.monotonic()
     if _heard and now - _heard[-1] < BURST:
         return
     _heard.append(now)
-    if not _held:
-        raise KeyboardInterrupt
+    raise KeyboardInterrupt

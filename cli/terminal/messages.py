@@ -1,7 +1,5 @@
-"""What is printed on stderr while a command works: in words, as JSON lines for a program, or not at all."""
+"""What is printed on stderr while a command works, and when it fails."""
 
-import json
-import time
 from typing import IO, Any
 
 import click
@@ -10,31 +8,10 @@ from gradhesion.cli.errors import GradhesionError
 from gradhesion.cli.terminal.output import complain
 from gradhesion.cli.terminal.printable import printable_line
 
-_json: list[bool] = []
 
-
-def speak_json(_context: click.Context, _option: click.Parameter, value: bool) -> bool:
-    """Choose JSON lines, or words, as the option of a command says."""
-    _json[:] = [value]
-    return value
-
-
-def in_json() -> bool:
-    """Report whether JSON lines are asked for."""
-    return any(_json)
-
-
-def say(event: str, sentence: str, **fields: Any) -> None:
-    """Report a sentence, or the same as a JSON line with more fields."""
-    if in_json():
-        say_json(event, message=sentence, **fields)
-    else:
-        complain(printable_line(sentence))
-
-
-def say_json(event: str, **fields: Any) -> None:
-    """Print one JSON object on a line of stderr."""
-    complain(json.dumps({"event": event, "time": round(time.time(), 3), **fields}))
+def say(sentence: str) -> None:
+    """Print a sentence on a line of stderr."""
+    complain(printable_line(sentence))
 
 
 class Failure(click.ClickException):
@@ -46,9 +23,7 @@ class Failure(click.ClickException):
 
     def show(self, file: IO[Any] | None = None) -> None:
         """Print the message to `file` (stderr if None)."""
-        if in_json() and file is None:
-            say_json("error", exit_code=self.exit_code, message=self.message)
-        elif file is None:
+        if file is None:
             complain(self.message)
         else:
             click.echo(self.message, file=file)

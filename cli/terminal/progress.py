@@ -2,7 +2,7 @@
 
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Final, Protocol
 
@@ -19,22 +19,17 @@ class Advance(Protocol):
 PERIOD: Final = 10.0
 """Seconds between two plain lines."""
 
-PERIOD_OF_JSON: Final = 1.0
-"""Seconds between two lines for a program."""
-
 
 @contextmanager
 def progress(total: int, *, quiet: bool, noun: str = "scene") -> Iterator[Advance]:
     """Show how many of `total` scenes, or loops, are done: call what is given with the number of newly done ones."""
     if quiet:
         yield lambda _, **__: None
-    elif messages.in_json():
-        yield _lines(total, time.monotonic, PERIOD_OF_JSON, noun)
     elif sys.stderr.isatty():
         with _bar(total, noun) as advance:
             yield advance
     else:
-        yield _lines(total, time.monotonic, PERIOD, noun)
+        yield _lines(total, noun)
 
 
 @contextmanager
@@ -63,29 +58,22 @@ def _bar(total: int, noun: str) -> Iterator[Advance]:
         yield advance
 
 
-def _lines(total: int, clock: Callable[[], float], period: float, noun: str = "scene") -> Advance:
-    """Print a line when the last one is `period` seconds old."""
-    start = last = clock()
+def _lines(total: int, noun: str) -> Advance:
+    """Print a line when the last one is `PERIOD` seconds old."""
+    start = last = time.monotonic()
     done = solved = 0
 
     def advance(scenes: int, /, *, reused: bool = False) -> None:
         nonlocal done, solved, last
         done += scenes
         solved += 0 if reused else scenes
-        now = clock()
-        if now - last >= period and done < total:
+        now = time.monotonic()
+        if now - last >= PERIOD and done < total:
             last = now
             left = (now - start) * (total - done) / solved if solved else None
             speed = rate(solved, now - start)
             words = "" if left is None else f", {left:.0f} s left"
-            messages.say(
-                "progress",
-                f"{done:,} of {total:,} {noun}s ({done / total:.0%}), {speed} per s{words}",
-                done=done,
-                scenes=total,
-                rate=solved / max(now - start, 1e-9),
-                seconds_left=left,
-            )
+            messages.say(f"{done:,} of {total:,} {noun}s ({done / total:.0%}), {speed} per s{words}")
 
     return advance
 

@@ -37,6 +37,6 @@ def dataset_to_write(_context: click.Context, _option: click.Parameter, path: Pa
 def say_written(path: Path, notes: Iterable[str] = ()) -> None:
     """Say that a file was written, and what is to be known of it."""
     for note in notes:
-        messages.say("note", note)
+        messages.say(note)
     size = path.stat().st_size
-    messages.say("done", f"{path}: written, {bytes_in_words(size)}", bytes=size)
+    messages.say(f"{path}: written, {bytes_in_words(size)}")

@@ -4,26 +4,23 @@ Processes that start meanwhile wait for it: they would all compile the same. Wha
 compiled, and kept, while it is solved.
 """
 
-import time
 from collections.abc import Iterator
-from contextlib import contextmanager, nullcontext, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Final
 
 import numba
+from filelock import FileLock
 
 from gradhesion.cli.errors import CompilerError
-from gradhesion.cli.locks import closing, try_lock
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
-from gradhesion.cli.terminal import interrupts, messages
+from gradhesion.cli.terminal import messages
 from gradhesion.cli.work.solve.blocks import solve_block
 from gradhesion.core import place
 
 SECONDS: Final = 60
 """About how long one core compiles what both outputs of a first map need: 45 s on one machine, 90 s on another."""
-PAUSE: Final = 0.2
-"""Seconds between two looks at what another process compiles."""
 _MARK: Final = "compiled"
 """A file in the folder of the kernels: a process has compiled, and has said so."""
 
@@ -41,10 +38,16 @@ def prepare(study: Study | None = None) -> None:
         The environment says that nothing is to be compiled.
     """
     refuse_without_compiler()
-    if is_first():
-        say_why()
-        messages.say("compile", f"compiling the solver, about {SECONDS} s, once per version")
-        compile_for(study)
+    folder = place().folder
+    if folder in _begun or (folder and (folder / _MARK).exists()):
+        return
+    say_why()
+    messages.say(f"compiling the solver, about {SECONDS} s, once per version")
+    with alone():
+        if study is not None and study.kind == "map":  # the first and the last of its scenes, of others nothing
+            first, last = study.tiling[0], study.tiling[len(study.tiling) - 1]
+            _try_to_solve(study, tuple(slice(part.start, part.start + 1) for part in first))
+            _try_to_solve(study, tuple(slice(part.stop - 1, part.stop) for part in last))
 
 
 def refuse_without_compiler() -> None:
@@ -60,25 +63,10 @@ def refuse_without_compiler() -> None:
         raise CompilerError("NUMBA_DISABLE_JIT is set, but the solver needs the compiler; unset it")
 
 
-def is_first() -> bool:
-    """Report whether neither this process nor one before it has compiled this version."""
-    folder = place().folder
-    return folder not in _begun and (folder is None or not (folder / _MARK).exists())
-
-
 def say_why() -> None:
     """Report why compiled kernels are not kept in the usual folder, if they are not."""
     if place().why:
-        messages.say("cache", place().why)
-
-
-def compile_for(study: Study | None) -> None:
-    """Solve the first and the last scene of a map, so that what they need is compiled, and kept; of others nothing."""
-    with alone():
-        if study is not None and study.kind == "map":
-            first, last = study.tiling[0], study.tiling[len(study.tiling) - 1]
-            _try_to_solve(study, tuple(slice(part.start, part.start + 1) for part in first))
-            _try_to_solve(study, tuple(slice(part.stop - 1, part.stop) for part in last))
+        messages.say(place().why)
 
 
 def _try_to_solve(study: Study, block: Block) -> None:
@@ -89,15 +77,14 @@ def _try_to_solve(study: Study, block: Block) -> None:
 
 @contextmanager
 def alone() -> Iterator[None]:
-    """Compile as the first process of this version that does, after any that is at it; without locks where none are."""
-    folder, handle = place().folder, None
-    with suppress(OSError):
-        while folder is not None and is_first() and (handle := try_lock(folder / "lock")) is None:
-            interrupts.check()
-            time.sleep(PAUSE)
-    with nullcontext() if handle is None else closing(handle):
+    """Compile while no other process of this version does."""
+    folder = place().folder
+    with ExitStack() as stack:
+        if folder is not None:
+            with suppress(OSError):
+                stack.enter_context(FileLock(folder / "lock"))
         yield
         _begun.add(folder)
-        with suppress(OSError):
-            if folder is not None:
+        if folder is not None:
+            with suppress(OSError):
                 (folder / _MARK).touch()

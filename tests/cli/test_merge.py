@@ -5,11 +5,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import netCDF4
-import numpy as np
 import pytest
 from click.testing import Result
 
-from gradhesion.cli.work.parts.folder import claimed, folder_of
+from gradhesion.cli.work.folder import claimed, folder_of
+from tests.faults.trials import values_of
 
 Call = Callable[..., Result]
 
@@ -18,13 +18,6 @@ Call = Callable[..., Result]
 def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     """Cut the small study of 24 scenes into 6 blocks."""
     monkeypatch.setenv("GRADHESION_CHUNK", "2")
-
-
-def values_of(path: Path) -> dict[str, bytes]:
-    """Read all bytes of all variables."""
-    with netCDF4.Dataset(path) as file:
-        file.set_auto_mask(False)
-        return {name: np.asarray(variable[...]).tobytes() for name, variable in file.variables.items()}
 
 
 def test_shards_in_any_order_make_the_dataset(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
@@ -58,11 +51,11 @@ def test_run_computes_what_the_shards_have_left(gradhesion: Call, study_file: Pa
 def test_a_damaged_part_is_not_merged(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
     output = tmp_path / "out.nc"
     assert gradhesion("run", study_file, "-o", output, "--shard", "1/1").exit_code == 0
-    part = folder_of(output).part(4)
+    part = folder_of(output) / "000004.npz"
     part.write_bytes(part.read_bytes()[:-8])
     result = gradhesion("merge", output)
     assert result.exit_code == 2
-    assert f"{output}: block 5 of 6 is damaged; compute its shard again" in result.stderr
+    assert f"{output}: block 5 of 6 blocks is damaged" in result.stderr
     assert not output.exists()
     assert gradhesion("run", study_file, "-o", output, "--shard", "5/6").exit_code == 0
     assert gradhesion("merge", output).exit_code == 0
@@ -71,7 +64,7 @@ def test_a_damaged_part_is_not_merged(gradhesion: Call, study_file: Path, tmp_pa
 @pytest.mark.slow
 def test_shards_work_at_once_but_not_beside_a_run(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
     output = tmp_path / "out.nc"
-    with claimed(output, "1-of-2"):
+    with claimed(output, "-1-of-2"):
         assert gradhesion("run", study_file, "-o", output, "--shard", "2/2").exit_code == 0
         for command in (["run", study_file, "-o", output], ["run", study_file, "-o", output, "--shard", "1/2"]):
             result = gradhesion(*command)
@@ -91,7 +84,7 @@ def test_mistakes(gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatc
     assert gradhesion("run", study_file, "-o", output, "--shard", "1/2", "--fresh").exit_code == 2
     none = gradhesion("merge", output)
     assert none.exit_code == 2
-    assert "there are no parts of a study" in none.stderr
+    assert "has no blocks to join" in none.stderr
     monkeypatch.setenv("GRADHESION_CHUNK", "100")
     assert "run it without --shard" in gradhesion("run", study_file, "-o", output, "--shard", "1/2").stderr
     assert os.listdir(tmp_path) == ["study.toml"]

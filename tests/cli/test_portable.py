@@ -31,7 +31,7 @@ import gradhesion.cli
 from gradhesion.cli.main import cli, main
 
 for found in pkgutil.walk_packages(gradhesion.cli.__path__, "gradhesion.cli."):
-    if not found.name.startswith("gradhesion.cli.engines.") and not found.name.endswith("__main__"):
+    if not found.name.startswith("gradhesion.cli.work.cluster") and not found.name.endswith("__main__"):
         importlib.import_module(found.name)
 *first, last = json.loads(sys.argv[1])
 for arguments in first:

@@ -62,16 +62,14 @@ def test_text_that_is_safe_stays() -> None:
         assert printable(chr(code)).isprintable()
 
 
-@pytest.mark.parametrize(
-    "where", ["2>&-", "2>/dev/full", "2> >(exit)", ">&- 2>&-", "<&- >&- 2>&-", "--log-json 2>/dev/full"]
-)
+@pytest.mark.parametrize("where", ["2>&-", "2>/dev/full", "2> >(exit)", ">&- 2>&-", "<&- >&- 2>&-"])
 def test_messages_that_cannot_be_printed_do_not_decide(
     where: str, shell: Shell, study_file: Path, gradhesion: Call, tmp_path: Path
 ) -> None:
     done = shell(f"gradhesion run {study_file} -o out.nc {where}; echo $?")
     assert done.stdout == b"0\n", done.stderr
     assert gradhesion("info", tmp_path / "out.nc").stdout.startswith("A small study\n")
-    missing = shell(f"gradhesion info none.nc {where.replace('--log-json', '')}")
+    missing = shell(f"gradhesion info none.nc {where}")
     assert (missing.returncode, missing.stderr) == (2, b"")
 
 
@@ -111,17 +109,10 @@ def test_names_that_are_not_utf_8(
     assert done.returncode == 0, done.stderr
     assert rb"gradhesion run 's\udcfe.toml'" in done.stdout
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("GRADHESION_CHUNK", "2")
-    for words in (["o\udcff.nc"], ["o\udcff/o.nc"], ["o\udcff.nc", "--shard", "1/2"]):
-        result = gradhesion("run", "s\udcfe.toml", "-o", *words)
+    for name in ("o\udcff.nc", "o\udcff/o.nc"):
+        result = gradhesion("run", "s\udcfe.toml", "-o", name)
         assert result.exit_code == 4
-        assert "is not UTF-8, as NetCDF needs it; name another with -o" in result.stderr
-    (tmp_path / "a" / "b.nc.parts").mkdir(parents=True)
-    assert (
-        "has a backslash, which NetCDF misreads; name another"
-        in gradhesion("run", "s\udcfe.toml", "-o", r"a\b.nc").stderr
-    )
-    assert os.listdir("a/b.nc.parts") == []
+        assert "cannot be written" in result.stderr
     Path("o\udcff.nc").touch()
     for command in ("info", "plot", "explore", "verify", "merge", "status"):
         assert gradhesion(command, "o\udcff.nc").exit_code == 2

@@ -1,10 +1,7 @@
 """Progress: a bar on a terminal, plain lines elsewhere, and nothing at all when it is to be quiet."""
 
 import io
-import json
-import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
@@ -49,48 +46,3 @@ def test_quiet(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPat
     with progress(10, quiet=True) as advance:
         advance(5)
     assert capsys.readouterr() == ("", "")
-
-
-def test_json_lines(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gradhesion.cli.terminal.messages.in_json", lambda: True)
-    seconds = iter([0.0, 0.5, 2.0, 3.0])
-    monkeypatch.setattr("time.monotonic", lambda: next(seconds))
-    with progress(4000, quiet=False) as advance:
-        advance(1000, reused=True)
-        advance(1000)
-        advance(2000)
-    (line,) = capsys.readouterr().err.splitlines()
-    told = json.loads(line)
-    assert {name: told[name] for name in ("event", "done", "scenes", "rate", "seconds_left")} == {
-        "event": "progress",
-        "done": 2000,
-        "scenes": 4000,
-        "rate": 500.0,
-        "seconds_left": 4.0,
-    }
-
-
-BY_SPEED = ("compile", "compiled", "progress")
-"""What is reported of a run that has to compile, or of one on a busy machine."""
-
-
-@pytest.mark.parametrize(
-    ("arguments", "code", "events"),
-    [
-        (["STUDY"], 0, ["done"]),
-        (["STUDY", "--quiet"], 0, []),
-        (["STUDY", "--set=parameters.nu=7"], 2, ["error"]),
-        (["STUDY", "--shard=1/2"], 2, ["error"]),
-        (["NONE"], 2, ["error"]),
-    ],
-)
-def test_all_that_is_told_is_json(
-    arguments: list[str], code: int, events: list[str], study_file: Path, tmp_path: Path
-) -> None:
-    given = [str(study_file) if one == "STUDY" else one for one in arguments]
-    command = [sys.executable, "-m", "gradhesion.cli", "run", *given, "-o", tmp_path / "out.nc", "--log-json"]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
-    told = [json.loads(line) for line in done.stderr.splitlines()]
-    assert done.returncode == code
-    assert [line["event"] for line in told if line["event"] not in BY_SPEED] == events
-    assert all(line.get("exit_code", code) == code for line in told)

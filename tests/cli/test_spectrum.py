@@ -93,13 +93,16 @@ def test_with_points_several_solvers_and_units(study: dict[str, Any]) -> None:
     assert "rms height" in made["amplitude"].attrs["long_name"]
 
 
-def test_blocks_shards_and_resumed_runs_give_the_same(study: dict[str, Any], gradhesion: Call, tmp_path: Path) -> None:
+def test_blocks_shards_and_resumed_runs_give_the_same(
+    study: dict[str, Any], gradhesion: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     study["parameters"]["a_max_over_R"] = 0.4
     path, whole, cut = tmp_path / "rough.toml", tmp_path / "whole.nc", tmp_path / "cut.nc"
     path.write_text(study_from(study).text)
     assert gradhesion("run", path, "-o", whole, "--quiet").exit_code == 0
+    monkeypatch.setenv("GRADHESION_CHUNK", "3")
     for shard in ("1/2", "2/2"):
-        assert gradhesion("run", path, "-o", cut, "--quiet", "--chunk", "3", "--shard", shard).exit_code == 0
+        assert gradhesion("run", path, "-o", cut, "--quiet", "--shard", shard).exit_code == 0
     assert gradhesion("merge", cut, "--quiet").exit_code == 0
     with xarray.open_dataset(whole) as one, xarray.open_dataset(cut) as other:
         for name in (*study["outputs"], "status"):

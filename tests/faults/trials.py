@@ -9,7 +9,6 @@ link, an unlink, a removal of a folder), or by SIGKILL or SIGTERM at a random mo
 
 import argparse
 import atexit
-import math
 import os
 import random
 import shutil
@@ -30,7 +29,6 @@ from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.main import main as gradhesion
 from gradhesion.cli.study.reading import load_study
 from gradhesion.cli.terminal import interrupts
-from gradhesion.cli.work.parts import records as state
 from tests.memory import in_memory
 
 STUDY = """\
@@ -107,7 +105,6 @@ class Trials:
 
     def __init__(self, folder: Path) -> None:
         os.environ["GRADHESION_CHUNK"] = "2"
-        state.PERIOD = math.inf  # at its begin and its end only: so many changes on every machine
         self.study = folder / "study.toml"
         self.study.write_text(STUDY)
         self.folder = folder / "data"
@@ -146,7 +143,7 @@ class Trials:
             assert old == (OLD if overwrite else None), "the old output is gone"
             assert code != 0, "it says that it is fine"
         parts = self.output.with_name("out.nc.parts")
-        self.kept += len(list(parts.glob("*.part")))
+        self.kept += len(list(parts.glob("*.npz")))
         if code == 130:
             left = [path.name for path in parts.glob("*") if path.suffix in {".tmp", ".nc"}]
             assert not left, left

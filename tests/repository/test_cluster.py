@@ -76,7 +76,7 @@ def test_both_ways_give_the_bytes_of_one_machine(
     for number in ("2", "1"):
         job = {"SLURM_ARRAY_TASK_ID": number, "SLURM_ARRAY_TASK_COUNT": "2", "SLURM_CPUS_PER_TASK": "1"}
         subprocess.run(["bash", "-ec", array], cwd=tmp_path, env=machine | job, check=True, timeout=600)
-    assert len(list(tmp_path.glob("big.nc.parts/*.part"))) == 4
+    assert len(list(tmp_path.glob("big.nc.parts/*.npz"))) == 4
     merged = gradhesion(*merge.split()[1:-1], tmp_path / "big.nc")
     assert merged.exit_code == 0, merged.stderr
     assert values_of(tmp_path / "big.nc") == values_of(whole)

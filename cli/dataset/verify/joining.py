@@ -1,7 +1,7 @@
-"""Datasets that differ along one axis, as the dataset of one study whose axis has the values of all."""
+"""Datasets that differ along axes, as the dataset of one study whose axes have the values of all."""
 
 import tomllib
-from collections.abc import Generator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,19 +10,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.engines import Work
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.study.tiling import Block
-from gradhesion.cli.work.parts.resume import Solved, blank
+from gradhesion.cli.study.tiling import Block, shape_of
+from gradhesion.cli.work.engines import Solved
+from gradhesion.cli.work.folder import Parts, Results
 from gradhesion.core.problem.inputs import INPUTS
 
 if TYPE_CHECKING:
     import xarray
 
 Sources = Mapping[Path, "xarray.Dataset"]
+Places = Mapping[str, NDArray[np.intp]]
+"""Of the values of a source along an axis that is joined: where they are on the axis of all."""
 
 
 def joined(sources: Sources) -> tuple[Study, "Joined"]:
@@ -32,7 +34,8 @@ def joined(sources: Sources) -> tuple[Study, "Joined"]:
     Raises
     ------
     DatasetError
-        They differ in something else, in nothing, or along more than one axis; or one was changed since it was written.
+        They differ in something else, or in nothing, or together they lack scenes; or one was changed since it was
+        written.
     """
     from gradhesion.cli.dataset.verify import belonging  # noqa: PLC0415 (xarray, which shards do without)
 
@@ -63,14 +66,34 @@ def joined(sources: Sources) -> tuple[Study, "Joined"]:
         for name, values in one.parameters.items()
         if any(not np.array_equal(values, other.parameters[name]) for _, other in others)
     ]
-    if len(differing) != 1:
-        what = f"differ in {' and '.join(differing)}" if differing else "have the same scenes"
-        raise DatasetError(f"{', '.join(map(str, studies))}: {what}; join datasets that differ along one axis")
-    (axis,) = differing
-    own = [np.atleast_1d(study.parameters[axis]) for study in studies.values()]
-    values = np.unique(np.concatenate(own))
-    study = study_from(_with_axis(tomllib.loads(one.text), axis, values), one.name)
-    return study, Joined(sources, axis, _owners(values, own))
+    if not differing:
+        raise DatasetError(f"{', '.join(map(str, studies))}: have the same scenes; join datasets that differ")
+    own = {axis: [np.atleast_1d(study.parameters[axis]) for study in studies.values()] for axis in differing}
+    values = {axis: np.unique(np.concatenate(parts)) for axis, parts in own.items()}
+    places = [
+        {axis: np.searchsorted(values[axis], own[axis][number]) for axis in differing} for number in range(len(studies))
+    ]
+    _refuse_gaps(values, places, studies)
+    data = tomllib.loads(one.text)
+    for axis in differing:
+        data = _with_axis(data, axis, values[axis])
+    return study_from(data, one.name), Joined(sources, places)
+
+
+def _refuse_gaps(
+    values: Mapping[str, NDArray[np.float64]], places: Sequence[Places], studies: Mapping[Path, Study]
+) -> None:
+    """Make sure that each combination of the values is in some dataset."""
+    covered = np.zeros([own.size for own in values.values()], bool)
+    for own in places:
+        covered[np.ix_(*own.values())] = True
+    if not covered.all():
+        gap = np.argwhere(~covered)[0]
+        cell = ", ".join(f"{axis} = {own[place]:g}" for (axis, own), place in zip(values.items(), gap, strict=True))
+        raise DatasetError(
+            f"{', '.join(map(str, studies))}: differ in {' and '.join(values)}, and none of them has {cell}; run the "
+            "scenes that are missing, and join all"
+        )
 
 
 def _with_axis(data: Mapping[str, Any], axis: str, values: NDArray[np.float64]) -> dict[str, Any]:
@@ -84,51 +107,37 @@ def _with_axis(data: Mapping[str, Any], axis: str, values: NDArray[np.float64]) 
 
 @dataclass(frozen=True)
 class Joined:
-    """An engine that solves nothing: it takes the values of a joined study from its sources."""
+    """An engine that solves nothing: the values of a joined study are those of its sources."""
 
     sources: Sources
-    axis: str
-    owners: NDArray[np.int64]
-    """Of each value of the axis: which source has it, and where on its own axis."""
+    places: Sequence[Places]
+    """Of each source."""
 
-    def results(self, work: Work) -> Generator[tuple[int, Solved], None, None]:
-        """Give the blocks in order; where several sources have a value, the first."""
-        for number in work.numbers:
-            block = work.study.tiling[number]
-            yield number, Solved(block, self._values(work.study, block))
+    def __call__(self, parts: Parts, numbers: Sequence[int]) -> Solved:
+        """Give the blocks in order; where several sources have a value, that of the first."""
+        for number in numbers:
+            yield number, self._values(parts.study, parts.study.tiling[number]), True
 
-    def _values(self, study: Study, block: Block) -> dict[str, NDArray[Any]]:
+    def _values(self, study: Study, block: Block) -> Results:
+        """Fill a block from the last source to the first."""
         dimensions = list(study.sizes)
-        along = dimensions.index(self.axis)
-        cut = dict(zip(dimensions, block, strict=True))
-        own = self.owners[:, block[along]]
-        filled = blank(study, block)
-        for number, source in enumerate(self.sources.values()):
-            here = np.flatnonzero(own[0] == number)
-            if here.size == 0:
-                continue
+        filled: Results = {}
+        for source, places in reversed([*zip(self.sources.values(), self.places, strict=True)]):
             source = source.reset_coords(STEEP) if STEEP in source.coords else source
-            whole = source if self.axis in source.dims else source.expand_dims(self.axis)
-            known = [name for name in filled if name in whole.variables]  # no scene is marked without marks
-            part = whole[known].isel({**cut, self.axis: own[1, here]}).transpose(*dimensions, ...)
-            for name, values in ((name, filled[name]) for name in known):
-                np.moveaxis(values, along, 0)[here] = np.moveaxis(part[name].values, along, 0)
+            source = source.expand_dims([axis for axis in places if axis not in source.dims])
+            here: list[NDArray[np.intp]] = []  # in the block, along each dimension
+            there: dict[str, Any] = {}
+            for axis, part in zip(dimensions, block, strict=True):
+                own = places.get(axis, np.arange(study.sizes[axis]))
+                there[axis] = np.flatnonzero((own >= part.start) & (own < part.stop))
+                here.append(own[there[axis]] - part.start)
+            known = [name for name in (*study.variables, STEEP, "status") if name in source.variables]
+            cut = source[known].isel(there).transpose(*dimensions, ...)
+            for name in known:
+                shape = study.shape_of(name, shape_of(block))
+                values = filled.setdefault(name, np.zeros(shape, cut[name].dtype))  # no scene is marked without marks
+                values[np.ix_(*here)] = cut[name].values
         return filled
-
-
-def _owners(values: NDArray[np.float64], parts: Sequence[NDArray[np.float64]]) -> NDArray[np.int64]:
-    """
-    Find which of several axes has each of their values together, the first if several have it, and where.
-
-    >>> _owners(np.array([1.0, 2.0, 3.0]), [np.array([3.0, 2.0]), np.array([1.0, 2.0])])
-    array([[1, 0, 0],
-           [0, 1, 0]])
-    """
-    owners = np.full((2, values.size), -1)
-    for number, own in reversed(list(enumerate(parts))):
-        places = np.searchsorted(values, own)
-        owners[0, places], owners[1, places] = number, np.arange(own.size)
-    return owners
 
 
 def opened_all(files: Sequence[Path], stack: ExitStack) -> dict[Path, "xarray.Dataset"]:

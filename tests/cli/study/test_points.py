@@ -213,14 +213,15 @@ def test_shards_and_their_merge_find_the_file(
     output, whole = tmp_path / "elsewhere" / "out.nc", tmp_path / "whole.nc"
     output.parent.mkdir()
     monkeypatch.chdir(output.parent)
-    arguments = ["run", study, "-o", output, "--chunk", "1", "--quiet"]
+    monkeypatch.setenv("GRADHESION_CHUNK", "1")
+    arguments = ["run", study, "-o", output, "--quiet"]
     for shard in ("1/2", "2/2"):
         assert gradhesion(*arguments, "--shard", shard).exit_code == 0
     table = (tmp_path / "samples.csv").read_text()
     (tmp_path / "samples.csv").write_text(table + "1,1,1,1\n")
     refused = gradhesion("merge", output)
     assert refused.exit_code == 2
-    assert "the points of its study" in refused.stderr
+    assert "samples.csv" in refused.stderr
     (tmp_path / "samples.csv").write_text(table)
     merged = gradhesion("merge", output, "--quiet")
     assert merged.exit_code == 0, merged.stderr

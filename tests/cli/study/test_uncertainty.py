@@ -43,12 +43,17 @@ def test_linear_deviations_are_sums_of_squares(data: dict[str, Any]) -> None:
 
 
 def test_samples_are_the_same_in_every_scene_and_block(
-    data: dict[str, Any], gradhesion: Call, write_study: Callable[[str], Path], tmp_path: Path
+    data: dict[str, Any],
+    gradhesion: Call,
+    write_study: Callable[[str], Path],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     study = study_from(data | {"uncertainty": INPUTS | {"samples": 64, "seed": 3}})
     whole = compute(study)
+    monkeypatch.setenv("GRADHESION_CHUNK", "130")
     path = tmp_path / "blocks.nc"
-    call = gradhesion("run", write_study(study.text), "-o", path, "--chunk", "130")
+    call = gradhesion("run", write_study(study.text), "-o", path)
     assert call.exit_code == 0, call.output
     with xarray.open_dataset(path) as dataset:
         for name in whole.data_vars:
@@ -181,12 +186,3 @@ def test_a_percentage_of_zero(data: dict[str, Any]) -> None:
     number = compute(study_from(data | {"parameters": parameters, "uncertainty": {"A": 0.001}}))
     assert bool(number["pull_off_force_std"].sel(A=0.0).isnull().all())  # no derivative there
     assert bool(number["pull_off_force_std"].sel(A=0.02).notnull().all())
-
-
-def test_parts_of_other_uncertain_inputs_are_not_reused(data: dict[str, Any]) -> None:
-    from gradhesion.cli.work.parts.parts import key_of, settings_of
-
-    plain, one = (study_from({**data, "uncertainty": own}) for own in (INPUTS, INPUTS | {"seed": 1}))
-    assert key_of(plain, plain.tiling[0]) != key_of(one, one.tiling[0])
-    without = {key: value for key, value in data.items() if key != "uncertainty"}
-    assert "uncertainty" not in settings_of(study_from(without))

@@ -1,6 +1,5 @@
 """The first run of a version says that it compiles, once; what starts meanwhile waits, and nothing is compiled twice."""
 
-import json
 import os
 import subprocess
 import sys
@@ -10,10 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from filelock import FileLock
 
 import gradhesion as gr
 from gradhesion.cli.dataset import compute
-from gradhesion.cli.locks import closing, try_lock
 from gradhesion.cli.study import study_from
 from gradhesion.cli.work import compiling
 from gradhesion.core.jit import Place
@@ -27,7 +26,6 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     folder = tmp_path / "kernels"
     folder.mkdir()
     monkeypatch.setattr(compiling, "place", lambda: Place(folder, ""))
-    monkeypatch.setattr(compiling, "PAUSE", 0.01)
     return folder
 
 
@@ -39,13 +37,6 @@ def test_the_first_run_says_that_it_compiles_and_no_later_one(
     assert len(gradhesion(*run, "-o", tmp_path / "first.nc").stderr.splitlines()) == 1, "also where it is quiet"
     assert gradhesion(*run, "-o", tmp_path / "second.nc").stderr == ""
     assert gradhesion("plan", study_file).stderr == ""
-
-
-@pytest.mark.usefixtures("folder")
-def test_it_is_an_event_of_the_log(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
-    for events in (["compile", "done"], ["done"]):
-        lines = gradhesion("run", study_file, "--log-json", "--overwrite", "-o", tmp_path / "x.nc").stderr.splitlines()
-        assert [event for event in (json.loads(line)["event"] for line in lines) if event != "progress"] == events
 
 
 @pytest.mark.usefixtures("folder")
@@ -88,19 +79,13 @@ def test_where_nothing_is_kept_it_says_why_once(
 
 def test_what_starts_while_another_process_compiles_waits_for_it(folder: Path) -> None:
     """The other process is this one: it holds the lock."""
-    handle = try_lock(folder / "lock")
-    assert handle is not None
-    with closing(handle):
-        waiting = threading.Thread(target=compiling.prepare)
+    waiting = threading.Thread(target=compiling.prepare)
+    with FileLock(folder / "lock"):
         waiting.start()
         waiting.join(0.3)
         assert waiting.is_alive()
     waiting.join(60)
     assert not waiting.is_alive()
-    handle = try_lock(folder / "lock")
-    assert handle is not None
-    with closing(handle):
-        compiling.prepare()  # all is compiled, and nobody waits
 
 
 @pytest.mark.usefixtures("folder")
@@ -116,7 +101,7 @@ def test_a_map_compiles_what_it_needs_before_it_is_solved(
 
     monkeypatch.setattr(compiling, "solve_block", solve_block)
     study = study_from(data)
-    compiling.compile_for(study)
+    compiling.prepare(study)
     ends = [tuple((part.start, part.stop) for part in block) for block in solved]
     assert ends == [tuple((0, 1) for _ in study.shape), tuple((size - 1, size) for size in study.shape)]
 

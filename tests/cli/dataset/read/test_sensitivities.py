@@ -46,11 +46,12 @@ def test_the_parameter_is_the_last_dimension(data: dict[str, Any]) -> None:
 
 
 def test_a_file_of_many_blocks_has_the_same(
-    gradhesion: Call, study_file: Path, data: dict[str, Any], tmp_path: Path
+    gradhesion: Call, study_file: Path, data: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     whole = compute(study_from(data))
+    monkeypatch.setenv("GRADHESION_CHUNK", "2")
     path = tmp_path / "blocks.nc"
-    assert gradhesion("run", study_file, "-o", path, "--quiet", "--chunk", "2").exit_code == 0
+    assert gradhesion("run", study_file, "-o", path, "--quiet").exit_code == 0
     with xarray.open_dataset(path) as dataset:
         for name in (*whole.data_vars, "parameter"):
             np.testing.assert_array_equal(dataset[name], whole[name])

@@ -1,4 +1,4 @@
-"""Datasets that differ along one axis make one: that of the study with all values."""
+"""Datasets that differ along axes make one: that of the study with all values."""
 
 import hashlib
 import re
@@ -57,6 +57,23 @@ def test_values_of_an_axis_are_joined_in_their_order(
     assert told.exit_code == 0
 
 
+@pytest.mark.parametrize("cells", [1, 5, 100])
+def test_several_axes_are_joined_where_their_product_is_full(
+    cells: int, gradhesion: Call, written: Callable[..., Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("GRADHESION_CHUNK", str(cells))
+    whole = written("whole", parameters={"A": [0.0, 0.01, 0.023], "nu": [0.2, 0.27, 0.4], "k": [0.0, 0.31]})
+    parts = [
+        written("low", parameters={"A": [0.0, 0.023], "nu": [0.2, 0.4]}),
+        written("overlapping", parameters={"A": [0.023, 0.0], "nu": [0.27, 0.2]}),
+        written("high", parameters={"A": 0.01, "nu": [0.2, 0.27, 0.4]}),
+    ]
+    for order in (parts, parts[::-1]):
+        result = gradhesion("merge", *order, "-o", tmp_path / "joined.nc", "--overwrite")
+        assert result.exit_code == 0, result.stderr
+        same_values(tmp_path / "joined.nc", whole)
+
+
 def test_units_as_they_were_written_before_go_with_those_of_today(gradhesion: Call, tmp_path: Path) -> None:
     physical = {"R": "1 um", "E_star": "1 GPa", "c0": "10 nm", "wavelength": "50 nm"}
     files = [tmp_path / f"{work}.nc" for work in ("20", "50", "both")]
@@ -101,8 +118,8 @@ def test_quantities_keep_their_unit(gradhesion: Call, data: dict[str, Any], tmp_
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        ({}, "have the same scenes; join datasets that differ along one axis"),
-        ({"parameters": {"A": 0.5, "k": 0.5}}, "differ in k and A; join datasets that differ along one axis"),
+        ({}, "have the same scenes; join datasets that differ"),
+        ({"parameters": {"A": 0.5, "k": 0.5}}, "differ in k and A, and none of them has k = 0, A = 0.5"),
         ({"parameters": {"A": 0.5}, "outputs": ["pull_off_force"]}, "differs from .* in outputs; join datasets that share it"),
         ({"parameters": {"A": 0.5}, "method": {"solver": "envelope"}, "outputs": ["pull_off_force", "dissipated_energy"]}, "differs from .* in outputs"),
         ({"parameters": {"A": 0.5}, "profile": {"exponent": 3.0}}, "differs from .* in profile"),

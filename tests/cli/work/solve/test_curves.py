@@ -156,7 +156,7 @@ def test_values_do_not_depend_on_threads_or_chunks(
     assert dict(whole["status"].sizes) == ({"scene": 3} if layout == "points" else {"A": 3, "a_max_over_R": 2})
     xarray.testing.assert_identical(compute(study, threads=3), whole)
     (tmp_path / "study.toml").write_text(study.text)
-    result = gradhesion("run", tmp_path / "study.toml", "-o", tmp_path / "x.nc", "--threads", "2", "--chunk", "7")
+    result = gradhesion("run", tmp_path / "study.toml", "-o", tmp_path / "x.nc", "--threads", "2")
     assert result.exit_code == 0
     with xarray.open_dataset(tmp_path / "x.nc") as written:
         for name in whole.variables:

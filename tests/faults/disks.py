@@ -1,6 +1,6 @@
 """Disks that are full at any byte, become read-only, or vanish at any moment: in a mount namespace of this process's own.
 
-python -m tests.adversary.disks, as a user who may make namespaces (`unshare -m`).
+python -m tests.faults.disks, as a user who may make namespaces (`unshare -m`).
 """
 
 import os
@@ -163,7 +163,7 @@ def in_words(codes: Counter[int]) -> str:
 def main() -> None:
     """Try disks, in a namespace of their own."""
     if "--inside" not in sys.argv:
-        command = ["unshare", "-m", sys.executable, "-m", "tests.adversary.disks", "--inside", *sys.argv[1:]]
+        command = ["unshare", "-m", sys.executable, "-m", "tests.faults.disks", "--inside", *sys.argv[1:]]
         sys.exit(subprocess.run(command, check=False).returncode)
     numbers = [int(word) for word in sys.argv[1:] if word.isdigit()]
     step, count = numbers or (1, 100)

@@ -1,0 +1,189 @@
+"""The blocks of a study solved by the workers of a Dask cluster, on this machine or elsewhere.
+
+A worker gets the study once, and the number of a block at a time; it returns the values, which are kept and written
+here, so that it needs no file system of ours. A block whose worker is lost is solved by another one.
+"""
+
+import json
+import logging
+import pickle
+import tempfile
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from itertools import islice
+from pathlib import Path
+from typing import Any, Final
+
+from gradhesion.cli.errors import ClusterError, GradhesionError, MissingExtraError, OutputError
+from gradhesion.cli.study.study import Study
+from gradhesion.cli.terminal import interrupts, messages
+from gradhesion.cli.work.compiling import prepare
+from gradhesion.cli.work.engines import Engine, Solved
+from gradhesion.cli.work.folder import Parts, Results, versions
+from gradhesion.cli.work.solve.blocks import solve_block
+
+AHEAD: Final = 3
+"""Blocks with the scheduler for each thread of the workers, so that none waits for this process."""
+LEAST: Final = 16
+"""The same at least: a cluster that adapts sees what is to be done."""
+
+
+def require_dask() -> None:
+    """
+    Make sure that Dask is there.
+
+    Raises
+    ------
+    MissingExtraError
+        It is not.
+    """
+    try:
+        import cryptography  # noqa: F401, PLC0415 (for a cluster of this machine that is closed to others)
+        import distributed  # noqa: F401, PLC0415 (half a second, and not always there)
+    except ModuleNotFoundError:
+        raise MissingExtraError(
+            "--engine dask needs Dask: install it with `pip install dask distributed cryptography`"
+        ) from None
+
+
+def on_cluster(scheduler: str | None = None, workers: int | None = None, *, quiet: bool = False) -> Engine:
+    """
+    Have blocks solved by the workers of a scheduler (its address or its file), or by processes of this machine.
+
+    The engine raises ClusterError where no scheduler answers or a worker has another version, and OutputError where the
+    cluster is lost.
+    """
+
+    def engine(parts: Parts, numbers: Sequence[int]) -> Solved:
+        left = []
+        for number in numbers:
+            values = parts.read(number)
+            if values is None:
+                left.append(number)
+            else:
+                yield number, values, True
+        if left:
+            with ExitStack() as stack:
+                stack.enter_context(_silent())
+                client = stack.enter_context(_client(scheduler, workers, len(left)))
+                if not quiet and not client.nthreads():
+                    messages.say("--engine dask: the scheduler has no workers yet; waiting for them")
+                try:
+                    yield from _solved(client, parts.study, left)
+                except GradhesionError:
+                    raise
+                except Exception as error:
+                    # Dask has a dozen exceptions for a lost scheduler, a worker that dies, and what cannot be loaded.
+                    interrupts.check()
+                    raise OutputError(
+                        f"--engine dask: {type(error).__name__}: {error}; finished blocks are kept, and the same "
+                        "command resumes once there is a cluster with enough memory"
+                    ) from error
+
+    return engine
+
+
+def _solved(client: Any, study: Study, numbers: Sequence[int]) -> Solved:
+    """Give the values of blocks as they come, of which a bounded number is with the scheduler."""
+    from distributed import as_completed  # noqa: PLC0415
+
+    there = client.submit(pickle.loads, pickle.dumps(study), pure=False)  # a task, which is done again if it is lost
+    waiting = iter(numbers)
+
+    def submitted(many: int) -> list[Any]:
+        one = f"gradhesion-{client.id}"
+        return [
+            client.submit(solve_there, there, number, versions(), key=(one, number), pure=False)
+            for number in islice(waiting, many)
+        ]
+
+    running = as_completed(submitted(LEAST), loop=client.loop)
+    for future in running:
+        number, values = future.result()
+        future.release()
+        most = max(LEAST, AHEAD * sum(client.nthreads().values()))
+        running.update(submitted(max(0, most - running.count())))
+        yield number, values, False
+
+
+def solve_there(study: Study, number: int, needed: dict[str, Any]) -> tuple[int, Results]:
+    """
+    Solve a block, as a worker does, on one thread.
+
+    Raises
+    ------
+    ClusterError
+        The worker has other versions than are needed, which may round another way.
+    """
+    if (own := versions()) != needed:
+        differing = ", ".join(name for name in own if own[name] != needed.get(name))
+        raise ClusterError(
+            f"--engine dask: a worker has another version ({differing}); start workers in the environment of this "
+            "command"
+        )
+    prepare(study)
+    return number, solve_block(study, study.tiling[number], 1)
+
+
+@contextmanager
+def _client(scheduler: str | None, workers: int | None, most: int) -> Iterator[Any]:
+    """
+    Make a client of a scheduler, or of workers on this machine, `most` of them.
+
+    Raises
+    ------
+    ClusterError
+        It does not answer, or they cannot be started.
+    """
+    from distributed import Client  # noqa: PLC0415
+
+    with ExitStack() as stack:
+        try:
+            if scheduler is None:
+                address = stack.enter_context(_workers_here(workers, most))
+            else:
+                address = scheduler if "://" in scheduler else json.loads(Path(scheduler).read_bytes())["address"]
+            client = stack.enter_context(Client(address, set_as_default=False))
+        except (OSError, RuntimeError, ValueError, TypeError, KeyError) as error:
+            raise ClusterError(
+                f"--engine dask: no cluster at {scheduler or 'this machine'} ({error}); start a scheduler with `dask "
+                "scheduler --scheduler-file FILE` and name FILE, or use --engine threads"
+            ) from error
+        yield client
+
+
+def _workers_here(workers: int | None, most: int) -> Any:
+    """
+    Start as many processes of one thread as are asked for, or as this machine has cores, but `most`.
+
+    They listen on the loopback interface alone, and to those alone who have a certificate that is made here: on a
+    machine with several users the others cannot run code as this one.
+    """
+    from dask.system import CPU_COUNT  # noqa: PLC0415
+    from distributed import LocalCluster, Security  # noqa: PLC0415
+
+    return LocalCluster(
+        n_workers=min(workers or CPU_COUNT, most),
+        threads_per_worker=1,
+        host="127.0.0.1",
+        security=Security.temporary(),
+        dashboard_address=None,
+        local_directory=tempfile.gettempdir(),
+        memory_limit=None,  # as for threads, that is for the system
+        silence_logs=logging.CRITICAL,
+        preload="import signal; signal.signal(signal.SIGINT, signal.SIG_IGN)",  # Ctrl-C is for the command
+    )
+
+
+@contextmanager
+def _silent() -> Iterator[None]:
+    """Keep Dask from printing: what goes wrong there is reported here, once."""
+    before = logging.root.manager.disable
+    logging.disable(logging.CRITICAL)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            yield
+    finally:
+        logging.disable(before)

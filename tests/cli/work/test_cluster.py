@@ -1,0 +1,160 @@
+"""Blocks solved by the workers of a Dask cluster: the same bytes as by threads, whatever becomes of the workers."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import dask
+import pytest
+from click.testing import Result
+from distributed import LocalCluster
+
+from gradhesion.cli.work.folder import folder_of, parts_in
+from tests.faults.trials import values_of
+
+pytestmark = pytest.mark.slow
+
+Call = Callable[..., Result]
+PRELOAD = """
+import os, signal, time
+from pathlib import Path
+import gradhesion.cli.work.cluster as cluster
+import gradhesion.cli.work.folder as folder
+
+order = Path({folder!r})
+really = getattr(cluster.solve_block, "really", cluster.solve_block)  # it may be imported again
+
+def solve_block(study, block, threads):
+    if (order / "die").exists():
+        (order / "die").unlink()
+        os.kill(os.getpid(), signal.SIGKILL)
+    if (order / "always_die").exists():
+        os.kill(os.getpid(), signal.SIGKILL)
+    time.sleep(0.05)
+    return really(study, block, threads)
+
+cluster.solve_block, solve_block.really = solve_block, really
+if (order / "other_version").exists():
+    cluster.versions = lambda: folder.versions() | {{"numba": "0.0"}}
+"""
+"""Workers that suffer what files tell them to."""
+
+
+@pytest.fixture(autouse=True)
+def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Cut the small study of 24 scenes into 6 blocks."""
+    monkeypatch.setenv("GRADHESION_CHUNK", "2")
+
+
+@pytest.fixture
+def cluster(tmp_path: Path) -> Iterator[Callable[..., LocalCluster]]:
+    """Start two workers that obey."""
+    made = []
+    preload = tmp_path / "preload.py"
+    preload.write_text(PRELOAD.format(folder=str(tmp_path)))
+
+    def start() -> LocalCluster:
+        made.append(
+            LocalCluster(n_workers=2, threads_per_worker=1, memory_limit=None, dashboard_address=None, silence_logs=60)
+        )
+        return made[0]
+
+    with dask.config.set({"distributed.worker.preload": [str(preload)], "distributed.scheduler.allowed-failures": 1}):
+        yield start
+        for one in made:
+            one.close()
+
+
+@pytest.fixture
+def whole(gradhesion: Call, study_file: Path, tmp_path: Path) -> dict[str, bytes]:
+    """What threads give."""
+    path = tmp_path / "whole.nc"
+    assert gradhesion("run", study_file, "-o", path, "--quiet").exit_code == 0
+    return values_of(path)
+
+
+def test_workers_give_the_bytes_of_threads_and_what_dies_is_replaced(
+    gradhesion: Call, study_file: Path, whole: dict[str, bytes], tmp_path: Path, cluster: Callable[..., LocalCluster]
+) -> None:
+    """By address, by the file of a scheduler, on what another engine has left, and with a worker that is killed."""
+    output, file = tmp_path / "data" / "out.nc", tmp_path / "scheduler.json"
+    address = cluster().scheduler_address
+    file.write_text(json.dumps({"address": address}))
+    assert gradhesion("run", study_file, "-o", output, "--shard", "1/3").exit_code == 0
+    (tmp_path / "die").touch()
+    result = gradhesion("run", study_file, "-o", output, "--engine", "dask", "--scheduler", address)
+    assert result.exit_code == 0, result.stderr
+    assert "reused 2 blocks, computed 4" in result.stderr
+    assert not (tmp_path / "die").exists()
+    assert values_of(output) == whole
+    quiet = gradhesion("run", study_file, "-o", output, "--overwrite", "--engine=dask", "--scheduler", file, "--quiet")
+    assert (quiet.exit_code, quiet.stderr) == (0, "")
+    assert values_of(output) == whole
+    assert os.listdir(output.parent) == ["out.nc"]
+
+
+@pytest.mark.parametrize(("what", "code"), [("always_die", 4), ("other_version", 2)])
+def test_workers_that_cannot_do_it_end_the_run_in_a_sentence(
+    what: str, code: int, gradhesion: Call, study_file: Path, tmp_path: Path, cluster: Callable[..., LocalCluster]
+) -> None:
+    (tmp_path / what).touch()
+    address = cluster().scheduler_address
+    output = tmp_path / "data" / "out.nc"
+    assert gradhesion("run", study_file, "-o", output, "--shard", "1/3").exit_code == 0
+    result = gradhesion("run", study_file, "-o", output, "--engine", "dask", "--scheduler", address)
+    assert result.exit_code == code, result.stderr
+    assert result.stderr.startswith("--engine dask: ")
+    assert len(parts_in(folder_of(output))) == 2, "what was there stays"
+
+
+@pytest.mark.parametrize("scheduler", ["tcp://127.0.0.1:9", "none.json", "/dev/null"])
+def test_where_no_scheduler_answers_it_is_said(
+    scheduler: str, gradhesion: Call, study_file: Path, tmp_path: Path
+) -> None:
+    with dask.config.set({"distributed.comm.timeouts.connect": "1s"}):
+        command = ("run", study_file, "-o", tmp_path / "data" / "out.nc", "--engine", "dask", "--scheduler", scheduler)
+        result = gradhesion(*command)
+    assert result.exit_code == 2, result.stderr
+    assert scheduler in result.stderr
+
+
+def test_one_block_needs_no_cluster(
+    gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("GRADHESION_CHUNK", "100")
+    assert gradhesion("run", study_file, "-o", tmp_path / "out.nc", "--engine=dask").exit_code == 0
+
+
+def test_without_dask_it_says_what_to_install(
+    gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    result = gradhesion("run", study_file, "-o", tmp_path / "out.nc", "--engine=dask")
+    assert result.exit_code == 2
+    assert "pip install dask" in result.stderr
+
+
+def test_an_interrupt_ends_the_workers_of_this_machine_and_keeps_blocks(study_file: Path, tmp_path: Path) -> None:
+    output = tmp_path / "data" / "out.nc"
+    larger = ["--set", "parameters.A={start=0, stop=0.02, num=3000}"]
+    command = [sys.executable, "-m", "gradhesion.cli", "run", study_file, "-o", output, "--engine=dask", *larger]
+    folder = folder_of(output)
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True) as process:
+        deadline = time.monotonic() + 120
+        while not parts_in(folder) and process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.01)
+        os.killpg(process.pid, signal.SIGINT)  # as the terminal does: to the workers as well
+        stderr = process.communicate(timeout=60)[1]
+    assert process.returncode == 130, stderr
+    assert "Traceback" not in stderr
+    assert parts_in(folder)
+    assert "the same command resumes" in stderr.splitlines()[-1]
+    assert not list(folder.glob("*.nc"))
+    time.sleep(2.0)
+    with pytest.raises(ProcessLookupError):
+        os.killpg(process.pid, 0)

@@ -1,0 +1,323 @@
+"""A run that goes on gives what one in a single go would have given, whatever has ended it; what is not ours is left."""
+
+import errno
+import os
+from collections.abc import Callable
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+import netCDF4
+import numpy as np
+import pytest
+from click.testing import Result
+
+from gradhesion.cli.study.reading import study_from
+from gradhesion.cli.work.folder import Parts, claimed, folder_of
+from gradhesion.cli.work.solve.scenes import solve as real_solve
+from tests.faults.trials import values_of
+
+Call = Callable[..., Result]
+SOLVE = "gradhesion.cli.work.solve.given.solve"
+BLOCKS = 6
+
+
+@pytest.fixture(autouse=True)
+def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Cut the small study of 24 scenes into 6 blocks."""
+    monkeypatch.setenv("GRADHESION_CHUNK", "2")
+
+
+@pytest.fixture
+def output(tmp_path: Path) -> Path:
+    """Where the dataset goes."""
+    return tmp_path / "data" / "out.nc"
+
+
+@pytest.fixture
+def begun(gradhesion: Call, study_file: Path, output: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., int]:
+    """Interrupt a run after some blocks; tells how many are kept."""
+
+    def begin(number: int, *options: str) -> int:
+        left = iter(range(number))
+
+        def solve(*arguments: Any, **settings: Any) -> dict[str, Any]:
+            if next(left, None) is None:
+                raise KeyboardInterrupt
+            return real_solve(*arguments, **settings)
+
+        with monkeypatch.context() as patch:
+            patch.setattr(SOLVE, solve)
+            assert gradhesion("run", study_file, "-o", output, *options).exit_code == 1, "click's, without main()"
+        return len(list(output.parent.glob("out.nc.parts/*.npz")))
+
+    return begin
+
+
+@pytest.fixture
+def whole(gradhesion: Call, study_file: Path, tmp_path: Path) -> dict[str, bytes]:
+    """The values of a run in a single go."""
+    path = tmp_path / "whole.nc"
+    assert gradhesion("run", study_file, "-o", path, "--quiet").exit_code == 0
+    return values_of(path)
+
+
+@pytest.fixture
+def resumed(gradhesion: Call, study_file: Path, output: Path, whole: dict[str, bytes]) -> Callable[..., Result]:
+    """Give the same command again, to its end."""
+
+    def resume(kept: int, *options: str) -> Result:
+        result = gradhesion("run", study_file, "-o", output, *options)
+        assert result.exit_code == 0, result.stderr
+        assert ("reused" in result.stderr) == (kept > 0)
+        assert not kept or f"reused {kept} block{'s' * (kept > 1)}, computed {BLOCKS - kept}" in result.stderr
+        assert values_of(output) == whole
+        assert os.listdir(output.parent) == ["out.nc"]
+        return result
+
+    return resume
+
+
+@pytest.mark.parametrize("number", [1, 2, 5])
+def test_a_run_goes_on_where_it_was_interrupted(number: int, begun: Callable[..., int], resumed: Call) -> None:
+    kept = begun(number)
+    assert kept in {number - 1, number}, "the last one may have been on its way to the disk"
+    resumed(kept)
+
+
+def test_an_old_output_stays_until_the_new_one_is_whole(
+    begun: Callable[..., int], resumed: Call, gradhesion: Call, study_file: Path, output: Path
+) -> None:
+    output.parent.mkdir()
+    output.write_text("precious")
+    kept = begun(3, "--overwrite")
+    assert gradhesion("run", study_file, "-o", output).exit_code == 4, "it exists"
+    assert output.read_text() == "precious"
+    resumed(kept, "--overwrite")
+
+
+def test_another_title_or_another_way_to_write_the_study_goes_on(
+    begun: Callable[..., int], resumed: Call, study_file: Path, output: Path
+) -> None:
+    kept = begun(4)
+    study_file.write_text("# a comment\n" + study_file.read_text())
+    resumed(kept, "--set=title='Another'")
+    with netCDF4.Dataset(output) as file:
+        assert file.title == "Another"
+
+
+CHANGES = ["parameters.nu=0.3", "parameters.k=[0.1, 0.31]", "method.check_contact=false", "method.solver='asymptotic'"]
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_blocks_of_another_study_are_refused_and_kept_until_they_are_dropped(
+    change: str, begun: Callable[..., int], gradhesion: Call, study_file: Path, output: Path
+) -> None:
+    kept = begun(4)
+    command = ("run", study_file, "-o", output, "--set", change)
+    refused = gradhesion(*command)
+    assert refused.exit_code == 4
+    assert "--fresh" in refused.stderr
+    assert len(list(output.parent.glob("out.nc.parts/*.npz"))) == kept
+    assert "reused" not in gradhesion(*command, "--fresh").stderr
+    assert os.listdir(output.parent) == ["out.nc"]
+
+
+@pytest.mark.parametrize("name", ["SOURCES", "FORMAT"])
+def test_blocks_of_another_version_are_refused(
+    name: str,
+    begun: Callable[..., int],
+    gradhesion: Call,
+    study_file: Path,
+    output: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    begun(4)
+    monkeypatch.setattr(f"gradhesion.cli.work.folder.{name}", "another")
+    assert gradhesion("run", study_file, "-o", output).exit_code == 4
+
+
+DAMAGES: dict[str, Callable[[bytes], bytes]] = {
+    "empty": lambda _: b"",
+    "cut short": lambda content: content[:-1],
+    "half of it": lambda content: content[: len(content) // 2],
+    "one bit of a value": lambda content: content[:1000] + bytes([content[1000] ^ 1]) + content[1001:],
+    "something else": lambda _: b"precious" * 100,
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_a_damaged_block_is_computed_again(
+    damage: str, begun: Callable[..., int], resumed: Call, data: dict[str, Any], output: Path
+) -> None:
+    kept = begun(5)
+    part = Parts(output, study_from(data)).part(1)
+    part.write_bytes(DAMAGES[damage](part.read_bytes()))
+    resumed(kept - 1)
+
+
+def test_a_block_in_the_place_of_another_is_computed_again(
+    begun: Callable[..., int], resumed: Call, data: dict[str, Any], output: Path
+) -> None:
+    kept, parts = begun(5), Parts(output, study_from(data))
+    parts.part(0).write_bytes(parts.part(1).read_bytes())
+    resumed(kept - 1)
+
+
+def test_a_block_keeps_every_bit(data: dict[str, Any], output: Path) -> None:
+    parts = Parts(output, study_from(data))
+    values = {"force": np.array([[1.0, -0.0]]), "status": np.array([[1, 64]], np.int8)}
+    values["force"].view("u8").flat[0] = 0x7FF8_0000_0000_0123  # a NaN
+    parts.folder.mkdir(parents=True)
+    parts.write(3, values)
+    found = parts.read(3)
+    assert found is not None
+    assert found.keys() == values.keys()
+    assert all(
+        (found[name].tobytes(), found[name].dtype) == (values[name].tobytes(), values[name].dtype) for name in values
+    )
+    assert parts.read(2) is None
+
+
+def test_a_study_of_one_block_keeps_none(
+    gradhesion: Call, study_file: Path, output: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("GRADHESION_CHUNK", "100")
+    monkeypatch.setattr(Parts, "write", lambda *_: pytest.fail("there is none"))
+    assert gradhesion("run", study_file, "-o", output).exit_code == 0
+
+
+def test_a_second_run_is_refused(gradhesion: Call, study_file: Path, output: Path) -> None:
+    output.parent.mkdir()
+    with claimed(output):
+        result = gradhesion("run", study_file, "-o", output)
+    assert result.exit_code == 4
+    assert "another run is writing it" in result.stderr
+    assert os.listdir(output.parent) == []
+
+
+def test_a_folder_of_the_user_is_refused_and_not_touched(gradhesion: Call, study_file: Path, output: Path) -> None:
+    folder = folder_of(output)
+    folder.mkdir(parents=True)
+    (folder / "thesis.npz").write_text("mine")
+    for options in ([], ["--fresh"], ["--overwrite"], ["--shard", "1/2"]):
+        assert gradhesion("run", study_file, "-o", output, *options).exit_code == 4
+    assert gradhesion("status", output).exit_code == gradhesion("merge", output).exit_code == 2
+    assert [path.name for path in folder.iterdir()] == ["thesis.npz"]
+
+
+def test_what_a_user_has_put_beside_the_blocks_stays(
+    begun: Callable[..., int], gradhesion: Call, study_file: Path, output: Path
+) -> None:
+    begun(3)
+    (folder_of(output) / "notes.txt").write_text("mine")
+    assert gradhesion("run", study_file, "-o", output).exit_code == 0
+    assert os.listdir(folder_of(output)) == ["notes.txt"]
+
+
+def test_a_folder_that_is_removed_during_the_run_is_told(
+    gradhesion: Call, study_file: Path, output: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def removing(*arguments: Any, **options: Any) -> dict[str, Any]:
+        for path in folder_of(output).glob("*"):
+            path.unlink()
+        folder_of(output).rmdir()
+        monkeypatch.setattr(SOLVE, real_solve)
+        return real_solve(*arguments, **options)
+
+    monkeypatch.setattr(SOLVE, removing)
+    result = gradhesion("run", study_file, "-o", output, "--quiet")
+    assert result.exit_code == 4
+    assert result.stderr.startswith(f"{output}: cannot be written")
+    assert len(result.stderr.splitlines()) == 1
+
+
+def failing(really: Callable[..., Any], number: int, code: int) -> Callable[..., Any]:
+    """Have the n-th call fail with an error of the system."""
+    calls = count(1)
+
+    def call(*arguments: Any, **options: Any) -> Any:
+        if next(calls) == number:
+            raise OSError(code, os.strerror(code))
+        return really(*arguments, **options)
+
+    return call
+
+
+@pytest.mark.parametrize("code", [errno.EIO, errno.ENOSPC])
+@pytest.mark.parametrize("name", ["replace", "hardlink_to", "mkdir"])
+def test_a_change_of_a_name_that_fails_loses_nothing(
+    name: str, code: int, gradhesion: Call, study_file: Path, whole: dict[str, bytes], output: Path
+) -> None:
+    """Whichever it is, the run ends in a sentence or goes on without, and the same command makes the dataset."""
+    ended = []
+    for number in range(1, 40):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(Path, name, failing(getattr(Path, name), number, code))
+            result = gradhesion("run", study_file, "-o", output, "--quiet")
+        ended.append(result.exit_code)
+        if result.exit_code:
+            assert result.exit_code == 4
+            assert result.stderr.count("\n") == 1
+            assert os.strerror(code) in result.stderr
+            assert not output.exists()
+        again = gradhesion("run", study_file, "-o", output, "--quiet", *(["--overwrite"] if output.exists() else []))
+        assert again.exit_code == 0, again.stderr
+        assert values_of(output) == whole
+        assert os.listdir(output.parent) == ["out.nc"]
+        output.unlink()
+        if ended[-3:] == [0, 0, 0]:
+            break
+    assert name == "hardlink_to" or 4 in ended
+
+
+def test_a_run_killed_before_it_could_tidy_up_is_complete(
+    gradhesion: Call, study_file: Path, output: Path, whole: dict[str, bytes], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with monkeypatch.context() as patch:
+        patch.setattr("gradhesion.cli.work.folder._remove", lambda _: None)
+        assert gradhesion("run", study_file, "-o", output).exit_code == 0
+    assert folder_of(output).exists()
+    monkeypatch.setattr(SOLVE, lambda *_, **__: pytest.fail("nothing is left to do"))
+    result = gradhesion("run", study_file, "-o", output)
+    assert result.exit_code == 0
+    assert "complete already" in result.stderr
+    assert os.listdir(output.parent) == ["out.nc"]
+    assert values_of(output) == whole
+
+
+@pytest.mark.parametrize("cells", ["2", "100"])
+def test_a_file_that_appears_during_the_run_stays_and_the_dataset_is_kept_beside_it(
+    cells: str,
+    gradhesion: Call,
+    study_file: Path,
+    output: Path,
+    whole: dict[str, bytes],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def beside(*arguments: Any, **options: Any) -> dict[str, Any]:
+        output.write_text("precious")
+        return real_solve(*arguments, **options)
+
+    monkeypatch.setenv("GRADHESION_CHUNK", cells)
+    monkeypatch.setattr(SOLVE, beside)
+    result = gradhesion("run", study_file, "-o", output, "--quiet")
+    assert result.exit_code == 4
+    assert str(output.with_name("out-2.nc")) in result.stderr
+    assert output.read_text() == "precious"
+    assert values_of(output.with_name("out-2.nc")) == whole
+
+
+def test_blocks_of_version_0_3_are_refused_until_they_are_dropped(
+    gradhesion: Call, study_file: Path, output: Path
+) -> None:
+    folder = folder_of(output)
+    folder.mkdir(parents=True)
+    for name in ("000000.part", "study.json", "state.json", "lock"):
+        (folder / name).write_text("{}")
+    refused = gradhesion("run", study_file, "-o", output)
+    assert refused.exit_code == 4
+    assert "--fresh" in refused.stderr
+    assert (folder / "000000.part").exists()
+    assert gradhesion("run", study_file, "-o", output, "--fresh").exit_code == 0
+    assert os.listdir(output.parent) == ["out.nc"]
