@@ -21,6 +21,7 @@ from gradhesion.cli.dataset.read.reductions import (
     without_failed,
 )
 from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.names.curves import EXTENTS, RAGGED
 from gradhesion.cli.names.scenes import SCENE, SOLVER
 from gradhesion.cli.study.text.quantities import si_value
 from gradhesion.cli.terminal.wording import did_you_mean
@@ -39,6 +40,8 @@ class Selection:
 
     fixed: Mapping[str, int] = field(default_factory=dict)
     """The item at which each of some axes is fixed."""
+    parts: Mapping[str, NDArray[np.intp]] = field(default_factory=dict)
+    """The items that are left of each of some axes."""
     between: tuple[Between, ...] = ()
     """Axes fixed at a value between two items."""
     scenes: NDArray[np.intp] | None = None
@@ -53,7 +56,21 @@ class Selection:
         An axis that is fixed becomes a coordinate without dimension that has the value really used. One that is
         fixed between two items keeps these two, and one that is to be reduced stays: that takes values, see `taken`.
         """
-        narrow = dataset.isel({axis: item for axis, item in self.fixed.items() if axis in dataset.dims})
+        narrow = self._cut(dataset)
+        counts = {RAGGED[curve]: EXTENTS[curve] for curve in RAGGED if RAGGED[curve] in dataset}
+        for count, extent in counts.items():  # items of all scenes that follow one another
+            if extent in dataset.dims:
+                scenes = dataset[count].copy(data=np.arange(dataset[count].size).reshape(dataset[count].shape))
+                ends = np.cumsum(dataset[count].values)
+                left = self._cut(scenes.to_dataset(name="scene_number"))["scene_number"].values.ravel()
+                first = np.concatenate([[0], ends[:-1]])
+                items = [np.arange(first[scene], ends[scene]) for scene in left]
+                narrow = narrow.isel({extent: np.concatenate(items).astype(np.intp)})
+        return narrow
+
+    def _cut(self, dataset: xarray.Dataset) -> xarray.Dataset:
+        """Fix axes of what has a value a scene."""
+        narrow = dataset.isel({axis: one for axis, one in {**self.fixed, **self.parts}.items() if axis in dataset.dims})
         narrow = narrow.isel({one.axis: [*one.items] for one in self.between})
         return narrow if self.scenes is None else narrow.isel({SCENE: self.scenes})
 
@@ -90,11 +107,11 @@ def selection_of(
         What the wishes are about; of it only the axes are looked at.
     at
         An axis is fixed at the value nearest to the one that is written (in the logarithm of an axis that is
-        log-spaced). Values of an axis with a unit are in SI, or have one: "R=2 um". Of a dataset of points the
-        scenes with the nearest value stay.
+        log-spaced), or cut to a range, "A=0.01:0.05", either end of which may be left out. Values of an axis with a
+        unit are in SI, or have one: "R=2 um". Of a dataset of points the scenes with these values stay.
     over
-        An axis is reduced by "max", "min", "mean", a quantile ("p05", "p50", "p95"), or to the place of the extreme,
-        "argmax" or "argmin".
+        An axis is reduced by "max", "min", "mean", "sum", a quantile ("p05", "median", "p95"), or to the place of the
+        extreme, "argmax" or "argmin".
     interpolate
         Whether `at` interpolates, linearly in the axis or in its logarithm, instead of taking the nearest value.
 
@@ -105,6 +122,7 @@ def selection_of(
     """
     points = SCENE in dataset["status"].dims
     fixed: dict[str, int] = {}
+    parts: dict[str, NDArray[np.intp]] = {}
     between: list[Between] = []
     scenes: NDArray[np.intp] | None = None
     named: set[str] = set()
@@ -115,13 +133,19 @@ def selection_of(
             fixed[axis] = _solver(dataset, option, text)
             continue
         values = np.asarray(dataset[axis].values, dtype=float)
-        value = _checked(option, values, axis, _number(option, axis, text))
-        nearest = _nearest(values, value)
-        if points and axis not in dataset["status"].dims:
-            if interpolate:
-                raise DatasetError(f"{option}: points cannot be interpolated; leave --interpolate out")
-            same = np.flatnonzero(values == values[nearest])
-            scenes = same if scenes is None else np.intersect1d(scenes, same)
+        of_points = points and axis not in dataset["status"].dims
+        if of_points and interpolate:
+            raise DatasetError(f"{option}: points cannot be interpolated; leave --interpolate out")
+        if ":" in text:
+            left = _within(option, values, axis, text)
+        else:
+            value = _checked(option, values, axis, _number(option, axis, text))
+            nearest = _nearest(values, value)
+            left = np.flatnonzero(values == values[nearest])
+        if of_points:
+            scenes = left if scenes is None else np.intersect1d(scenes, left)
+        elif ":" in text:
+            parts[axis] = left
         elif interpolate and not np.isinf(value) and abs(values[nearest] - value) > SAME * abs(value):
             between.append(_between(values, axis, value))
         else:
@@ -130,14 +154,15 @@ def selection_of(
         raise DatasetError(f"--at {' --at '.join(at)}: no scene has all these values; leave one of them out")
     if interpolate and not at:
         raise DatasetError("--interpolate: there is nothing to interpolate; add --at AXIS=VALUE")
-    return Selection(fixed=fixed, between=tuple(between), scenes=scenes, over=_reductions(dataset, over, named))
+    reductions = _reductions(dataset, over, named)
+    return Selection(fixed=fixed, parts=parts, between=tuple(between), scenes=scenes, over=reductions)
 
 
 def nearest_values(dataset: xarray.Dataset, at: Sequence[str]) -> list[str]:
     """Say which wishes of `--at` are met by another value, the nearest of the axis."""
     notes = []
     for option, axis, text in _choices("--at", at, "AXIS=VALUE"):
-        if axis == SOLVER:
+        if axis == SOLVER or ":" in text:
             continue
         values = np.asarray(dataset[axis].values, dtype=float)
         value = _number(option, axis, text)
@@ -253,6 +278,23 @@ def _checked(option: str, values: NDArray[np.float64], axis: str, value: float) 
         unit = f" {PHYSICAL[axis].unit}" if axis in PHYSICAL else ""
         raise DatasetError(f"{option}: outside the axis, which has values of {written}{unit}; choose one within")
     return value
+
+
+def _within(option: str, values: NDArray[np.float64], axis: str, text: str) -> NDArray[np.intp]:
+    """Find the items of an axis within a range such as 0.1:0.5, either end of which may be left out."""
+    low, high = (
+        _number(option, axis, end.strip()) if end.strip() else open_end
+        for end, open_end in zip(text.split(":", 1), (-np.inf, np.inf), strict=True)
+    )
+    low, high = (
+        low - SLACK * abs(low) if np.isfinite(low) else low,
+        high + SLACK * abs(high) if np.isfinite(high) else high,
+    )
+    left: NDArray[np.intp] = np.flatnonzero((low <= values) & (values <= high))
+    if not left.size:
+        finite = values[np.isfinite(values)]
+        raise DatasetError(f"{option}: no value of the axis is within; it has {finite.min():g} to {finite.max():g}")
+    return left
 
 
 def _nearest(values: NDArray[np.float64], value: float) -> int:

@@ -41,6 +41,9 @@ def joined(sources: Sources) -> tuple[Study, "Joined"]:
         file: belonging.study_of(dataset, file, kinds=("map", "optimum"), wanted=wanted)
         for file, dataset in sources.items()
     }
+    for file, study in studies.items():
+        if dict(sources[file]["status"].sizes) != study.sizes:
+            raise DatasetError(f"{file}: has only a part of the scenes of its study; join whole datasets")
     (first, one), *others = studies.items()
     for file, other in others:
         if {one.layout, other.layout} != {"grid"}:

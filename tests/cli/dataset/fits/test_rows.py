@@ -13,8 +13,7 @@ from gradhesion.cli.dataset.read.reader import opened
 from gradhesion.cli.names.fits import FIT_MORE
 from gradhesion.cli.picture.fits.fit import drawn_fit
 from gradhesion.cli.study.fit.study import FitStudy
-from gradhesion.cli.words.fit_words import fit_described
-from gradhesion.cli.words.loops_words import loops_described
+from gradhesion.cli.words.fit_words import fits_described
 from gradhesion.cli.work.solve.fitting import Fit
 from gradhesion.core.loops.fitted import FittedLoop, OtherMinimum
 from gradhesion.core.loops.measured.features import ContactPoint
@@ -79,7 +78,7 @@ def test_a_dataset_has_minima_ranges_and_the_contact_point(study: FitStudy, tmp_
             zip(dataset["status"].attrs["flag_meanings"].split(), dataset["status"].attrs["flag_masks"], strict=True)
         )
         assert (masks["poor_fit"], masks["another_minimum"]) == (2048, 4096)
-        told = "\n".join(fit_described(dataset, path))
+        told = "\n".join(fits_described(dataset, path))
     for words in (
         "contact point: 2 +- 0.1 nm, found before the fit (the end of the base line)",
         "widened by 1.5 for residuals above the noise",
@@ -98,7 +97,7 @@ def test_a_file_of_version_0_2_is_read(study: FitStudy, tmp_path: Path) -> None:
     old = sound.drop_vars([name for name in FIT_MORE if name in sound]).assign_attrs(noise)
     old.to_netcdf(path)
     with opened(path) as dataset:
-        told = "\n".join(fit_described(dataset, path))
+        told = "\n".join(fits_described(dataset, path))
         drawn_fit(dataset)
     assert "noise: 0.25 nm and 7 nN, given" in told
     assert "reduced 2.25" in told
@@ -115,7 +114,10 @@ def test_side_by_side_minima_are_padded(study: FitStudy, tmp_path: Path) -> None
     path = tmp_path / "all.nc"
     write_fit(several, fits, path, history="made by a test", overwrite=False)
     with opened(path) as again:
-        told = list(loops_described(again, path))
+        told = list(fits_described(again, path))
     assert sum("another minimum within the noise" in line for line in told) == 2
     assert any(line.endswith("poor_fit another_minimum") for line in told)
+    assert not any("+-" in line for line in told), "what stands beside 95 % is an interval"
+    median = told.index("median of 1 loop without such a flag, with quartiles") + 1
+    assert told[median].split() == ["E_star", "1e+07", "1e+07", "to", "1e+07"], "not of the loop that is flagged"
     assert "force_curve.csv: it has no path" in told
