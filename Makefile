@@ -31,7 +31,7 @@ stress: .venv/complete ## the long form of the stress suite (minutes)
 faults: .venv/complete ## kill runs at 200 random moments and at every rename, and go on with them (a minute)
 	.venv/bin/python -m tests.faults.trials --random 200
 
-adversary: .venv/complete faults ## those, kills at system calls, disks, 10,000 crafted datasets, 1,000 folders, names, 10,000 scenes (hours)
+adversary: .venv/complete faults ## those, kills at system calls, disks, 1,000 folders, names, 10,000 scenes (hours)
 	.venv/bin/python -m tests.adversary.trials
 
 bench: .venv/complete ## measure time and error (minutes), and write docs/benchmarks.md and its figures

@@ -1,6 +1,6 @@
-"""Kills, disks, crafted datasets and folders of parts, hostile names, and scenes: what came of each, on a line.
+"""Kills, disks, changed folders of parts, hostile names, and scenes: what came of each, on a line.
 
-python -m tests.adversary.trials --datasets 10000 --parts 1000 --names 300 --scenes 10000 --seed 7
+python -m tests.adversary.trials --parts 1000 --names 300 --scenes 10000 --seed 7
 """
 
 import argparse
@@ -18,7 +18,7 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Final
 
-from tests.adversary import datasets, parts
+from tests.adversary import parts
 from tests.adversary.commands import fault_of
 from tests.adversary.kills import trials_of_kills
 from tests.adversary.names import faults_of_names
@@ -31,71 +31,9 @@ outputs = ["pull_off_force", "dissipated_energy", "loading_jumps"]
 A = [0.0, 0.023]
 a_max_over_R = [1.7, inf]
 """
-CURVES: Final = f"""\
-kind = "curve"
-outputs = ["equilibrium", "path", "jumps"]
-{PUNCH}lambda_over_R = 0.2
-A = 0.02
-a_max_over_R = 1.7
-"""
-POINTS: Final = """\
-layout = "points"
-outputs = ["pull_off_force", "pull_off_radius"]
-[method]
-solver = ["exact", "envelope"]
-[parameters]
-k = [0.0, 0.3]
-nu = 0.3
-A = [0.01, 0.02]
-[physical]
-R = "1 um"
-E_star = "1 GPa"
-work_of_adhesion = "50 mJ/m^2"
-c0 = "13 nm"
-wavelength = ["100 nm", "200 nm"]
-a_max = "1 um"
-"""
-STATES: Final = CURVES.replace('"equilibrium", "path", "jumps"', '"pressure", "surface"')
-DRAWN: Final = 0.05
-"""The share of datasets that are drawn and explored, too: it takes longest."""
 
 Faults = Counter[tuple[str, str]]
 Trial = Callable[[Path, int, random.Random], Faults]
-
-
-def of_datasets(folder: Path, count: int, draw: random.Random) -> Faults:
-    """Change datasets of each kind, and try the commands on them; gives what was wrong, with an example of each."""
-    files = {}
-    for kind, text in {"map": MAP, "curves": CURVES, "points": POINTS, "states": STATES}.items():
-        study, files[kind] = folder / f"{kind}.toml", folder / f"{kind}.nc"
-        study.write_text(text)
-        assert not (fault := fault_of("run", study, "-o", files[kind], codes=(0,))), fault
-    faults: Faults = Counter()
-    examples: dict[str, str] = {}
-    changed, joined = folder / "changed.nc", folder / "joined.nc"
-    for _ in range(count):
-        file = draw.choice([*files.values()])
-        if draw.random() < 0.15:
-            changed.write_bytes(datasets.damage(file.read_bytes(), draw))
-            what = "bytes"
-        else:
-            content = datasets.Content.of(file)
-            what = "; ".join(datasets.mutate(content, draw) for _ in range(draw.choice([1, 1, 2, 3])))
-            content.write(changed)
-        commands = [
-            ("info",),
-            ("info", "--format", "csv"),
-            ("info", "--jumps"),
-            ("verify", "--sample", "1"),
-            ("status",),
-        ]
-        commands.append(("merge", str(files["map"]), "-o", str(joined), "--overwrite"))
-        if draw.random() < DRAWN:
-            commands += [("plot", "--overwrite"), ("explore", "--overwrite"), ("plot", "--overwrite", "--at", "k=0.3")]
-        for name, *options in commands:
-            if fault := fault_of(name, changed, *options):
-                faults[name, examples.setdefault(fault[:60], f"{fault} ({file.stem}: {what})")] += 1
-    return faults
 
 
 def of_parts(folder: Path, count: int, draw: random.Random) -> Faults:
@@ -157,7 +95,6 @@ def rows_of(asked: argparse.Namespace) -> Iterator[tuple[str, int]]:
         )
         yield done.stdout.strip() or done.stderr.strip().splitlines()[-1], done.returncode
     for what, number, trial in (
-        ("datasets changed at random", asked.datasets, of_datasets),
         ("folders of parts changed at random", asked.parts, of_parts),
         ("hostile names", asked.names, of_names),
     ):
@@ -178,7 +115,6 @@ def rows_of(asked: argparse.Namespace) -> Iterator[tuple[str, int]]:
 def main() -> None:
     """Try all, and print what came of it."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--datasets", type=int, default=10_000)
     parser.add_argument("--parts", type=int, default=1_000)
     parser.add_argument("--names", type=int, default=300)
     parser.add_argument("--scenes", type=int, default=10_000)
