@@ -46,6 +46,12 @@ def number(cell: str) -> float:
     >>> number("1e3"), number(" "), number("-inf")
     (1000.0, nan, -inf)
     """
+    try:
+        value = float(cell)
+        if math.isfinite(value) and "_" not in cell and cell.isascii():
+            return value
+    except ValueError:
+        pass
     cell = cell.strip()
     if not cell or re.fullmatch(ERRORS, cell):
         return math.nan

@@ -65,7 +65,6 @@ TABLES: dict[str, tuple[str, str]] = {
     "workbook": ("PK\x03\x04\x14\0", "the file is an archive (ZIP, or a workbook), not a table; name a table"),
     "header alone": ("@x,@y\n# none\n", "the header on line 1 has no row of numbers below it; add one"),
     "no header": ("1,2\n3,4\n", "line 1 has numbers where the names of the columns are expected; add a header line"),
-    "names behind a comment sign": ("# a note\n# @x,@y\n1,2\n", "line 3 has numbers where the names of the columns are expected; remove the # before those on line 2"),
     "a comment of other words": ("# one two three\n1,2\n", "line 2 has numbers where the names of the columns are expected; add a header line"),
     "one name twice": ("@x,@y,@x\n1,2,3\n", 'columns 1 and 3 of the header on line 1 have one name, "@x"; rename one'),
     "long cell": ('@x,@y\n1,"' + 140_000 * "9" + '"\n', "line 2 has a cell of more than 131,072 characters; shorten it"),
