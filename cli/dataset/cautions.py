@@ -1,28 +1,47 @@
 """What a user should know of a dataset that is written: cells whose answers may not hold, as a share of all."""
 
+import math
 from collections.abc import Iterator, Mapping
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.cli.dataset.coordinates import coordinates
+from gradhesion.cli.dataset.read.waves import STEEPEST, steepness
 from gradhesion.cli.study.study import Study
+from gradhesion.cli.study.tiling import Tiling
 from gradhesion.cli.terminal.amounts import counted, percent
 from gradhesion.core.answers.flags import ANSWER_FLAGS
 from gradhesion.core.problem.reach import SMALL, depends_on_contact
+from gradhesion.core.problem.shape import rows_of
+from gradhesion.core.problem.status import FLAGS
 
 CONE: Final = "the punch is a cone of slope 1, which is not small, at every contact radius of {}"
 """What is said once of a study of a cone."""
 
 
+MANY: Final = 0.1
+"""The share of scenes from which on it is said that they are not one disc."""
+NOT_ONE_DISC: Final = "loading_contact_not_one_disc"
+
+
 def flagged_in(status: NDArray[np.integer]) -> dict[str, int]:
-    """Count the cells that have each flag of answers."""
-    return {name: int(np.count_nonzero(status.astype(np.int16) & bit)) for name, bit in ANSWER_FLAGS.items()}
+    """Count the cells that have each flag that there is something to say of."""
+    flags = ANSWER_FLAGS | {NOT_ONE_DISC: FLAGS[NOT_ONE_DISC]}
+    return {name: int(np.count_nonzero(status.astype(np.int16) & bit)) for name, bit in flags.items()}
 
 
 def cautions(study: Study, flagged: Mapping[str, int], steep: int = 0) -> Iterator[str]:
     """Say of each flag in what share of the cells it is set, and what to do; and how many contacts are `steep`."""
     yield from _of_slope(study, steep)
+    yield from _of_waves(study)
+    if (apart := flagged.get(NOT_ONE_DISC, 0)) >= MANY * study.scenes:
+        share = f"{apart:,} of {counted(study.scenes, 'scene')} ({percent(apart, study.scenes)})"
+        yield (
+            f"contact on loading is not one disc in {share}: values of loading are doubtful there; lower A, or look at "
+            "johnson_alpha"
+        )
     coarse, nothing = flagged.get("resolution_too_coarse", 0), flagged.get("nothing_feasible", 0)
     if coarse:
         share = f"{coarse:,} of {counted(study.scenes, 'scene')}"
@@ -48,6 +67,23 @@ def cautions(study: Study, flagged: Mapping[str, int], steep: int = 0) -> Iterat
                 f"the linear standard deviation is off in {share}: a kink lies within the spread of the inputs, or the "
                 "value bends; draw samples there, with samples = 1024 under [uncertainty]"
             )
+
+
+def _of_waves(study: Study) -> Iterator[str]:
+    """Say in how many scenes the waves are steep, in one line."""
+    amplitude = coordinates(study).get("A")
+    if amplitude is None or "wave_slope" in study.variables:
+        return
+    _, _, profiles = study.apart(tuple(slice(0, size) for size in study.shape))
+    slopes = [steepness(rows_of(profile)) for profile in profiles]
+    sizes = [study.axes[axis] for axis in amplitude.dimensions]
+    steep = 0
+    for block in Tiling(tuple(sizes)):
+        values = amplitude.made(block) if amplitude.made else np.asarray(amplitude.values)[block]
+        steep += sum(int(np.count_nonzero(values * slope > STEEPEST)) for slope in slopes)
+    if count := steep * study.scenes // (math.prod(sizes) * len(slopes)):
+        share = f"{count:,} of {counted(study.scenes, 'scene')} ({percent(count, study.scenes)})"
+        yield f"the waves have slopes above {STEEPEST:g} in {share}, and the model is one of small slopes; lower A"
 
 
 def _of_slope(study: Study, steep: int) -> Iterator[str]:

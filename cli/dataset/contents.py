@@ -27,7 +27,6 @@ from gradhesion.cli.names.outputs import (
     PARETO_POINT,
     SPREADS,
     labels_of,
-    value_of,
 )
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.names.units import unit_of
@@ -73,8 +72,8 @@ class _OfMap:
     def described(self, study: Study, name: str) -> Variable:
         attributes = {"units": "1", "ancillary_variables": "status", "long_name": _long_name(name)}
         if name.endswith("_std"):
-            linear = value_of(name) in study.linear
-            attributes["comment"] = "linear, by sensitivities" if linear else "of samples of the uncertain inputs"
+            sampled = bool(study.uncertainty.samples)
+            attributes["comment"] = "of samples of the uncertain inputs" if sampled else "linear, by sensitivities"
         if name in ("dissipated_energy", "unloading_energy") and study.loading.control == "load":
             attributes["long_name"] = OUTPUTS[name].replace(",", " without its jump-out, which has no bound,")
         if name.endswith("_jumps"):

@@ -29,9 +29,10 @@ def read_columns(
     ----------
     path
         Of a file in NetCDF, whose variables of one dimension are the columns; or of a text in UTF-8 (or, with a mark at
-        its beginning, UTF-16): lines that begin with # are left out, the first other one, or a comment above numbers, is the header, `name` or
-        `name [unit]` between commas, semicolons or tabs (or else spaces), or a row of names and one of units; each line
-        that follows is a row of numbers, nan and inf among them. Commas are decimal where they can be nothing else.
+        its beginning, UTF-16): lines that begin with # are left out, the first other one (or a comment above numbers)
+        is the header, `name` or `name [unit]` between commas, semicolons or tabs (or else spaces), or a row of names
+        and one of units; each line that follows is a row of numbers, nan and inf among them. Commas are decimal where
+        they can be nothing else.
     only, known, words, whole
         As those of `Wanted`.
 

@@ -224,7 +224,8 @@ def _check_names(header: Header) -> None:
         if before < i:
             name = f", {shown(header.names[i])}" if header.names[i] in header.shown else ""
             raise ColumnsError(
-                f"columns {before + 1} and {i + 1} of the header on line {header.number} have one name{name}; rename one"
+                f"columns {before + 1} and {i + 1} of the header on line {header.number} have one name{name}; "
+                "rename one"
             )
 
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by, is_cone
 from gradhesion.cli.dataset.read.reader import has_curves, tiling_of
 from gradhesion.cli.dataset.read.sensitivities import parts_of, strongest
+from gradhesion.cli.dataset.read.waves import steep_waves
 from gradhesion.cli.names.outputs import ON_BOUND, PARETO_POINT, SI, labels_of
 from gradhesion.cli.names.scenes import IDLE, REALISATION, SCENE, SOLVER
 from gradhesion.cli.study.shape_words import control_in_words
@@ -300,6 +301,8 @@ def _beyond_the_model(dataset: xarray.Dataset) -> Iterator[str]:
         blocks = (beyond_by(name, dataset, block) for block in tiling_of(dataset["status"]))
         count = sum(int(beyond.sum()) for beyond in blocks if beyond is not None)
         condition = f"{limit.condition}: {limit.words}"
+        if name == "wave_slope" and name not in dataset:
+            count = steep_waves(dataset)
         if name == CONTACT_SLOPE and is_cone(dataset):
             count, condition = scenes, "1 at every radius: slopes of a cone are not small"
         if count:

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from click.testing import Result
 
@@ -285,12 +286,38 @@ def test_cycles_are_whole_numbers_of_any_size(numbers: tuple[Any, Any], kept: tu
 
 
 @pytest.mark.parametrize(
-    "words", [("loading", "Unloading"), ("approach", "retract"), ("0", "1"), ("0.0", "1.0"), ("false", "TRUE")]
+    "words",
+    [
+        ("loading", "Unloading"),
+        ("approach", "retract"),
+        ("0", "1"),
+        ("0.0", "1.0"),
+        ("false", "TRUE"),
+        ("forward", "Backward"),
+    ],
 )
 def test_branches_are_words_or_0_and_1(words: tuple[str, str], tmp_path: Path) -> None:
     rows = "".join(f"{i},{i},{words[i % 2]}\n" for i in range(8))
     found = loop(tmp_path, "depth,force,branch\n" + rows, branch="branch")
     assert found.unloading.tolist() == 4 * [False, True]
+
+
+@pytest.mark.parametrize("rises", [False, True])
+def test_branches_may_stand_side_by_side(rises: bool, tmp_path: Path) -> None:
+    """Whichever way the rows of retraction go, and though it has fewer of them."""
+    back = [(1.0, 2.0), (0.0, -1.0)]
+    back = [*(back[::-1] if rises else back), ("", "")]
+    there = [(0, 0), (0.5, 1), (1, 3)]
+    rows = "".join(f"{one},{two},{three},{four}\n" for (one, two), (three, four) in zip(there, back, strict=True))
+    text = STUDIES["fit"]
+    for name in ("depth", "force"):
+        text = text.replace(f'column = "{name}"', f'column = "{name}", back = "{name}_back"')
+    (tmp_path / "table.csv").write_text("depth,force,depth_back,force_back\n" + rows)
+    (tmp_path / "fit.toml").write_text(text)
+    found = gr.load(tmp_path / "fit.toml").loop
+    np.testing.assert_allclose(found.depth, np.array([0.0, 0.5, 1.0, 1.0, 0.0]) * 1e-9, rtol=1e-15)
+    np.testing.assert_allclose(found.load, np.array([0.0, 1.0, 3.0, 2.0, -1.0]) * 1e-9, rtol=1e-15)
+    assert found.unloading.tolist() == [False, False, False, True, True]
 
 
 @pytest.mark.parametrize(

@@ -81,7 +81,9 @@ def test_samples_against_scenes_that_are_drawn_here(data: dict[str, Any]) -> Non
     # the radius has no sensitivities: its deviation is that of the samples
     assert found["pull_off_radius_std"].item() == pytest.approx(np.std(scenes["pull_off_radius"]), rel=0.05)
     assert "samples" in found["pull_off_radius_std"].attrs["comment"]
-    assert "linear" in found["pull_off_force_std"].attrs["comment"]
+    assert found["pull_off_force_std"].item() == pytest.approx(np.std(scenes["pull_off_force"]), rel=0.05)
+    assert "by its sensitivities" in found["pull_off_force_std_linear"].attrs["long_name"]
+    assert "pull_off_radius_std_linear" not in found, "of which there are no sensitivities"
 
 
 def test_quantities_with_units() -> None:
@@ -95,7 +97,8 @@ def test_quantities_with_units() -> None:
     found = gr.run(ball)
     force = 1.5 * np.pi * 1e-6 * 0.05
     assert found["pull_off_force_std"].item() == pytest.approx(0.0, abs=1e-12)
-    assert found["pull_off_force_std_si"].item() == pytest.approx(force * np.hypot(0.03, 0.04), rel=1e-9)
+    assert found["pull_off_force_std_linear_si"].item() == pytest.approx(force * np.hypot(0.03, 0.04), rel=1e-9)
+    assert found["pull_off_force_std_si"].item() == pytest.approx(force * np.hypot(0.03, 0.04), rel=0.02)
     assert found["pull_off_force_mean_si"].item() == pytest.approx(force, rel=1e-3)
     assert found["pull_off_force_std_si"].attrs["units"] == "N"
 
