@@ -1,11 +1,13 @@
 """What a dataset has of a fit beyond its values, and what `info` says of it; nothing is fitted here."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from click.testing import Result
 
 import gradhesion as gr
 from gradhesion.cli.dataset.fits.fit import dataset_of, write_fit
@@ -19,6 +21,7 @@ from gradhesion.core.loops.fitted import FittedLoop, OtherMinimum
 from gradhesion.core.loops.measured.features import ContactPoint
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, NO_VALUE, POOR_FIT
 
+Call = Callable[..., Result]
 CONFIGS = Path(__file__).parents[4] / "configs"
 
 
@@ -121,3 +124,30 @@ def test_side_by_side_minima_are_padded(study: FitStudy, tmp_path: Path) -> None
     median = told.index("median of 1 loop without such a flag, with quartiles") + 1
     assert told[median].split() == ["E_star", "1e+07", "1e+07", "to", "1e+07"], "not of the loop that is flagged"
     assert "force_curve.csv: it has no path" in told
+
+
+def test_a_fitted_value_is_taken_for_a_key(study: FitStudy, tmp_path: Path, gradhesion: Call) -> None:
+    sound, poor = tmp_path / "sound.nc", tmp_path / "poor.nc"
+    write_fit(study, [fit(study, others=(), status=0)], sound, history="made by a test", overwrite=False)
+    write_fit(study, [fit(study)], poor, history="made by a test", overwrite=False)
+    scene = tmp_path / "scene.toml"
+    scene.write_text(
+        'outputs = ["pull_off_force"]\n[parameters]\nk = 0.0\nnu = 0.3\n[physical]\nR = "5 um"\na_max = "1 um"\n'
+    )
+    keys = ("physical.E_star", "physical.work_of_adhesion", "physical.wavelength", "parameters.A")
+    sets = [f"--set={key}={sound}" for key in keys]
+    assert gradhesion("run", scene, "-o", tmp_path / "scene.nc", *sets).exit_code == 0
+    with opened(tmp_path / "scene.nc") as found:
+        assert [found[name].item() for name in ("E_star", "work_of_adhesion", "wavelength", "A")] == [
+            1e7, 0.03, 5e-7, 0.01
+        ]  # fmt: skip
+        assert 'E_star = "10000000.0 Pa"' in found.attrs["study"]
+    for wrong, words in {
+        f"physical.R={sound}": "the fit has no R",
+        f"physical.E_star={poor}": "the fit is flagged",
+        f"physical.E_star={tmp_path / 'scene.nc'}": "not that of a fit",
+        f"physical.E_star={tmp_path / 'none.nc'}": "not the dataset of a fit",
+    }.items():
+        result = gradhesion("validate", scene, *sets[1:], "--set", wrong)
+        assert result.exit_code == 2
+        assert words in result.stderr
