@@ -34,14 +34,14 @@ def merge(
     files: tuple[Path, ...],
     output: Path | None,
     overwrite: bool,
-    chunk: int | None,
+    chunk: int | None,  # noqa: ARG001 (given up: what is joined is written at once)
     quiet: bool,
     log_json: bool,  # noqa: ARG001 (its callback has it)
 ) -> None:
     """Join the parts of shards, or datasets.
 
     With one FILE, join the parts left by `gradhesion run STUDY.toml --shard I/N -o FILE`. With several FILES and -o,
-    join maps or optima whose studies differ along one axis; the result has the values of all.
+    join maps or optima whose studies differ in the values of axes; the result has those of all, a full grid.
     """
     start = time.monotonic()
     if len(files) == 1 and output is None:
@@ -53,7 +53,7 @@ def merge(
     elif len({*files}) < len(files):
         raise click.UsageError("the same dataset is named twice; name each once")
     else:
-        _merge_datasets(files, output, start, chunk, overwrite=overwrite, quiet=quiet)
+        _merge_datasets(files, output, start, overwrite=overwrite, quiet=quiet)
 
 
 def _merge_shards(file: Path, start: float, *, overwrite: bool, quiet: bool) -> None:
@@ -95,18 +95,25 @@ def _counted(file: Path) -> tuple[int, int]:
         return status.size, sum(int((status[block].values & FAILED != 0).sum()) for block in tiling_of(status))
 
 
-def _merge_datasets(
-    files: tuple[Path, ...], output: Path, start: float, chunk: int | None, *, overwrite: bool, quiet: bool
-) -> None:
-    """Join datasets along the axis in which they differ."""
-    from gradhesion.cli.dataset.verify.joining import joined, opened_all
-    from gradhesion.cli.dataset.writer import write
+def _merge_datasets(files: tuple[Path, ...], output: Path, start: float, *, overwrite: bool, quiet: bool) -> None:
+    """Join datasets along the axes in which they differ."""
+    from gradhesion.cli.dataset.cautions import cautions, flagged_in
+    from gradhesion.cli.dataset.read.reader import opened
+    from gradhesion.cli.dataset.select import write_dataset
+    from gradhesion.cli.dataset.verify.joining import joined
+    from gradhesion.cli.dataset.writer import Written
+    from gradhesion.cli.disk import refuse_existing
+    from gradhesion.cli.names.scenes import STEEP
+    from gradhesion.core.problem.status import FAILED
 
+    refuse_existing(output, output, overwrite=overwrite)
     with ExitStack() as stack:
-        sources = opened_all(files, stack)
-        study, engine = joined(sources)
-        study = study.chunked(chunk)
+        sources = {file: stack.enter_context(opened(file)) for file in files}
         history = "\n".join([*(str(source.attrs["history"]) for source in sources.values()), history_now()])
-        with progress(study.scenes, quiet=quiet) as advance:
-            written = write(study, output, history=history, overwrite=overwrite, engine=engine, advance=advance)
+        study, dataset = joined(sources, history)
+        write_dataset(dataset, output, overwrite=overwrite)
+    status = dataset["status"].values
+    steep = int(dataset[STEEP].sum()) if STEEP in dataset else 0
+    said = tuple(cautions(study, flagged_in(status), steep))
+    written = Written(failed=int(((status & FAILED) != 0).sum()), cautions=said)
     finish(output, study.scenes, written, time.monotonic() - start, quiet=quiet)

@@ -44,13 +44,14 @@ def select(file: Path, at: tuple[str, ...], over: tuple[str, ...], output: Path,
     from gradhesion.cli.dataset.read.reader import opened
     from gradhesion.cli.dataset.read.selection import nearest_values
     from gradhesion.cli.dataset.read.soundness import is_fit
-    from gradhesion.cli.dataset.select import selected, write_selected
+    from gradhesion.cli.dataset.select import selected, write_dataset
 
     if not at and not over:
         raise click.UsageError("nothing is selected; add --at AXIS=VALUE or --over AXIS=HOW")
     with opened(file) as dataset:
         part = selected(dataset, at, over)
         notes = [] if is_fit(dataset) else nearest_values(dataset, at)
-        write_selected(part, output, history=history_now(), overwrite=overwrite)
+        part = part.assign_attrs(history=f"{part.attrs.get('history', '')}\n{history_now()}".strip())
+        write_dataset(part, output, overwrite=overwrite)
     if not quiet:
         say_written(output, notes)

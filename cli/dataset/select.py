@@ -77,16 +77,15 @@ def _reduced(dataset: xarray.Dataset, selection: Selection) -> xarray.Dataset:
     return xarray.Dataset(plain, {name: one.variable for name, one in kept.items()}, dataset.attrs)
 
 
-def write_selected(dataset: xarray.Dataset, path: Path, *, history: str, overwrite: bool) -> None:
+def write_dataset(dataset: xarray.Dataset, path: Path, *, overwrite: bool) -> None:
     """
-    Write a dataset that was selected, with a line more in its history.
+    Write a dataset out of memory, which takes the place of `path` when it is complete and on disk.
 
     Raises
     ------
     OutputError
         It cannot be written, or exists.
     """
-    dataset = dataset.assign_attrs(history=f"{dataset.attrs.get('history', '')}\n{history}".strip())
     packed = {"zlib": True, "complevel": 1, "shuffle": True}
     encoding = {}
     for name, variable in dataset.variables.items():

@@ -8,7 +8,7 @@ import numpy as np
 
 from gradhesion.cli.dataset.dataset import origin
 from gradhesion.cli.dataset.fits.rows import refuse_size, rows_of, side_by_side
-from gradhesion.cli.disk import replacement, writing
+from gradhesion.cli.dataset.select import write_dataset
 from gradhesion.cli.names.fits import (
     FIT,
     FIT_MORE,
@@ -56,12 +56,7 @@ def write_fit(study: FitStudy, fits: Sequence[Fit], path: Path, *, history: str,
     OutputError
         It cannot be written, or exists.
     """
-    dataset = dataset_of(study, fits, history)
-    packed = {"zlib": True, "complevel": 1, "shuffle": True}
-    along = {name: packed for name, variable in dataset.variables.items() if variable.dims and variable.dtype != object}
-    own = {name: along.get(name, {}) | {"_FillValue": None} for name in dataset.variables}
-    with replacement(path, overwrite=overwrite) as temporary, writing(path):
-        dataset.to_netcdf(temporary, format="NETCDF4", engine="netcdf4", encoding=own)
+    write_dataset(dataset_of(study, fits, history), path, overwrite=overwrite)
 
 
 def dataset_of(study: FitStudy, fits: Sequence[Fit], history: str) -> "xarray.Dataset":

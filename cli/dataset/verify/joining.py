@@ -1,141 +1,110 @@
-"""Datasets that differ along one axis, as the dataset of one study whose axis has the values of all."""
+"""Datasets whose axes have other values, as the dataset of one study whose axes have the values of all."""
 
 import tomllib
-from collections.abc import Generator, Mapping, Sequence
-from contextlib import ExitStack
-from dataclasses import dataclass
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, Final
 
 import numpy as np
+import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.engines import Work
+from gradhesion.cli.dataset.dataset import assembled
+from gradhesion.cli.dataset.verify.belonging import study_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.study.tiling import Block
-from gradhesion.cli.work.parts.resume import Solved, blank
 from gradhesion.core.problem.inputs import INPUTS
 
-if TYPE_CHECKING:
-    import xarray
+WANTED: Final = "only maps and optima on a grid can be joined"
+SHARED: Final = ("kind", "search", "outputs", "method", "profile", "spectrum", "loading", "uncertainty")
+"""What the studies of datasets that are joined have in common, beside the keys of their scenes."""
 
-Sources = Mapping[Path, "xarray.Dataset"]
 
-
-def joined(sources: Sources) -> tuple[Study, "Joined"]:
+def joined(sources: Mapping[Path, xarray.Dataset], history: str) -> tuple[Study, xarray.Dataset]:
     """
-    Make the study of several datasets together, and the engine that takes its values from them.
+    Join datasets in memory; where several have a scene, the first one's values hold.
 
     Raises
     ------
     DatasetError
-        They differ in something else, in nothing, or along more than one axis; or one was changed since it was written.
+        They differ in something else than the values of axes, in nothing, or lack scenes of the grid of all; or one was
+        changed since it was written.
     """
-    from gradhesion.cli.dataset.verify import belonging  # noqa: PLC0415 (xarray, which shards do without)
-
-    wanted = "only maps and optima on a grid can be joined"
     studies = {
-        file: belonging.study_of(dataset, file, kinds=("map", "optimum"), wanted=wanted)
-        for file, dataset in sources.items()
+        file: study_of(dataset, file, kinds=("map", "optimum"), wanted=WANTED) for file, dataset in sources.items()
     }
+    (first, one), *others = studies.items()
     for file, study in studies.items():
+        if study.layout != "grid":
+            raise DatasetError(f"{file}: {WANTED}, not points")
         if dict(sources[file]["status"].sizes) != study.sizes:
             raise DatasetError(f"{file}: has only a part of the scenes of its study; join whole datasets")
-    (first, one), *others = studies.items()
     for file, other in others:
-        if {one.layout, other.layout} != {"grid"}:
-            raise DatasetError(f"{file}, {first}: {wanted}, not points")
-        for what in ("kind", "search", "outputs", "method", "profile", "spectrum", "loading", "uncertainty"):
-            if getattr(one, what) != getattr(other, what):
-                raise DatasetError(f"{file}: differs from {first} in {what}; join datasets that share it")
-        if one.parameters.keys() != other.parameters.keys():
-            keys = ", ".join(sorted(one.parameters.keys() ^ other.parameters.keys()))
-            raise DatasetError(
-                f"{file}: gives its scenes by different keys from {first} ({keys}); join datasets that share them"
-            )
+        _check_shared(first, one, file, other)
         written = [sources[each].attrs["source"] for each in (first, file)]
         if written[0] != written[1]:
             raise DatasetError(
                 f"{file}: was written by {written[1]}, and {first} by {written[0]}; run one of them again"
             )
-    differing = [
-        name
+    axes = {
+        name: np.unique(np.concatenate([np.atleast_1d(study.parameters[name]) for study in studies.values()]))
         for name, values in one.parameters.items()
         if any(not np.array_equal(values, other.parameters[name]) for _, other in others)
-    ]
-    if len(differing) != 1:
-        what = f"differ in {' and '.join(differing)}" if differing else "have the same scenes"
-        raise DatasetError(f"{', '.join(map(str, studies))}: {what}; join datasets that differ along one axis")
-    (axis,) = differing
-    own = [np.atleast_1d(study.parameters[axis]) for study in studies.values()]
-    values = np.unique(np.concatenate(own))
-    study = study_from(_with_axis(tomllib.loads(one.text), axis, values), one.name)
-    return study, Joined(sources, axis, _owners(values, own))
+    }
+    if not axes:
+        raise DatasetError(
+            f"{', '.join(map(str, studies))}: have the same scenes; join datasets that differ in an axis"
+        )
+    study = study_from(_with_axes(tomllib.loads(one.text), axes), one.name)
+    return study, assembled(study, _values(study, studies, sources, axes), history)
 
 
-def _with_axis(data: Mapping[str, Any], axis: str, values: NDArray[np.float64]) -> dict[str, Any]:
-    """Give a study other values of an axis, in the unit of the dataset where it has one."""
-    table = INPUTS[axis].table
-    entry: list[Any] = values.tolist()
-    if table == "physical":
-        entry = ["inf" if value == np.inf else f"{value!r} {INPUTS[axis].unit}" for value in entry]
-    return {**data, table: {**data[table], axis: entry}}
+def _check_shared(first: Path, one: Study, file: Path, other: Study) -> None:
+    """Check that two studies differ in nothing but the values of their parameters."""
+    for what in SHARED:
+        if getattr(one, what) != getattr(other, what):
+            raise DatasetError(f"{file}: differs from {first} in {what}; join datasets that share it")
+    if one.parameters.keys() != other.parameters.keys():
+        keys = ", ".join(sorted(one.parameters.keys() ^ other.parameters.keys()))
+        raise DatasetError(
+            f"{file}: gives its scenes by different keys from {first} ({keys}); join datasets that share them"
+        )
 
 
-@dataclass(frozen=True)
-class Joined:
-    """An engine that solves nothing: it takes the values of a joined study from its sources."""
-
-    sources: Sources
-    axis: str
-    owners: NDArray[np.int64]
-    """Of each value of the axis: which source has it, and where on its own axis."""
-
-    def results(self, work: Work) -> Generator[tuple[int, Solved], None, None]:
-        """Give the blocks in order; where several sources have a value, the first."""
-        for number in work.numbers:
-            block = work.study.tiling[number]
-            yield number, Solved(block, self._values(work.study, block))
-
-    def _values(self, study: Study, block: Block) -> dict[str, NDArray[Any]]:
-        dimensions = list(study.sizes)
-        along = dimensions.index(self.axis)
-        cut = dict(zip(dimensions, block, strict=True))
-        own = self.owners[:, block[along]]
-        filled = blank(study, block)
-        for number, source in enumerate(self.sources.values()):
-            here = np.flatnonzero(own[0] == number)
-            if here.size == 0:
-                continue
-            source = source.reset_coords(STEEP) if STEEP in source.coords else source
-            whole = source if self.axis in source.dims else source.expand_dims(self.axis)
-            known = [name for name in filled if name in whole.variables]  # no scene is marked without marks
-            part = whole[known].isel({**cut, self.axis: own[1, here]}).transpose(*dimensions, ...)
-            for name, values in ((name, filled[name]) for name in known):
-                np.moveaxis(values, along, 0)[here] = np.moveaxis(part[name].values, along, 0)
-        return filled
+def _with_axes(data: dict[str, Any], axes: Mapping[str, NDArray[np.float64]]) -> dict[str, Any]:
+    """Give a study other values of axes, in the unit of the dataset where they have one."""
+    for name, values in axes.items():
+        table, entry = INPUTS[name].table, values.tolist()
+        if table == "physical":
+            entry = ["inf" if value == np.inf else f"{value!r} {INPUTS[name].unit}" for value in entry]
+        data = {**data, table: {**data[table], name: entry}}
+    return data
 
 
-def _owners(values: NDArray[np.float64], parts: Sequence[NDArray[np.float64]]) -> NDArray[np.int64]:
-    """
-    Find which of several axes has each of their values together, the first if several have it, and where.
-
-    >>> _owners(np.array([1.0, 2.0, 3.0]), [np.array([3.0, 2.0]), np.array([1.0, 2.0])])
-    array([[1, 0, 0],
-           [0, 1, 0]])
-    """
-    owners = np.full((2, values.size), -1)
-    for number, own in reversed(list(enumerate(parts))):
-        places = np.searchsorted(values, own)
-        owners[0, places], owners[1, places] = number, np.arange(own.size)
-    return owners
-
-
-def opened_all(files: Sequence[Path], stack: ExitStack) -> dict[Path, "xarray.Dataset"]:
-    """Open datasets until the stack is left."""
-    from gradhesion.cli.dataset.read.reader import opened  # noqa: PLC0415 (xarray, which shards do without)
-
-    return {file: stack.enter_context(opened(file)) for file in files}
+def _values(
+    study: Study,
+    studies: Mapping[Path, Study],
+    sources: Mapping[Path, xarray.Dataset],
+    axes: Mapping[str, NDArray[np.float64]],
+) -> dict[str, NDArray[Any]]:
+    """Put the values of all sources where they belong in the dataset of their common study."""
+    names = [*study.variables, "status", *([STEEP] if any(STEEP in source for source in sources.values()) else [])]
+    there = np.zeros(study.shape, bool)
+    found: dict[str, NDArray[Any]] = {}
+    for file, source in reversed([*sources.items()]):
+        own = studies[file].parameters
+        along = {axis: np.searchsorted(values, np.atleast_1d(own[axis])) for axis, values in axes.items()}
+        place = np.ix_(*(along.get(axis, np.arange(size)) for axis, size in study.sizes.items()))
+        there[place] = True
+        for name in names:
+            values = source[name] if name in source else xarray.zeros_like(source["status"])  # no scene is marked
+            values = values.expand_dims([axis for axis in axes if axis not in values.dims]).transpose(*study.sizes, ...)
+            whole = found.setdefault(name, np.empty(study.shape_of(name, study.shape), values.dtype))
+            whole[place] = values.values
+    if not there.all():
+        missing = f"{np.count_nonzero(~there):,} scenes of their common grid are in none of them"
+        files = ", ".join(map(str, sources))
+        raise DatasetError(f"{files}: differ in {' and '.join(axes)}, and {missing}; join datasets that fill it")
+    return found

@@ -57,6 +57,18 @@ def test_values_of_an_axis_are_joined_in_their_order(
     assert told.exit_code == 0
 
 
+def test_several_axes_are_joined_where_their_grid_is_full(
+    gradhesion: Call, written: Callable[..., Path], tmp_path: Path
+) -> None:
+    whole = written("whole", parameters={"A": [0.0, 0.02], "k": [0.0, 0.3, 0.6]})
+    corners = [(0.0, [0.0, 0.3]), (0.0, 0.6), (0.02, [0.6, 0.3]), (0.02, 0.0)]
+    parts = [written(f"part{i}", parameters={"A": A, "k": k}) for i, (A, k) in enumerate(corners)]
+    assert gradhesion("merge", *parts, "-o", tmp_path / "joined.nc").exit_code == 0
+    same_values(tmp_path / "joined.nc", whole)
+    assert gradhesion("verify", tmp_path / "joined.nc").exit_code == 0
+    assert gradhesion("merge", *parts[:3], "-o", tmp_path / "other.nc").exit_code == 2
+
+
 def test_units_as_they_were_written_before_go_with_those_of_today(gradhesion: Call, tmp_path: Path) -> None:
     physical = {"R": "1 um", "E_star": "1 GPa", "c0": "10 nm", "wavelength": "50 nm"}
     files = [tmp_path / f"{work}.nc" for work in ("20", "50", "both")]
@@ -101,8 +113,8 @@ def test_quantities_keep_their_unit(gradhesion: Call, data: dict[str, Any], tmp_
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        ({}, "have the same scenes; join datasets that differ along one axis"),
-        ({"parameters": {"A": 0.5, "k": 0.5}}, "differ in k and A; join datasets that differ along one axis"),
+        ({}, "have the same scenes; join datasets that differ in an axis"),
+        ({"parameters": {"A": 0.5, "k": 0.5}}, "differ in k and A, and .* scenes of their common grid are in none of them"),
         ({"parameters": {"A": 0.5}, "outputs": ["pull_off_force"]}, "differs from .* in outputs; join datasets that share it"),
         ({"parameters": {"A": 0.5}, "method": {"solver": "envelope"}, "outputs": ["pull_off_force", "dissipated_energy"]}, "differs from .* in outputs"),
         ({"parameters": {"A": 0.5}, "profile": {"exponent": 3.0}}, "differs from .* in profile"),
