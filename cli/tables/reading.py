@@ -18,7 +18,6 @@ def read_columns(
     path: Path,
     only: Collection[str] | None = None,
     *,
-    known: Collection[str] = (),
     words: Mapping[str, Mapping[str, float]] | None = None,
     whole: Collection[str] = (),
 ) -> Columns:
@@ -33,7 +32,7 @@ def read_columns(
         is the header, `name` or `name [unit]` between commas, semicolons or tabs (or else spaces), or a row of names
         and one of units; each line that follows is a row of numbers, nan and inf among them. Commas are decimal where
         they can be nothing else.
-    only, known, words, whole
+    only, words, whole
         As those of `Wanted`.
 
     Returns
@@ -49,7 +48,7 @@ def read_columns(
     -----
     10^6 rows of six columns take some 3 s, three times that where there is anything but numbers.
     """
-    wanted = Wanted(only=only, known=known, words=words or {}, whole=whole)
+    wanted = Wanted(only=only, words=words or {}, whole=whole)
     try:
         size = path.stat().st_size
         if path.is_file() and size > MOST_BYTES:

@@ -6,14 +6,13 @@ import re
 from array import array
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import partial
 from itertools import islice
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.tables.cells import ERRORS, WholeNumbers, is_number, number, quoted, word
+from gradhesion.cli.tables.cells import ERRORS, is_number, number
 from gradhesion.cli.tables.columns import Columns, ColumnsError, Wanted, tidy
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.wording import shown
@@ -22,6 +21,9 @@ MOST_COLUMNS: Final = 1_000
 """More of them are hardly meant as a table."""
 LONGEST: Final = 2**15
 """Characters of a header: above any that is meant as one."""
+
+SHOWN: Final = 24
+"""Characters of a cell that is shown."""
 
 _HEAD: Final = re.compile(r"\s*(.*?)\s*(?:[\[(]\s*([^\])]*?)\s*[\])])?\s*")
 """A name, and in brackets its unit."""
@@ -55,12 +57,6 @@ class Header:
     """The line of the names."""
     last: int
     """The last line above the rows."""
-    shown: frozenset[str]
-    """The names that a message may repeat."""
-
-    def label(self, column: int) -> str:
-        """Call a column by its name if the name is known, else by its place."""
-        return self.names[column] if self.names[column] in self.shown else f"column {column + 1}"
 
 
 def of_text(content: bytes, sha256: str, wanted: Wanted) -> Columns:
@@ -75,15 +71,7 @@ def of_text(content: bytes, sha256: str, wanted: Wanted) -> Columns:
     text = _decoded(content)
     header = _header_of(text, wanted)
     others = tuple(name for i, name in enumerate(header.names) if i not in header.read)
-    if not header.read and not _looks_like_a_table(text, header):
-        raise ColumnsError("the file is not a table of numbers; name one whose first line has the names of its columns")
-    numbers = {name: WholeNumbers() for name in wanted.whole}
-    readers: dict[int, Callable[[str], float]] = {}
-    for i in header.read:
-        name = header.names[i]
-        readers[i] = numbers[name].code if name in numbers else number
-        if name in wanted.words:
-            readers[i] = partial(word, words=wanted.words[name])
+    readers = {i: wanted.reader(header.names[i]) for i in header.read}
     plain = None if {*readers.values()} != {number} else _plain(text, header)
     found = _read(text, header, readers) if plain is None else {i: plain[i].copy() for i in readers}
 
@@ -92,14 +80,7 @@ def of_text(content: bytes, sha256: str, wanted: Wanted) -> Columns:
         return f"line {line}" if line else f"row {row}"
 
     values = {header.names[i]: column for i, column in found.items()}
-    return Columns(
-        values=values,
-        units=header.units,
-        sha256=sha256,
-        place=place,
-        others=others,
-        whole={name: own.numbers(values[name]) for name, own in numbers.items() if name in values},
-    )
+    return Columns(values=values, units=header.units, sha256=sha256, place=place, others=others)
 
 
 def _decoded(content: bytes) -> str:
@@ -182,7 +163,6 @@ def _header_of(text: str, wanted: Wanted) -> Header:
         read=read,
         number=place,
         last=last,
-        shown=frozenset({*(wanted.only or ()), *wanted.known}),
     )
     _check_names(found)
     return found
@@ -222,9 +202,9 @@ def _check_names(header: Header) -> None:
             )
         before = header.names.index(header.names[i])
         if before < i:
-            name = f", {shown(header.names[i])}" if header.names[i] in header.shown else ""
             raise ColumnsError(
-                f"columns {before + 1} and {i + 1} of the header on line {header.number} have one name{name}; "
+                f"columns {before + 1} and {i + 1} of the header on line {header.number} have one name, "
+                f"{shown(header.names[i])}; "
                 "rename one"
             )
 
@@ -269,19 +249,6 @@ def _rows(text: str, header: Header) -> Iterator[tuple[int, list[str]]]:
         yield place, cells
 
 
-def _looks_like_a_table(text: str, header: Header, rows: int = 100) -> bool:
-    """Tell whether the first rows are as long as the header, and two columns have but numbers below a name."""
-    try:
-        first = [cells for _, cells in islice(_rows(text, header), rows)]
-    except ColumnsError:
-        return False
-    found = 0
-    for name, column in zip(header.names, zip(*first, strict=True), strict=True):
-        cells = [cell.replace(",", ".") for cell in column if cell]
-        found += bool(cells) and not is_number(name) and all(map(is_number, cells))
-    return found > 1
-
-
 def _plain(text: str, header: Header) -> NDArray[np.float64] | None:
     """Read a table of nothing but numbers by NumPy, which is four times as fast; None where anything else is in it."""
     if '"' in text:
@@ -297,7 +264,7 @@ def _plain(text: str, header: Header) -> NDArray[np.float64] | None:
 
 def _read(text: str, header: Header, readers: Mapping[int, Callable[[str], float]]) -> dict[int, NDArray[np.float64]]:
     """Read the columns of a table; `readers` says for each of them by its place what reads a cell."""
-    numeric = [i for i, read in readers.items() if not isinstance(read, partial)]
+    numeric = [i for i, read in readers.items() if read is number]
     commas = (header.separator != "," or '"' in text) and "," in text and _has_decimal_commas(text, header, numeric)
     found = {i: array("d") for i in readers}
     for place, cells in _rows(text, header):
@@ -306,8 +273,14 @@ def _read(text: str, header: Header, readers: Mapping[int, Callable[[str], float
             try:
                 found[i].append(read(cell))
             except ValueError as error:
-                raise ColumnsError(f"line {place}: {header.label(i)}{quoted(cells[i])} {error}") from None
+                raise ColumnsError(f"line {place}: {_shown(header, i, cells[i])} {error}") from None
     return {i: np.array(values) for i, values in found.items()}
+
+
+def _shown(header: Header, column: int, cell: str) -> str:
+    """Name a column and show a cell of it."""
+    cell = cell if len(cell) <= SHOWN else f"{cell[:SHOWN]}..."
+    return f"{header.names[column]} = {shown(cell)}"
 
 
 def _has_decimal_commas(text: str, header: Header, columns: list[int]) -> bool:
@@ -327,7 +300,7 @@ def _has_decimal_commas(text: str, header: Header, columns: list[int]) -> bool:
                 points = points or place
             elif "," in cells[i] and _COMMA.fullmatch(cells[i]):
                 sure = sure or (0 if _THOUSANDS.fullmatch(cells[i]) else place)
-                first = first or f"{header.label(i)}{quoted(cells[i])}"
+                first = first or _shown(header, i, cells[i])
                 commas = commas or place
     if commas and points:
         raise ColumnsError(

@@ -113,7 +113,7 @@ def read_table(path: Path, table: "DataTable") -> Raw:
         depth=np.where(missing, np.nan, _scaled(found, depth_key, depth, "length")),
         load=_scaled(found, "load", load, "force"),
         branch=found.values[table.branch] if table.branch else None,
-        cycle=found.whole[table.cycle] if table.cycle else None,
+        cycle=np.nan_to_num(found.values[table.cycle]).astype(np.int64) if table.cycle else None,
         sha256=found.sha256,
     )
 
