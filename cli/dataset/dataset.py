@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.cautions import cautions, flagged_in
-from gradhesion.cli.dataset.contents import CONTENTS
+from gradhesion.cli.dataset.contents import CONTENTS, described
 from gradhesion.cli.dataset.coordinates import coordinates
 from gradhesion.cli.dataset.variable import Variable
 from gradhesion.cli.names.curves import STATE, is_ragged
@@ -35,21 +35,21 @@ if TYPE_CHECKING:
 
 def variables(study: Study) -> dict[str, Variable]:
     """Describe the variables of a study's dataset, coordinates first."""
-    described = coordinates(study)
+    found = coordinates(study)
     apart = (*study.sizes, *study.labels, STATE)
-    beside = " ".join(name for name in described if name not in apart)
+    beside = " ".join(name for name in found if name not in apart)
     outputs = {name: _output(study, name) for name in study.variables}
     outputs["status"] = _status(study)
     if beside:
         for name, variable in outputs.items():
             if not is_ragged(name):
                 variable.attributes["coordinates"] = beside
-    return described | outputs
+    return found | outputs
 
 
 def _output(study: Study, name: str) -> Variable:
     """Describe a result, perhaps in SI units."""
-    plain = CONTENTS[study.sort].described(study, name.removesuffix(SI))
+    plain = described(study, name.removesuffix(SI))
     if not name.endswith(SI):
         return plain
     unit = unit_of(name)
