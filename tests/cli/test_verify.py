@@ -247,6 +247,13 @@ def test_scenes_of_too_many_waves_are_left_out_and_others_drawn(
 
 
 def test_errors_that_a_dataset_tells_of_its_values_are_held_against_them(gradhesion: Call, dataset_file: Path) -> None:
+    """As versions up to 0.3 wrote them, where the study asked for them."""
+    edit_study(
+        dataset_file,
+        'outputs = ["pull_off_force", ',
+        'outputs = ["pull_off_force", "pull_off_force_error", ',
+        seal=True,
+    )
     with netCDF4.Dataset(dataset_file, "a") as file:
         error = file.createVariable("pull_off_force_error", "f8", file["pull_off_force"].dimensions)
         error[:] = 1e-10

@@ -19,6 +19,7 @@ from gradhesion.cli.study.points import COMMENT, points_of
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
 from gradhesion.core.problem.inputs import INPUTS
+from gradhesion.core.problem.outputs import GIVEN_UP
 
 ONLY_SCENES: Final = "`gradhesion verify` accepts the dataset that it was taken from"
 """What to do with values that are not those of scenes."""
@@ -51,6 +52,8 @@ def study_of(
         raise _apart(path, f"its study is not valid TOML ({error})") from None
     if (kind := data.get("kind", "map")) not in kinds:
         raise DatasetError(f"{path}: contains {'an' if kind == 'optimum' else 'a'} {kind}; {wanted}")
+    if isinstance(data.get("outputs"), list):  # a file of an earlier version has them
+        data["outputs"] = [name for name in data["outputs"] if name not in GIVEN_UP]
     try:
         study = study_from(_with_fit(dataset, data), "its study", **_points_of(dataset, data, path))
     except StudyError as error:
