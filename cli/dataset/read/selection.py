@@ -3,7 +3,7 @@
 The words of `--at` and `--over` become a `Selection` here; it narrows a dataset without loading it.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final
 
@@ -126,23 +126,20 @@ def selection_of(
     between: list[Between] = []
     scenes: NDArray[np.intp] | None = None
     named: set[str] = set()
-    for option, axis, text in _choices("--at", at, "AXIS=VALUE"):
-        check_axis(dataset, option, axis)
-        _check_once(option, axis, named)
+    for option, axis, text in _wishes(dataset, "--at", at, named):
         if axis == SOLVER:
             fixed[axis] = _solver(dataset, option, text)
             continue
         values = np.asarray(dataset[axis].values, dtype=float)
-        of_points = points and axis not in dataset["status"].dims
-        if of_points and interpolate:
-            raise DatasetError(f"{option}: points cannot be interpolated; leave --interpolate out")
         if ":" in text:
             left = _within(option, values, axis, text)
         else:
             value = _checked(option, values, axis, _number(option, axis, text))
             nearest = _nearest(values, value)
             left = np.flatnonzero(values == values[nearest])
-        if of_points:
+        if points and axis not in dataset["status"].dims:
+            if interpolate:
+                raise DatasetError(f"{option}: points cannot be interpolated; leave --interpolate out")
             scenes = left if scenes is None else np.intersect1d(scenes, left)
         elif ":" in text:
             parts[axis] = left
@@ -154,22 +151,30 @@ def selection_of(
         raise DatasetError(f"--at {' --at '.join(at)}: no scene has all these values; leave one of them out")
     if interpolate and not at:
         raise DatasetError("--interpolate: there is nothing to interpolate; add --at AXIS=VALUE")
-    reductions = _reductions(dataset, over, named)
+    reductions: dict[str, str] = {}
+    for option, axis, how in _wishes(dataset, "--over", over, named):
+        if points and axis not in dataset["status"].dims:
+            raise DatasetError(f"{option}: points have no axes to reduce; choose some of them with --at")
+        if axis == SOLVER:
+            raise DatasetError(f"{option}: solvers cannot be reduced; choose one with --at solver=NAME")
+        if how not in REDUCTIONS:
+            raise DatasetError(f"{option}: not a reduction; {did_you_mean(how, list(REDUCTIONS))}")
+        if how.startswith("arg") and any(other.startswith("arg") for other in reductions.values()):
+            raise DatasetError(f"{option}: the place of an extreme is already requested; reduce by max, min or mean")
+        reductions[axis] = how
     return Selection(fixed=fixed, parts=parts, between=tuple(between), scenes=scenes, over=reductions)
 
 
 def nearest_values(dataset: xarray.Dataset, at: Sequence[str]) -> list[str]:
     """Say which wishes of `--at` are met by another value, the nearest of the axis."""
     notes = []
-    for option, axis, text in _choices("--at", at, "AXIS=VALUE"):
+    for option, axis, text in _wishes(dataset, "--at", at, set()):
         if axis == SOLVER or ":" in text:
             continue
-        values = np.asarray(dataset[axis].values, dtype=float)
-        value = _number(option, axis, text)
+        values, value = np.asarray(dataset[axis].values, dtype=float), _number(option, axis, text)
         near = float(values[_nearest(values, value)])
         if not np.isinf(value) and abs(near - value) > SAME * abs(value):
-            unit = f" {PHYSICAL[axis].unit}" if axis in PHYSICAL else ""
-            notes.append(f"{option}: shows {axis} = {near:.10g}{unit}, its nearest value")
+            notes.append(f"{option}: shows {axis} = {near:.10g}{_unit(axis)}, its nearest value")
     return notes
 
 
@@ -182,33 +187,24 @@ def is_log(values: NDArray[np.float64]) -> bool:
     return bool(finite.size == 2 or np.std(ratios) / np.mean(ratios) < np.std(steps) / np.mean(steps))
 
 
-def _reductions(dataset: xarray.Dataset, over: Sequence[str], named: set[str]) -> dict[str, str]:
-    """Read the wishes of `--over`."""
-    reductions: dict[str, str] = {}
-    for option, axis, how in _choices("--over", over, "AXIS=max"):
-        check_axis(dataset, option, axis)
-        _check_once(option, axis, named)
-        if SCENE in dataset["status"].dims and axis not in dataset["status"].dims:
-            raise DatasetError(f"{option}: points have no axes to reduce; choose some of them with --at")
-        if axis == SOLVER:
-            raise DatasetError(f"{option}: solvers cannot be reduced; choose one with --at solver=NAME")
-        if how not in REDUCTIONS:
-            raise DatasetError(f"{option}: not a reduction; {did_you_mean(how, list(REDUCTIONS))}")
-        if how.startswith("arg") and any(other.startswith("arg") for other in reductions.values()):
-            raise DatasetError(f"{option}: the place of an extreme is already requested; reduce by max, min or mean")
-        reductions[axis] = how
-    return reductions
-
-
-def _choices(option: str, words: Sequence[str], form: str) -> list[tuple[str, str, str]]:
-    """Take wishes apart: what was written, the axis and the rest."""
-    choices = []
+def _wishes(
+    dataset: xarray.Dataset, option: str, words: Sequence[str], named: set[str]
+) -> Iterator[tuple[str, str, str]]:
+    """Take wishes apart: what was written, the axis and the rest; each axis of the dataset may be named once."""
     for word in words:
         axis, sign, rest = (part.strip() for part in word.partition("="))
         if not (axis and sign and rest):
-            raise DatasetError(f"{option} {word}: write {option} {form}")
-        choices.append((f"{option} {word}", axis, rest))
-    return choices
+            raise DatasetError(f"{option} {word}: write {option} AXIS={'VALUE' if option == '--at' else 'max'}")
+        check_axis(dataset, f"{option} {word}", axis)
+        if axis in named:
+            raise DatasetError(f"{option} {word}: {axis} is fixed or reduced already; keep one of the two")
+        named.add(axis)
+        yield f"{option} {word}", axis, rest
+
+
+def _unit(axis: str) -> str:
+    """Give the unit of an axis behind a value; nothing if it has none."""
+    return f" {PHYSICAL[axis].unit}" if axis in PHYSICAL else ""
 
 
 def axes_of(dataset: xarray.Dataset) -> list[str]:
@@ -232,13 +228,6 @@ def check_axis(dataset: xarray.Dataset, option: str, axis: str) -> None:
         raise DatasetError(f"{option}: not an axis; {axis} follows from {' and '.join(map(str, dataset[axis].dims))}")
     remedy = did_you_mean(axis, known) if known else "it has a single scene and no axes"
     raise DatasetError(f"{option}: not an axis of this dataset; {remedy}")
-
-
-def _check_once(option: str, axis: str, named: set[str]) -> None:
-    """Refuse an axis that is named twice."""
-    if axis in named:
-        raise DatasetError(f"{option}: {axis} is fixed or reduced already; keep one of the two")
-    named.add(axis)
 
 
 def _solver(dataset: xarray.Dataset, option: str, name: str) -> int:
@@ -275,8 +264,7 @@ def _checked(option: str, values: NDArray[np.float64], axis: str, value: float) 
     if not inside:
         written = f"{finite.min():g} to {finite.max():g}" if finite.size else ""
         written = " and ".join(filter(None, (written, "inf" if np.isinf(values).any() else "")))
-        unit = f" {PHYSICAL[axis].unit}" if axis in PHYSICAL else ""
-        raise DatasetError(f"{option}: outside the axis, which has values of {written}{unit}; choose one within")
+        raise DatasetError(f"{option}: outside the axis, which has values of {written}{_unit(axis)}; choose one within")
     return value
 
 
@@ -286,14 +274,10 @@ def _within(option: str, values: NDArray[np.float64], axis: str, text: str) -> N
         _number(option, axis, end.strip()) if end.strip() else open_end
         for end, open_end in zip(text.split(":", 1), (-np.inf, np.inf), strict=True)
     )
-    low, high = (
-        low - SLACK * abs(low) if np.isfinite(low) else low,
-        high + SLACK * abs(high) if np.isfinite(high) else high,
-    )
+    low, high = low - SLACK * abs(low), high + SLACK * abs(high)
     left: NDArray[np.intp] = np.flatnonzero((low <= values) & (values <= high))
     if not left.size:
-        finite = values[np.isfinite(values)]
-        raise DatasetError(f"{option}: no value of the axis is within; it has {finite.min():g} to {finite.max():g}")
+        raise DatasetError(f"{option}: no value of the axis is within; it has {values.min():g} to {values.max():g}")
     return left
 
 
