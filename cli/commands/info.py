@@ -33,8 +33,6 @@ def info(files: tuple[Path, ...], at: tuple[str, ...], form: str, variables: tup
 
     from gradhesion.cli.dataset.read.reader import opened
     from gradhesion.cli.dataset.read.soundness import is_fit
-    from gradhesion.cli.dataset.select import selected
-    from gradhesion.cli.words.fit_words import fits_compared, fits_described
     from gradhesion.cli.words.table import fits_tabled, jumps_listed, tabled
     from gradhesion.cli.words.words import described
 
@@ -45,7 +43,11 @@ def info(files: tuple[Path, ...], at: tuple[str, ...], form: str, variables: tup
     file = files[0]
     with ExitStack() as stack:
         datasets = [stack.enter_context(opened(each)) for each in files]
-        dataset = selected(datasets[0], at) if at else datasets[0]
+        dataset = datasets[0]
+        if at:
+            from gradhesion.cli.dataset.select import selected
+
+            dataset = selected(dataset, at)
         if jumps or (form == "csv" and not is_fit(dataset)):
             for block in jumps_listed(dataset, file) if jumps else tabled(dataset, file, variables):
                 show_block(block)
@@ -53,7 +55,10 @@ def info(files: tuple[Path, ...], at: tuple[str, ...], form: str, variables: tup
             for block in fits_tabled(dataset):
                 show_block(block)
         else:
-            words = fits_described if is_fit(dataset) else described
-            lines = list(fits_compared(datasets, files)) if len(files) > 1 else words(dataset, file)
+            lines = described(dataset, file)
+            if len(files) > 1 or is_fit(dataset):
+                from gradhesion.cli.words.fit_words import fits_compared, fits_described
+
+                lines = iter([*fits_compared(datasets, files)]) if len(files) > 1 else fits_described(dataset, file)
             for line in lines:
                 show(line)

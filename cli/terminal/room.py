@@ -11,7 +11,7 @@ SOLVING: Final = 1.5e9
 READING: Final = 0.7e9
 """The same of one that reads, draws or joins datasets: 0.5 GB as measured."""
 NEEDED: Final = dict.fromkeys(("run", "plan", "warmup"), SOLVING) | dict.fromkeys(
-    ("info", "plot", "explore", "verify", "merge", "profile", "validate"), READING
+    ("info", "plot", "explore", "select", "verify", "merge", "profile", "validate"), READING
 )
 """By the command; the others need less than any shell allows."""
 
