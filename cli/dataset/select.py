@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Final
 
 import numpy as np
 import xarray
@@ -16,16 +15,6 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.fits import LOOP
 from gradhesion.cli.names.outputs import ON_BOUND
 from gradhesion.cli.names.scenes import STEEP
-
-_METHODS: Final = {
-    "max": "maximum",
-    "min": "minimum",
-    "mean": "mean",
-    "sum": "sum",
-    "median": "median",
-    "p50": "median",
-}
-"""What CF calls reductions, as far as it has words for them."""
 
 
 def selected(dataset: xarray.Dataset, at: Sequence[str] = (), over: Sequence[str] = ()) -> xarray.Dataset:
@@ -67,8 +56,6 @@ def _reduced(dataset: xarray.Dataset, selection: Selection) -> xarray.Dataset:
         values = selection.taken(variable, status).values.transpose(*axes, ...)
         words = ", ".join(f"{how} over {axis}" for axis, how in selection.over.items())
         values.attrs["long_name"] = f"{variable.attrs.get('long_name', name)}; {words}"
-        if all(how in _METHODS for how in selection.over.values()):
-            values.attrs["cell_methods"] = " ".join(f"{axis}: {_METHODS[how]}" for axis, how in selection.over.items())
         made[name] = values
     kept = {name: one for name, one in dataset.coords.items() if not {*one.dims} & {*going}}
     if STEEP in dataset.coords:

@@ -111,7 +111,7 @@ def damaged_values(content: bytes, path: Path) -> bytes:
     pytest.fail("there is no such chunk")
 
 
-@pytest.mark.parametrize("command", ["info", "plot"])
+@pytest.mark.parametrize("command", ["info", "plot", "verify"])
 @pytest.mark.parametrize(
     ("damage", "message"),
     [

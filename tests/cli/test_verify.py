@@ -158,26 +158,6 @@ def test_an_edited_coordinate_is_told(gradhesion: Call, dataset_file: Path) -> N
     assert "do not belong together" in result.stderr
 
 
-@pytest.mark.parametrize("damage", ["foreign", "truncated", "text", "missing", "folder"])
-def test_a_file_that_is_no_dataset_of_ours(damage: str, gradhesion: Call, dataset_file: Path, tmp_path: Path) -> None:
-    path = tmp_path / "bad.nc"
-    if damage == "foreign":
-        with netCDF4.Dataset(path, "w") as file:
-            file.title = "something else"
-    elif damage == "truncated":
-        path.write_bytes(dataset_file.read_bytes()[:-5000])
-    elif damage == "text":
-        path.write_text("k = 0.1")
-    elif damage == "folder":
-        path.mkdir()
-    result = gradhesion("verify", path)
-    assert result.exit_code == 2
-    assert result.stderr.startswith(f"{path}: ")
-    assert "gradhesion run" in result.stderr
-    assert result.stderr.count("\n") == 1
-    assert result.stdout == ""
-
-
 VALUES = (
     "pull_off_force",
     "pull_off_radius",
