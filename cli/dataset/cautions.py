@@ -34,46 +34,48 @@ def flagged_in(status: NDArray[np.integer]) -> dict[str, int]:
 
 def cautions(study: Study, flagged: Mapping[str, int], steep: int = 0) -> Iterator[str]:
     """Say of each flag in what share of the cells it is set, and what to do; and how many contacts are `steep`."""
-    yield from _of_slope(study, steep)
-    yield from _of_waves(study)
+    if study.is_cone and depends_on_contact(study.solved):
+        yield CONE.format(f"all of {counted(study.scenes, 'scene')}")
+    elif steep:
+        yield (
+            f"contact reaches slopes of the punch above {SMALL:g} (a > R) in {_share(steep, study)}, which are not "
+            "small; bound it with a_max_over_R or indentation_max_over_R"
+        )
+    if count := _steep_waves(study):
+        yield f"the waves have slopes above {STEEPEST:g} in {_share(count, study)}, which are not small; lower A"
     if (apart := flagged.get(NOT_ONE_DISC, 0)) >= MANY * study.scenes:
-        share = f"{apart:,} of {counted(study.scenes, 'scene')} ({percent(apart, study.scenes)})"
         yield (
-            f"contact on loading is not one disc in {share}: values of loading are doubtful there; lower A, or look at "
-            "johnson_alpha"
+            f"contact on loading is not one disc in {_share(apart, study)}: values of loading are doubtful there; "
+            "lower A, or look at johnson_alpha"
         )
-    coarse, nothing = flagged.get("resolution_too_coarse", 0), flagged.get("nothing_feasible", 0)
-    if coarse:
-        share = f"{coarse:,} of {counted(study.scenes, 'scene')}"
+    if coarse := flagged.get("resolution_too_coarse", 0):
         yield (
-            f"a sweep finer than the resolution finds another optimum in {share}, and there may be others; raise "
-            f"resolution = {study.search.resolution} under [optimum]"
+            f"a sweep finer than the resolution finds another optimum in {_share(coarse, study)}, and there may be "
+            f"others; raise resolution = {study.search.resolution} under [optimum]"
         )
-    if nothing:
+    if nothing := flagged.get("nothing_feasible", 0):
         yield (
-            f"no point meets the requirements in {nothing:,} of {counted(study.scenes, 'scene')}, which have no "
-            "optimum; require less, or widen the bounds"
+            f"no point meets the requirements in {_share(nothing, study)}, which have no optimum; require less, or "
+            "widen the bounds"
         )
-    off = flagged.get("linear_deviation_off", 0)
-    if off:
-        share = f"{off:,} of {counted(study.scenes, 'scene')} ({off / study.scenes:.1%})"
+    if off := flagged.get("linear_deviation_off", 0):
+        what, remedy = "linear standard deviation is off", "draw samples there, with samples = 1024 under [uncertainty]"
         if study.uncertainty.samples:
-            yield (
-                f"the linear and the sampled standard deviation differ by more than a tenth in {share}: a kink lies "
-                "within the spread of the inputs, or the value is strongly curved; use the samples there"
-            )
-        else:
-            yield (
-                f"the linear standard deviation is off in {share}: a kink lies within the spread of the inputs, or the "
-                "value bends; draw samples there, with samples = 1024 under [uncertainty]"
-            )
+            what, remedy = "linear and the sampled standard deviation differ by more than a tenth", "use the samples"
+        where = f"in {_share(off, study)}: a kink lies within the spread of the inputs, or the value bends"
+        yield f"the {what} {where}; {remedy}"
 
 
-def _of_waves(study: Study) -> Iterator[str]:
-    """Say in how many scenes the waves are steep, in one line."""
+def _share(count: int, study: Study) -> str:
+    """Say how many scenes of a study something is true of."""
+    return f"{count:,} of {counted(study.scenes, 'scene')} ({percent(count, study.scenes)})"
+
+
+def _steep_waves(study: Study) -> int:
+    """Count the scenes whose waves are steep; 0 where the study asks for their slope itself, or searches A."""
     amplitude = coordinates(study).get("A")
     if amplitude is None or "wave_slope" in study.variables:
-        return
+        return 0
     _, _, profiles = study.apart(tuple(slice(0, size) for size in study.shape))
     slopes = [steepness(rows_of(profile)) for profile in profiles]
     sizes = [study.axes[axis] for axis in amplitude.dimensions]
@@ -81,18 +83,4 @@ def _of_waves(study: Study) -> Iterator[str]:
     for block in Tiling(tuple(sizes)):
         values = amplitude.made(block) if amplitude.made else np.asarray(amplitude.values)[block]
         steep += sum(int(np.count_nonzero(values * slope > STEEPEST)) for slope in slopes)
-    if count := steep * study.scenes // (math.prod(sizes) * len(slopes)):
-        share = f"{count:,} of {counted(study.scenes, 'scene')} ({percent(count, study.scenes)})"
-        yield f"the waves have slopes above {STEEPEST:g} in {share}, and the model is one of small slopes; lower A"
-
-
-def _of_slope(study: Study, steep: int) -> Iterator[str]:
-    """Say how many scenes reach a slope of the punch that is not small, in one line."""
-    share = f"{steep:,} of {counted(study.scenes, 'scene')} ({percent(steep, study.scenes)})"
-    if study.is_cone and depends_on_contact(study.solved):
-        yield CONE.format(f"all of {counted(study.scenes, 'scene')}")
-    elif steep:
-        yield (
-            f"contact reaches slopes of the punch above {SMALL:g} (a > R) in {share}, which are not small; bound it "
-            "with a_max_over_R or indentation_max_over_R"
-        )
+    return steep * study.scenes // (math.prod(sizes) * len(slopes))
