@@ -9,6 +9,8 @@ import pytest
 import xarray
 from click.testing import Result
 
+from gradhesion.cli.terminal.printable import printable
+
 Call = Callable[..., Result]
 
 
@@ -190,3 +192,16 @@ def test_a_study_that_was_changed_is_told(gradhesion: Call, dataset_file: Path) 
     with netCDF4.Dataset(dataset_file, "a") as file:
         file.study += "# and more\n"
     assert "changed since" in gradhesion("info", dataset_file).stdout
+
+
+def test_what_a_dataset_says_is_data(gradhesion: Call, dataset_file: Path) -> None:
+    """Words that a terminal obeys, formulas that are none and studies that are programs are printed or drawn as text."""
+    hostile = "\x1b[31m$\\bad{ </script> {0.__class__} %s"
+    with netCDF4.Dataset(dataset_file, "a") as file:
+        file.setncatts(dict.fromkeys(("title", "history", "profile", "study", "study_sha256"), hostile))
+        for name in ("k", "status", "pull_off_force"):
+            file[name].setncatts({"units": hostile, "long_name": hostile})
+    for command in (["info"], ["info", "--format", "csv"], ["plot"], ["explore"], ["verify"]):
+        result = gradhesion(*command, dataset_file)
+        assert result.exit_code == (2 if command == ["verify"] else 0), result.stderr
+        assert printable(result.output) == result.output
