@@ -15,7 +15,7 @@ from gradhesion.cli.terminal.progress import progress
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("--sample", type=click.IntRange(min=1), default=20, show_default=True, help="Scenes to recompute.")
 @click.option("--seed", type=click.IntRange(min=0), help="Seed of the random sample [random].")
-@click.option("--digits", is_flag=True, hidden=True)
+@click.option("--digits", is_flag=True, hidden=True, help="Given up.")
 def verify(file: Path, sample: int, seed: int | None, digits: bool) -> None:
     """Recompute maps to 30 digits and compare.
 
