@@ -275,7 +275,8 @@ def test_a_column_of_branches_and_one_of_cycles_are_read(folder: Path) -> None:
     assert study.loop.cycles == 2
     (folder / "force_curve.csv").write_text("depth,force,branch\n" + rows[0].replace("loading,1", "up") + "\n")
     with pytest.raises(
-        gr.StudyError, match='line 2: branch = "up" is not one of its words; choose from "loading", "unloading", "approach"'
+        gr.StudyError,
+        match='line 2: branch = "up" is not one of its words; choose from "loading", "unloading", "approach"',
     ):
         gr.load("fit.toml", set={"data.branch": "branch"})
 
