@@ -99,6 +99,8 @@ def _check_variables(dataset: xarray.Dataset, study: Study, path: Path) -> None:
     """Check that a dataset has what its study asks for, along its axes or a part of them."""
     sizes = dict(dataset["status"].sizes)
     for name in (*study.variables, "status"):
+        if name not in dataset.data_vars and name in study.spreads:
+            continue  # which earlier versions did not write, and nobody recomputes
         if name not in dataset.data_vars:
             raise _apart(path, f"its study requests {name}, which the dataset lacks")
         own = labels_of(name)

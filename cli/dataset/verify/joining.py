@@ -41,6 +41,8 @@ def joined(sources: Mapping[Path, xarray.Dataset], history: str) -> tuple[Study,
             raise DatasetError(f"{file}: {WANTED}, not points")
         if dict(sources[file]["status"].sizes) != study.sizes:
             raise DatasetError(f"{file}: has only a part of the scenes of its study; join whole datasets")
+        if missing := [name for name in study.variables if name not in sources[file]]:
+            raise DatasetError(f"{file}: lacks {missing[0]}, which earlier versions did not write; run it again")
     for file, other in others:
         _check_shared(first, one, file, other)
         written = [sources[each].attrs["source"] for each in (first, file)]

@@ -169,6 +169,11 @@ def test_run_names_the_share_of_scenes_that_differ(
     assert gradhesion("explore", path, "-o", page).exit_code == 0
     assert "pull_off_force_std" in page.read_text()
     assert gradhesion("verify", path, "--sample", "1").exit_code == 0
+    with xarray.open_dataset(path) as dataset:  # as version 0.3 wrote it
+        dataset.drop_vars("pull_off_force_std_linear").to_netcdf(old := tmp_path / "old.nc")
+    for command, code in (["info", 0], ["plot", 0], ["verify", 0], ["merge", 2]):
+        more = [path, "-o", tmp_path / "joined.nc"] if command == "merge" else []
+        assert gradhesion(command, old, *more).exit_code == code
 
 
 def test_a_deviation_is_doubtful_where_the_line_is_off(data: dict[str, Any]) -> None:
