@@ -77,7 +77,8 @@ class Accessor:
             known = [str(name) for name in self._dataset.data_vars if name != "status"]
             if variable not in known:
                 raise DatasetError(f"{variable}: not a variable of this dataset; {did_you_mean(variable, known)}")
-            bits |= doubts_of(variable, turned=is_turned(self._dataset)) | POOR_FIT | ANOTHER_MINIMUM
+            sampled = any(name.removesuffix("_si").endswith("_std_linear") for name in known)
+            bits |= doubts_of(variable, turned=is_turned(self._dataset), sampled=sampled) | POOR_FIT | ANOTHER_MINIMUM
         return (self._dataset["status"].astype(np.int16) & bits) == 0
 
     def flagged(self, flag: str) -> xarray.DataArray:

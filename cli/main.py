@@ -19,6 +19,7 @@ from gradhesion.cli.commands.plan import plan
 from gradhesion.cli.commands.plot import plot
 from gradhesion.cli.commands.profile import profile
 from gradhesion.cli.commands.run import run
+from gradhesion.cli.commands.select import select
 from gradhesion.cli.commands.status import status
 from gradhesion.cli.commands.validate import schema, validate
 from gradhesion.cli.commands.verify import verify
@@ -36,7 +37,7 @@ UNHEARD = 141
 
 SECTIONS: Final = {
     "Study and run": (init, validate, plan, run, status),
-    "Results": (info, plot, explore),
+    "Results": (info, plot, explore, select),
     "Check and join": (verify, merge),
     "Other": (profile, warmup, completion, schema),
 }

@@ -167,7 +167,7 @@ def borrowed(_typing: Any, values: Any) -> Any:
         if isinstance(kind, types.Array):
             array = cgutils.create_struct_proxy(kind)(context, builder, value)
             array.meminfo = cgutils.get_null_value(array.meminfo.type)
-            return array._getvalue()
+            return array._getvalue()  # noqa: SLF001 (numba's guide to extensions does so)
         for i, item in enumerate(kind if isinstance(kind, types.BaseTuple) else ()):
             own = without_owner(context, builder, item, builder.extract_value(value, i))
             value = builder.insert_value(value, own, i)

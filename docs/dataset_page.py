@@ -185,10 +185,10 @@ def _curves() -> list[list[str]]:
 
 def _of_fits() -> list[list[str]]:
     """Write a row for each variable of a fit."""
-    rows = [[code(name), code(", ".join(dims)), words] for name, (dims, words) in (FIT | FIT_MORE).items()]
+    rows = [[code(name), code(", ".join(one.dims)), one.about] for name, one in (FIT | FIT_MORE).items()]
     rows += [[code(name), code(LOOP), words] for name, words in FIT_WORDS.items()]
-    points = ((along, name, words) for along, each in FIT_POINTS.items() for name, words in each.items())
-    return rows + [[code(name), code(along), words] for along, name, words in points]
+    points = ((along, name, one) for along, each in FIT_POINTS.items() for name, one in each.items())
+    return rows + [[code(name), code(along), one.about] for along, name, one in points]
 
 
 def _flags() -> list[list[str]]:

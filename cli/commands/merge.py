@@ -58,10 +58,10 @@ def _merge_shards(file: Path, *, overwrite: bool, quiet: bool) -> None:
     folder = folder_of(file)
     study = study_in(folder)
     if study is None and is_file(file):
-        status_of(file)  # which refuses what is no dataset
         if folder.is_dir():  # of a merge that was killed when it was done
             with claimed(file):
                 pass
+        status_of(file)  # which refuses what is no dataset
         messages.say(f"{file}: was complete already")
         return
     if study is None:
@@ -73,14 +73,24 @@ def _merge_shards(file: Path, *, overwrite: bool, quiet: bool) -> None:
 
 def _merge_datasets(files: tuple[Path, ...], output: Path, *, overwrite: bool, quiet: bool) -> None:
     """Join datasets along the axes in which they differ."""
-    from gradhesion.cli.dataset.verify.joining import joined, opened_all
-    from gradhesion.cli.dataset.writer import write
+    from gradhesion.cli.dataset.cautions import cautions, flagged_in
+    from gradhesion.cli.dataset.read.reader import opened
+    from gradhesion.cli.dataset.select import write_dataset
+    from gradhesion.cli.dataset.verify.joining import joined
+    from gradhesion.cli.dataset.writer import Written
+    from gradhesion.cli.disk import refuse_existing
+    from gradhesion.cli.names.scenes import STEEP
+    from gradhesion.core.problem.status import FAILED
 
     start = time.monotonic()
+    refuse_existing(output, overwrite=overwrite)
     with ExitStack() as stack:
-        sources = opened_all(files, stack)
-        study, engine = joined(sources)
+        sources = {file: stack.enter_context(opened(file)) for file in files}
         history = "\n".join([*(str(source.attrs["history"]) for source in sources.values()), history_now()])
-        with progress(study.scenes, quiet=quiet) as advance:
-            written = write(study, output, history=history, overwrite=overwrite, engine=engine, advance=advance)
+        study, dataset = joined(sources, history)
+        write_dataset(dataset, output, overwrite=overwrite)
+    status = dataset["status"].values
+    steep = int(dataset[STEEP].sum()) if STEEP in dataset else 0
+    said = tuple(cautions(study, flagged_in(status), steep))
+    written = Written(failed=int(((status & FAILED) != 0).sum()), cautions=said)
     finish(output, study.scenes, written, time.monotonic() - start, quiet=quiet)

@@ -15,9 +15,9 @@ from gradhesion.cli.terminal.progress import progress
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("--sample", type=click.IntRange(min=1), default=20, show_default=True, help="Scenes to recompute.")
 @click.option("--seed", type=click.IntRange(min=0), help="Seed of the random sample [random].")
-@click.option("--digits", is_flag=True, help="Also print the values, to 30 digits.")
+@click.option("--digits", is_flag=True, hidden=True, help="Given up.")
 def verify(file: Path, sample: int, seed: int | None, digits: bool) -> None:
-    """Recompute scenes to 30 digits and compare.
+    """Recompute maps to 30 digits and compare.
 
     The study stored in FILE must be unchanged and match its coordinates. A random sample of the scenes is then solved
     from the integral definitions, in 51-digit arithmetic and without the kernels that made the dataset. The deviations
@@ -26,6 +26,10 @@ def verify(file: Path, sample: int, seed: int | None, digits: bool) -> None:
 
     The exit code is 3 if a value deviates by more than its stated error.
     """
+    if digits:
+        raise click.UsageError(
+            "--digits was given up; in Python, gr.verify(FILE).deviations has each value beside the one recomputed"
+        )
     from gradhesion.cli.dataset.read.reader import opened
     from gradhesion.cli.dataset.verify.deviations import lines_of
     from gradhesion.cli.dataset.verify.recompute import recompute
@@ -33,7 +37,7 @@ def verify(file: Path, sample: int, seed: int | None, digits: bool) -> None:
     with opened(file) as dataset:
         found = recompute(dataset, file, sample=sample, seed=seed, progress=lambda total: progress(total, quiet=False))
         title = str(dataset.attrs["title"])
-    for line in lines_of(found, title, file, digits=digits):
+    for line in lines_of(found, title, file):
         show(line)
     if found.exceeding:
         raise DeviationError(

@@ -1,62 +1,86 @@
 """What a user should know of a dataset that is written: cells whose answers may not hold, as a share of all."""
 
+import math
 from collections.abc import Iterator, Mapping
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.cli.dataset.coordinates import coordinates
+from gradhesion.cli.dataset.read.waves import STEEPEST, steepness
 from gradhesion.cli.study.study import Study
+from gradhesion.cli.study.tiling import Tiling
 from gradhesion.cli.terminal.amounts import counted, percent
 from gradhesion.core.answers.flags import ANSWER_FLAGS
 from gradhesion.core.closed.reach import SMALL, depends_on_contact
+from gradhesion.core.problem.profile import rows_of
+from gradhesion.core.problem.status import FLAGS
 
 CONE: Final = "the punch is a cone of slope 1, which is not small, at every contact radius of {}"
 """What is said once of a study of a cone."""
 
 
+MANY: Final = 0.1
+"""The share of scenes from which on it is said that they are not one disc."""
+NOT_ONE_DISC: Final = "loading_contact_not_one_disc"
+
+
 def flagged_in(status: NDArray[np.integer]) -> dict[str, int]:
-    """Count the cells that have each flag of answers."""
-    return {name: int(np.count_nonzero(status.astype(np.int16) & bit)) for name, bit in ANSWER_FLAGS.items()}
+    """Count the cells that have each flag that there is something to say of."""
+    flags = ANSWER_FLAGS | {NOT_ONE_DISC: FLAGS[NOT_ONE_DISC]}
+    return {name: int(np.count_nonzero(status.astype(np.int16) & bit)) for name, bit in flags.items()}
 
 
 def cautions(study: Study, flagged: Mapping[str, int], steep: int = 0) -> Iterator[str]:
     """Say of each flag in what share of the cells it is set, and what to do; and how many contacts are `steep`."""
-    yield from _of_slope(study, steep)
-    coarse, nothing = flagged.get("resolution_too_coarse", 0), flagged.get("nothing_feasible", 0)
-    if coarse:
-        share = f"{coarse:,} of {counted(study.scenes, 'scene')}"
-        yield (
-            f"a sweep finer than the resolution finds another optimum in {share}, and there may be others; raise "
-            f"resolution = {study.search.resolution} under [optimum]"
-        )
-    if nothing:
-        yield (
-            f"no point meets the requirements in {nothing:,} of {counted(study.scenes, 'scene')}, which have no "
-            "optimum; require less, or widen the bounds"
-        )
-    off = flagged.get("linear_deviation_off", 0)
-    if off:
-        share = f"{off:,} of {counted(study.scenes, 'scene')} ({off / study.scenes:.1%})"
-        if study.uncertainty.samples:
-            yield (
-                f"the linear and the sampled standard deviation differ by more than a tenth in {share}: a kink lies "
-                "within the spread of the inputs, or the value is strongly curved; use the samples there"
-            )
-        else:
-            yield (
-                f"the linear standard deviation is off in {share}: a kink lies within the spread of the inputs, or the "
-                "value bends; draw samples there, with samples = 1024 under [uncertainty]"
-            )
-
-
-def _of_slope(study: Study, steep: int) -> Iterator[str]:
-    """Say how many scenes reach a slope of the punch that is not small, in one line."""
-    share = f"{steep:,} of {counted(study.scenes, 'scene')} ({percent(steep, study.scenes)})"
     if study.is_cone and depends_on_contact(study.solved):
         yield CONE.format(f"all of {counted(study.scenes, 'scene')}")
     elif steep:
         yield (
-            f"contact reaches slopes of the punch above {SMALL:g} (a > R) in {share}, which are not small; bound it "
-            "with a_max_over_R or indentation_max_over_R"
+            f"contact reaches slopes of the punch above {SMALL:g} (a > R) in {_share(steep, study)}, which are not "
+            "small; bound it with a_max_over_R or indentation_max_over_R"
         )
+    if count := _steep_waves(study):
+        yield f"the waves have slopes above {STEEPEST:g} in {_share(count, study)}, which are not small; lower A"
+    if (apart := flagged.get(NOT_ONE_DISC, 0)) >= MANY * study.scenes:
+        yield (
+            f"contact on loading is not one disc in {_share(apart, study)}: values of loading are doubtful there; "
+            "lower A, or look at johnson_alpha"
+        )
+    if coarse := flagged.get("resolution_too_coarse", 0):
+        yield (
+            f"a sweep finer than the resolution finds another optimum in {_share(coarse, study)}, and there may be "
+            f"others; raise resolution = {study.search.resolution} under [optimum]"
+        )
+    if nothing := flagged.get("nothing_feasible", 0):
+        yield (
+            f"no point meets the requirements in {_share(nothing, study)}, which have no optimum; require less, or "
+            "widen the bounds"
+        )
+    if off := flagged.get("linear_deviation_off", 0):
+        what, remedy = "linear standard deviation is off", "draw samples there, with samples = 1024 under [uncertainty]"
+        if study.uncertainty.samples:
+            what, remedy = "linear and the sampled standard deviation differ by more than a tenth", "use the samples"
+        where = f"in {_share(off, study)}: a kink lies within the spread of the inputs, or the value bends"
+        yield f"the {what} {where}; {remedy}"
+
+
+def _share(count: int, study: Study) -> str:
+    """Say how many scenes of a study something is true of."""
+    return f"{count:,} of {counted(study.scenes, 'scene')} ({percent(count, study.scenes)})"
+
+
+def _steep_waves(study: Study) -> int:
+    """Count the scenes whose waves are steep; 0 where the study asks for their slope itself, or searches A."""
+    amplitude = coordinates(study).get("A")
+    if amplitude is None or "wave_slope" in study.variables:
+        return 0
+    _, _, profiles = study.apart(tuple(slice(0, size) for size in study.shape))
+    slopes = [steepness(rows_of(profile)) for profile in profiles]
+    sizes = [study.axes[axis] for axis in amplitude.dimensions]
+    steep = 0
+    for block in Tiling(tuple(sizes)):
+        values = amplitude.made(block) if amplitude.made else np.asarray(amplitude.values)[block]
+        steep += sum(int(np.count_nonzero(values * slope > STEEPEST)) for slope in slopes)
+    return steep * study.scenes // (math.prod(sizes) * len(slopes))

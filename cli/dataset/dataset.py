@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.cautions import cautions, flagged_in
-from gradhesion.cli.dataset.contents import CONTENTS
+from gradhesion.cli.dataset.contents import CONTENTS, described
 from gradhesion.cli.dataset.coordinates import coordinates
 from gradhesion.cli.dataset.variable import Variable
 from gradhesion.cli.names.curves import STATE, is_ragged
@@ -35,21 +35,21 @@ if TYPE_CHECKING:
 
 def variables(study: Study) -> dict[str, Variable]:
     """Describe the variables of a study's dataset, coordinates first."""
-    described = coordinates(study)
+    found = coordinates(study)
     apart = (*study.sizes, *study.labels, STATE)
-    beside = " ".join(name for name in described if name not in apart)
+    beside = " ".join(name for name in found if name not in apart)
     outputs = {name: _output(study, name) for name in study.variables}
     outputs["status"] = _status(study)
     if beside:
         for name, variable in outputs.items():
             if not is_ragged(name):
                 variable.attributes["coordinates"] = beside
-    return described | outputs
+    return found | outputs
 
 
 def _output(study: Study, name: str) -> Variable:
     """Describe a result, perhaps in SI units."""
-    plain = CONTENTS[study.sort].described(study, name.removesuffix(SI))
+    plain = described(study, name.removesuffix(SI))
     if not name.endswith(SI):
         return plain
     unit = unit_of(name)
@@ -162,25 +162,28 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
     -----
     The first study of a version compiles the solver, which a line on stderr reports.
     """
-    import xarray  # noqa: PLC0415 (450 ms that `run` does not need)
-
     prepare(study)
-    described = variables(study)
     kind = CONTENTS[study.sort]
     found = kind.joined(study, kind.parts(study, threads))
-    steep = found.pop(STEEP, np.zeros(1, np.int8))
-    for sentence in cautions(study, flagged_in(found["status"]), int(np.count_nonzero(steep))):
+    for sentence in cautions(study, flagged_in(found["status"]), int(np.count_nonzero(found.get(STEEP, 0)))):
         messages.say(f"{study.name}: {sentence}")
+    return assembled(study, found, "computed in memory")
+
+
+def assembled(study: Study, found: Mapping[str, NDArray[Any]], history: str) -> "xarray.Dataset":
+    """Put the values of all variables, and the marks of steep contacts, into the dataset of a study."""
+    import xarray  # noqa: PLC0415 (450 ms that `run` does not need)
+
     made = {}
-    for name, variable in described.items():
+    for name, variable in variables(study).items():
         if variable.made:
             values = variable.made(tuple(slice(0, study.axes[axis]) for axis in variable.dimensions))
         else:
             values = found[name] if variable.values is None else variable.values
         blank = {} if variable.blank is None else {"_FillValue": values.dtype.type(variable.blank)}
         made[name] = xarray.Variable(variable.dimensions, values, variable.attributes | blank)
-    coded = xarray.Dataset(made, attrs=attributes(study, "computed in memory"))
-    return with_steep_contact(xarray.decode_cf(coded), study, steep)
+    coded = xarray.Dataset(made, attrs=attributes(study, history))
+    return with_steep_contact(xarray.decode_cf(coded), study, found.get(STEEP, np.zeros(1, np.int8)))
 
 
 def with_steep_contact(dataset: "xarray.Dataset", study: Study, steep: NDArray[np.int8]) -> "xarray.Dataset":

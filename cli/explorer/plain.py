@@ -4,7 +4,7 @@ import re
 from typing import Final
 
 from gradhesion.cli.dataset.read.sensitivities import part_of
-from gradhesion.cli.names.outputs import SI, SPREADS
+from gradhesion.cli.names.outputs import SI, SPREADS, value_of
 from gradhesion.cli.names.symbols import SYMBOLS
 from gradhesion.core.problem.inputs import INPUTS
 
@@ -33,6 +33,7 @@ _SPREADS: Final = {
     "p05": "5 % quantile",
     "p50": "median",
     "p95": "95 % quantile",
+    "std_linear": "linear standard deviation",
 }
 """What the end of the name of a spread stands for."""
 _WORDS: Final = {
@@ -90,9 +91,9 @@ def title(name: str, long_name: str) -> str:
     letter = plain("".join(re.findall(r"\$[^$]*\$", whole))).strip()
     if not letter or letter.startswith("/"):
         return written
-    own = re.sub("^(std|mean) of ", "", plain(whole.partition("$")[0]).strip())
+    own = re.sub("^(linear std|std|mean) of ", "", plain(whole.partition("$")[0]).strip())
     rest = own or re.sub(r" \(inf: [^)]*\)$", "", written)
-    spread = name.removesuffix(SI).rpartition("_")[2] if name.removesuffix(SI) in SPREADS else ""
+    spread = name.removesuffix(SI).removeprefix(f"{value_of(name)}_") if name.removesuffix(SI) in SPREADS else ""
     letter += f", {_SPREADS[spread]}" if spread else ""
     rest = re.sub(rf" {re.escape(letter)}(?=,| (?!=)|$)", "", rest, count=1)
     return f"{letter} – {rest}"

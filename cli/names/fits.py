@@ -1,5 +1,6 @@
-"""The datasets of fits: what their variables and dimensions are called, and what they are."""
+"""The datasets of fits: every variable, declared once, and what their dimensions are called."""
 
+from dataclasses import dataclass
 from typing import Final
 
 from gradhesion.cli.names.outputs import PARAMETER
@@ -16,43 +17,61 @@ LOOP: Final = "loop"
 MINIMUM: Final = "minimum"
 """The dimension of other minima that the noise of a loop allows, the best first."""
 
+
+@dataclass(frozen=True)
+class FitVariable:
+    """A variable of a fit."""
+
+    dims: tuple[str, ...]
+    about: str
+    """What it is; its `long_name`."""
+    dtype: str = "f8"
+    """Empty: as large as its integers need."""
+    unit: str = "1"
+    """Empty for what is in the units of what is fitted, or a word."""
+    meanings: str = ""
+    """What 0 and 1 mean, where it is a flag."""
+
+
+_VALUES: Final = (PARAMETER,)
+
 FIT: Final = {
-    "value": ((PARAMETER,), "fitted value, in its unit"),
-    "standard_deviation": ((PARAMETER,), "standard deviation of the value, in its unit"),
-    "low": ((PARAMETER,), "lower end of the 95 % interval, in its unit"),
-    "high": ((PARAMETER,), "upper end of the 95 % interval, in its unit"),
-    "on_bound": ((PARAMETER,), "whether the value is within 1 % of its searched range of an end of it"),
-    "correlation": ((PARAMETER, OTHER_PARAMETER), "correlation of the values"),
-    "chi_square": ((), "sum of the squares of the residuals"),
-    "degrees_of_freedom": ((), "number of points minus number of fitted values"),
-    "converged": ((), "whether the minimum of the misfit was found within its tolerance"),
+    "value": FitVariable(_VALUES, "fitted value, in its unit", unit=""),
+    "standard_deviation": FitVariable(_VALUES, "standard deviation of the value, in its unit", unit=""),
+    "low": FitVariable(_VALUES, "lower end of the 95 % interval, in its unit", unit=""),
+    "high": FitVariable(_VALUES, "upper end of the 95 % interval, in its unit", unit=""),
+    "on_bound": FitVariable(
+        _VALUES, "whether the value is within 1 % of its searched range of an end of it", "i1", "", "no yes"
+    ),
+    "correlation": FitVariable((PARAMETER, OTHER_PARAMETER), "correlation of the values"),
+    "chi_square": FitVariable((), "sum of the squares of the residuals"),
+    "degrees_of_freedom": FitVariable((), "number of points minus number of fitted values", "i4"),
+    "converged": FitVariable(
+        (), "whether the minimum of the misfit was found within its tolerance", "i1", "", "no yes"
+    ),
 }
-"""The variables that every fit has, but for its points: their dimensions, and what they are."""
+"""The variables that every fit has, but for its points."""
 
 FIT_MORE: Final = {
-    "low_searched": ((PARAMETER,), "lower end of the range searched, in its unit"),
-    "high_searched": ((PARAMETER,), "upper end of the range searched, in its unit"),
-    "reduced_chi_square": ((), "sum of the squares of the residuals over the degrees of freedom"),
-    "interval_widening": ((), "factor by which deviations and intervals are widened for residuals above the noise"),
-    "noise_of_indentation": ((), "standard deviation of the noise of the depth of a point"),
-    "noise_of_load": ((), "standard deviation of the noise of the load of a point"),
-    "raw_points": ((), "number of points of the file that were used"),
-    "kept_points": ((), "number of points that were fitted, after averaging"),
-    "tabor_parameter": ((), "Tabor parameter of the punch at the fitted values"),
-    "contact_depth": ((), "depth of the contact point that was found before the fit"),
-    "contact_depth_deviation": ((), "standard deviation of the depth of the contact point"),
-    "minimum_value": ((MINIMUM, PARAMETER), "value at another minimum that the noise allows, in its unit"),
-    "minimum_chi_square": ((MINIMUM,), "sum of the squares of the residuals at that minimum"),
+    "low_searched": FitVariable(_VALUES, "lower end of the range searched, in its unit", unit=""),
+    "high_searched": FitVariable(_VALUES, "upper end of the range searched, in its unit", unit=""),
+    "reduced_chi_square": FitVariable((), "sum of the squares of the residuals over the degrees of freedom"),
+    "interval_widening": FitVariable(
+        (), "factor by which deviations and intervals are widened for residuals above the noise"
+    ),
+    "noise_of_indentation": FitVariable((), "standard deviation of the noise of the depth of a point", unit="m"),
+    "noise_of_load": FitVariable((), "standard deviation of the noise of the load of a point", unit="N"),
+    "raw_points": FitVariable((), "number of points of the file that were used", "i8"),
+    "kept_points": FitVariable((), "number of points that were fitted, after averaging", "i8"),
+    "tabor_parameter": FitVariable((), "Tabor parameter of the punch at the fitted values"),
+    "contact_depth": FitVariable((), "depth of the contact point that was found before the fit", unit="m"),
+    "contact_depth_deviation": FitVariable((), "standard deviation of the depth of the contact point", unit="m"),
+    "minimum_value": FitVariable(
+        (MINIMUM, PARAMETER), "value at another minimum that the noise allows, in its unit", unit=""
+    ),
+    "minimum_chi_square": FitVariable((MINIMUM,), "sum of the squares of the residuals at that minimum"),
 }
 """Those that fits of version 0.2 lack, or that some fits have."""
-
-FIT_UNITS: Final = {
-    "noise_of_indentation": "m",
-    "noise_of_load": "N",
-    "contact_depth": "m",
-    "contact_depth_deviation": "m",
-}
-"""Their units; all others have none, or that of what is fitted."""
 
 FIT_WORDS: Final = {
     "file": "file of the loop; after # the number of the loop in it",
@@ -62,18 +81,26 @@ FIT_WORDS: Final = {
 }
 """The words of each of several loops, along `loop`."""
 
+_WAYS: Final = "loading unloading"
+_MEASURED: Final = ("measured_point",)
+_FITTED: Final = ("fitted_point",)
+
 FIT_POINTS: Final = {
     "measured_point": {
-        "measured_indentation": "measured indentation depth",
-        "measured_load": "measured load, negative if it pulls",
-        "measured_unloading": "whether the point belongs to loading or unloading",
-        "measured_cycle": "number of the cycle",
-        "residual": "signed distance of the point to the fitted path, in standard deviations of the noise",
+        "measured_indentation": FitVariable(_MEASURED, "measured indentation depth", unit="m"),
+        "measured_load": FitVariable(_MEASURED, "measured load, negative if it pulls", unit="N"),
+        "measured_unloading": FitVariable(
+            _MEASURED, "whether the point belongs to loading or unloading", "i1", "", _WAYS
+        ),
+        "measured_cycle": FitVariable(_MEASURED, "number of the cycle", ""),
+        "residual": FitVariable(
+            _MEASURED, "signed distance of the point to the fitted path, in standard deviations of the noise"
+        ),
     },
     "fitted_point": {
-        "fitted_indentation": "indentation depth on the fitted path, with its offset",
-        "fitted_load": "load on the fitted path, with its offset",
-        "fitted_unloading": "whether the path is loading or unloading",
+        "fitted_indentation": FitVariable(_FITTED, "indentation depth on the fitted path, with its offset", unit="m"),
+        "fitted_load": FitVariable(_FITTED, "load on the fitted path, with its offset", unit="N"),
+        "fitted_unloading": FitVariable(_FITTED, "whether the path is loading or unloading", "i1", "", _WAYS),
     },
 }
 """The variables of the points of a fit, by their dimension."""

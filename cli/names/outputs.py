@@ -48,8 +48,10 @@ SPREAD: Final = {
     "p05": "5 % quantile of the {}, of samples of the uncertain inputs",
     "p50": "median of the {}, of samples of the uncertain inputs",
     "p95": "95 % quantile of the {}, of samples of the uncertain inputs",
+    "std_linear": "standard deviation of the {}, by its sensitivities",
 }
-"""What a study with [uncertainty] has beside an output, by the ending, with its `long_name`."""
+"""What a study with [uncertainty] has beside an output, by the ending, with its `long_name`: all with samples, else the
+first, which is then that by sensitivities."""
 
 SPREADABLE: Final = tuple(name for name, one in outputs.OUTPUTS.items() if one.has_spread)
 """The outputs that have a spread: values of a scene, which no count is, nor what is known of an error or of others."""
@@ -60,13 +62,15 @@ OF_LINEAR: Final = tuple(name.removesuffix("_sensitivity") for name in SENSITIVI
 SPREADS: Final = {f"{name}_{how}": words.format(OUTPUTS[name]) for name in SPREADABLE for how, words in SPREAD.items()}
 """Every variable of a spread, with its `long_name`."""
 
+_SPREAD_OF: Final = {f"{name}_{how}": name for name in SPREADABLE for how in SPREAD}
+
 
 def value_of(variable: str) -> str:
     """
     Name the output that a variable of a map says something of: itself, or what it is the spread of.
 
-    >>> value_of("pull_off_force_p95_si"), value_of("delta_max")
+    >>> value_of("pull_off_force_std_linear_si"), value_of("delta_max")
     ('pull_off_force', 'delta_max')
     """
     plain = variable.removesuffix(SI).removeprefix(BEST)
-    return plain.rpartition("_")[0] if plain in SPREADS else plain
+    return _SPREAD_OF.get(plain, plain)

@@ -36,6 +36,7 @@ SYMBOLS.update(_sensitivity_symbols())
 def _spread_symbols() -> dict[str, str]:
     """Name the spread of each output."""
     words = {"std": "std of {}", "mean": "mean of {}", "p05": "{}, 5 %", "p50": "{}, median", "p95": "{}, 95 %"}
+    words["std_linear"] = "linear std of {}"
     ends = [(name, end) for name in SPREADABLE for end in ("", SI) if name + end in SYMBOLS]
     return {f"{name}_{how}{end}": one.format(SYMBOLS[name + end]) for name, end in ends for how, one in words.items()}
 

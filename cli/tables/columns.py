@@ -2,19 +2,16 @@
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.cli.tables.cells import number, whole_number, word
+
 
 class ColumnsError(ValueError):
-    """
-    A file has no columns of numbers: the message says why, and what to do, without the name of the file.
-
-    It never has a line of a file that is no table (the file may be a key, or a list of passwords, named by mistake). Of
-    the header it has only names that the study or the program knows, of the cells only what looks like a mistyped
-    number; all names and units of a file may be repeated only when it has been read as a table of numbers.
-    """
+    """A file has no columns of numbers: the message says why, and what to do, without the name of the file."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,12 +20,16 @@ class Wanted:
 
     only: Collection[str] | None = None
     """The names of the columns that are read, of those that are there; the others may hold anything. All if None."""
-    known: Collection[str] = ()
-    """Names that a message may repeat, beside `only`."""
     words: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     """Of columns of words: the number for each word that they may have (or which they have in its place)."""
     whole: Collection[str] = ()
     """The columns of whole numbers."""
+
+    def reader(self, name: str) -> Callable[[str], float]:
+        """Give what reads a cell of a column."""
+        if name in self.words:
+            return partial(word, words=self.words[name])
+        return whole_number if name in self.whole else number
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -45,9 +46,6 @@ class Columns:
     """Says where a row is, counted from 0."""
     others: tuple[str, ...] = ()
     """The columns that are not read."""
-    whole: Mapping[str, NDArray[np.int64]] = field(default_factory=dict)
-    """Of the columns of whole numbers, the numbers (0 where one is missing); their ranks from 1 where one of them has
-    more than 64 bits. Their `values` are numbers from 0, equal where these are."""
 
     @property
     def rows(self) -> int:

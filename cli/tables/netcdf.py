@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.tables.cells import WholeNumbers, word
+from gradhesion.cli.tables.cells import number
 from gradhesion.cli.tables.columns import Columns, ColumnsError, Wanted, tidy
 
 MAGIC = (b"\x89HDF\r\n\x1a\n", b"CDF")
@@ -45,15 +45,13 @@ def of_netcdf(content: bytes, sha256: str, wanted: Wanted) -> Columns:
     if len({column.size for column in found.values()}) > 1:
         sizes = ", ".join(f"{name} {column.size:,}" for name, column in list(found.items())[:8])
         raise ColumnsError(f"the columns differ in length ({sizes}); leave one dimension in the file")
-    numbers = {name: WholeNumbers() for name in wanted.whole if name in found}
-    values = {name: _values(name, column, wanted, numbers) for name, column in found.items()}
+    values = {name: _values(name, column, wanted) for name, column in found.items()}
     return Columns(
         values=values,
         units={name: unit for name, unit in units.items() if unit},
         sha256=sha256,
         place=_place,
         others=others,
-        whole={name: own.numbers(values[name]) for name, own in numbers.items()},
     )
 
 
@@ -62,15 +60,15 @@ def _place(row: int) -> str:
     return f"row {row}, counted from 0"
 
 
-def _values(name: str, column: Any, wanted: Wanted, numbers: dict[str, WholeNumbers]) -> NDArray[np.float64]:
+def _values(name: str, column: Any, wanted: Wanted) -> NDArray[np.float64]:
     """Give the numbers of a column."""
-    if name not in wanted.words and name not in numbers:
+    read = wanted.reader(name)
+    if read is number:
         return np.ma.filled(column.astype(np.float64), np.nan)
-    cells = ["" if value is None else str(value) for value in np.ma.asarray(column).tolist()]
     found = []
-    for row, cell in enumerate(cells):
+    for row, value in enumerate(np.ma.asarray(column).tolist()):
         try:
-            found.append(numbers[name].code(cell) if name in numbers else word(cell, wanted.words[name]))
+            found.append(read("" if value is None else str(value)))
         except ValueError as error:
             raise ColumnsError(f"{_place(row)}: {name} {error}") from None
     return np.array(found)

@@ -18,7 +18,6 @@ def read_columns(
     path: Path,
     only: Collection[str] | None = None,
     *,
-    known: Collection[str] = (),
     words: Mapping[str, Mapping[str, float]] | None = None,
     whole: Collection[str] = (),
 ) -> Columns:
@@ -29,10 +28,11 @@ def read_columns(
     ----------
     path
         Of a file in NetCDF, whose variables of one dimension are the columns; or of a text in UTF-8 (or, with a mark at
-        its beginning, UTF-16): lines that begin with # are left out, the first other one is the header, `name` or
-        `name [unit]` between commas, semicolons or tabs (or else spaces), or a row of names and one of units; each line
-        that follows is a row of numbers, nan and inf among them. Commas are decimal where they can be nothing else.
-    only, known, words, whole
+        its beginning, UTF-16): lines that begin with # are left out, the first other one (or a comment above numbers)
+        is the header, `name` or `name [unit]` between commas, semicolons or tabs (or else spaces), or a row of names
+        and one of units; each line that follows is a row of numbers, nan and inf among them. Commas are decimal where
+        they can be nothing else.
+    only, words, whole
         As those of `Wanted`.
 
     Returns
@@ -46,9 +46,9 @@ def read_columns(
 
     Notes
     -----
-    10^6 rows of six columns take some 3 s, ten times that where NumPy's reader cannot read them.
+    10^6 rows of six columns take some 3 s, three times that where there is anything but numbers.
     """
-    wanted = Wanted(only=only, known=known, words=words or {}, whole=whole)
+    wanted = Wanted(only=only, words=words or {}, whole=whole)
     try:
         size = path.stat().st_size
         if path.is_file() and size > MOST_BYTES:

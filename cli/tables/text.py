@@ -1,33 +1,62 @@
-"""
-Columns of numbers in a text.
+"""Columns of numbers in a text: its lines, the names and units above the rows, and the cells of the rows."""
 
-NumPy's reader takes a plain table (fast and strict: pandas fills short rows with NaN, and cuts long ones where columns
-are chosen); whatever it refuses is read once more by the csv module of Python, which knows quotes, and line by line,
-which gives decimal commas, empty cells and trailing separators their meaning, or a mistake its line.
-"""
-
+import csv
+import io
 import re
 from array import array
-from collections.abc import Callable, Mapping
-from functools import partial
-from typing import Any, Final
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import islice
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.tables.cells import WholeNumbers, is_number, number, quoted, word
-from gradhesion.cli.tables.columns import Columns, ColumnsError, Wanted
-from gradhesion.cli.tables.header import Header, Text, header_of, looks_like_a_table, rows_of, text_of
+from gradhesion.cli.tables.cells import ERRORS, is_number, number
+from gradhesion.cli.tables.columns import Columns, ColumnsError, Wanted, tidy
+from gradhesion.cli.terminal.amounts import counted
+from gradhesion.cli.terminal.wording import shown
 
-_Readers = Mapping[int, Callable[[str], float]]
-"""For each column that is read, by its place: what reads a cell."""
+MOST_COLUMNS: Final = 1_000
+"""More of them are hardly meant as a table."""
+LONGEST: Final = 2**15
+"""Characters of a header: above any that is meant as one."""
 
-_HUGE: Final = re.compile(rb"\d{300}|[eE]\+?\d{3}")
-"""What may be beyond the largest number."""
+SHOWN: Final = 24
+"""Characters of a cell that is shown."""
+
+_HEAD: Final = re.compile(r"\s*(.*?)\s*(?:[\[(]\s*([^\])]*?)\s*[\])])?\s*")
+"""A name, and in brackets its unit."""
+_UNIT: Final = re.compile(r"[\[(]?\s*([^\W\d_][^\[\]()]{0,19}?|[%°\u2126-])\s*[\])]?")
+"""A unit in a row of its own."""
+_WHOLE: Final = re.compile(r"[-+]?\d*(?:[eE][-+]?\d+)?")
+"""A part of a number that a comma has cut in two."""
 _COMMA: Final = re.compile(r"[-+]?\d*,\d+(?:[eE][-+]?\d+)?")
 """A number with a decimal comma."""
 _THOUSANDS: Final = re.compile(r"[-+]?[1-9]\d{0,2},\d{3}")
 """One that may be a whole number with a comma between thousands."""
+_CLOSED: Final = re.compile(r'"[^"]*"|[\[(][^\])]*[\])]')
+"""What may have any character within, a separator too."""
+_UNQUOTED: Final = re.compile(rf'(?:[^"#]|"[^"]*"?|{ERRORS})*')
+"""What stands before a comment."""
+_BOMS: Final = {b"\xff\xfe\0\0": "utf-32", b"\0\0\xfe\xff": "utf-32", b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16"}
+"""Marks at the beginning of a text, and what it is written in."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Header:
+    """What stands above the rows."""
+
+    names: tuple[str, ...]
+    units: dict[str, str]
+    separator: str | None
+    """What is between two cells; None for white space."""
+    read: tuple[int, ...]
+    """The columns that are read, counted from 0."""
+    number: int
+    """The line of the names."""
+    last: int
+    """The last line above the rows."""
 
 
 def of_text(content: bytes, sha256: str, wanted: Wanted) -> Columns:
@@ -39,84 +68,222 @@ def of_text(content: bytes, sha256: str, wanted: Wanted) -> Columns:
     ColumnsError
         It is no table of numbers.
     """
-    text = text_of(content)
+    text = _decoded(content)
+    header = _header_of(text, wanted)
+    others = tuple(name for i, name in enumerate(header.names) if i not in header.read)
+    readers = {i: wanted.reader(header.names[i]) for i in header.read}
+    plain = None if {*readers.values()} != {number} else _plain(text, header)
+    found = _read(text, header, readers) if plain is None else {i: plain[i].copy() for i in readers}
+
+    def place(row: int) -> str:
+        line = next(islice((line for line, _ in _rows(text, header)), row, None), None)
+        return f"line {line}" if line else f"row {row}"
+
+    values = {header.names[i]: column for i, column in found.items()}
+    return Columns(values=values, units=header.units, sha256=sha256, place=place, others=others)
+
+
+def _decoded(content: bytes) -> str:
+    """Decode a text by the mark at its beginning, or as UTF-8."""
+    encoding = next((name for mark, name in _BOMS.items() if content.startswith(mark)), "utf-8-sig")
+    if encoding == "utf-8-sig" and b"\0" in content:
+        raise ColumnsError("the file is not text; name a table of numbers in CSV or NetCDF")
     try:
-        header = header_of(text, wanted)
-        others = tuple(name for i, name in enumerate(header.names) if i not in header.read)
-        if not header.read:
-            if not looks_like_a_table(text, header):
-                raise ColumnsError(
-                    "the file is not a table of numbers; name one whose first line has the names of its columns"
-                )
-            return Columns(values={}, units=header.units, sha256=sha256, place=str, others=others)
-        numbers = {name: WholeNumbers() for name in wanted.whole}
-        readers: dict[int, Callable[[str], float]] = {}
-        for i in header.read:
-            name = header.names[i]
-            readers[i] = numbers[name].code if name in numbers else number
-            if name in wanted.words:
-                readers[i] = partial(word, words=wanted.words[name])
-        columns = _plain(text, header, readers) or _line_by_line(text, header, readers)
+        return content.decode(encoding)
     except UnicodeError:
         raise ColumnsError("the file is not text in UTF-8; save it as UTF-8, in a spreadsheet as CSV UTF-8") from None
 
-    def place(row: int) -> str:
-        for at, (line, _) in enumerate(rows_of(text, header)):
-            if at == row:
-                return f"line {line}"
-        return f"row {row}"
 
-    values = {header.names[i]: column for i, column in columns.items()}
-    return Columns(
-        values=values,
-        units=header.units,
-        sha256=sha256,
-        place=place,
-        others=others,
-        whole={name: own.numbers(values[name]) for name, own in numbers.items() if name in values},
-    )
+def _lines(text: str) -> Iterator[tuple[int, str]]:
+    """Give the lines that are neither empty, nor separators or a comment alone, with their numbers from 1."""
+    for place, line in enumerate(io.StringIO(text, newline=None), 1):
+        own = line
+        if "#" in line:
+            found = _UNQUOTED.match(line)
+            own = found[0] if found else line
+        if own.strip(' \t\r\n,;"'):
+            yield place, own
 
 
-def _plain(text: Text, header: Header, readers: _Readers) -> dict[int, NDArray[np.float64]] | None:
-    """Read the columns of a table of numbers alone, with as many cells in each row; None if it is none."""
-    if b'"' in text.content:
-        return None
-    file = text.opened()
-    for _ in range(header.last):
-        file.readline()
-    kinds = np.dtype([(str(i), "f8" if i in readers else "U1") for i in range(len(header.names))])
-    own: dict[int | str, Callable[[str], Any]] = {i: read for i, read in readers.items() if read is not number}
+def _cells_of(place: int, line: str, separator: str | None) -> list[str]:
+    """
+    Cut a line into cells.
+
+    >>> _cells_of(1, '1; "2;3" ;', ";")
+    ['1', '2;3', '']
+    """
+    if '"' not in line:
+        return line.split() if separator is None else list(map(str.strip, line.split(separator)))
     try:
-        table = np.loadtxt(
-            file, kinds, delimiter=header.separator, comments="#", ndmin=1, converters=own or None, encoding=None
-        )
-    except UnicodeError:
-        raise
-    except ValueError:
-        return None
-    found = {i: np.ascontiguousarray(table[str(i)]) for i in readers}
-    if any(np.isinf(column).any() for column in found.values()) and (
-        text.encoding != "utf-8-sig" or _HUGE.search(text.content)
-    ):
-        return None
+        cells = next(csv.reader([line.strip("\r\n")], delimiter=separator or " ", skipinitialspace=True))
+    except csv.Error:
+        raise ColumnsError(f"line {place} has a cell of more than 131,072 characters; shorten it") from None
+    return [cell.strip() for cell in cells if cell or separator]
+
+
+def _header_of(text: str, wanted: Wanted) -> Header:
+    """
+    Read the names and units of the columns, and find what separates them.
+
+    Raises
+    ------
+    ColumnsError
+        There is none above a row.
+    """
+    lines = _lines(text)
+    place, line = next(lines, (0, ""))
+    given = re.fullmatch(r"sep=([;,|\t])\s*", line)  # as spreadsheets write it
+    if given:
+        place, line = next(lines, (0, ""))
+    if not place:
+        raise ColumnsError("the file has comments only; name a table with a header and a row of numbers")
+    if len(line) > LONGEST:
+        raise ColumnsError(f"line {place} is too long for a header, {len(line):,} characters; name a table of numbers")
+    cells, separator = _heads_of(place, line, given[1] if given else None)
+    last = place
+    if all(is_number(cell) for cell in cells if cell):
+        place, cells = _names_in_a_comment(text, place, len(cells), separator)
+        last = place
+    if len(cells) > MOST_COLUMNS:
+        raise ColumnsError(f"line {place} has {len(cells):,} columns, and {MOST_COLUMNS:,} are read; leave some out")
+    heads = [_HEAD.fullmatch(cell) for cell in cells]
+    names = tuple(head[1] if head else cell for head, cell in zip(heads, cells, strict=True))
+    units = {name: tidy(head[2] or "") for name, head in zip(names, heads, strict=True) if head}
+    read = tuple(i for i, name in enumerate(names) if wanted.only is None or name in wanted.only)
+    rows = [row for row in islice(_lines(text), 4) if row[0] > place]
+    if not rows:
+        raise ColumnsError(f"the header on line {place} has no row of numbers below it; add one")
+    if len(rows) > 1 and not any(units.values()):
+        below = _units_below(_cells_of(*rows[0], separator), names, read, wanted)
+        units, last = (below, rows[0][0]) if below else (units, last)
+    found = Header(
+        names=names,
+        units={name: unit for name, unit in units.items() if unit},
+        separator=separator,
+        read=read,
+        number=place,
+        last=last,
+    )
+    _check_names(found)
     return found
 
 
-def _line_by_line(text: Text, header: Header, readers: _Readers) -> dict[int, NDArray[np.float64]]:
-    """Read the columns of any table."""
-    commas = _has_decimal_commas(text, header, [i for i, read in readers.items() if not isinstance(read, partial)])
+def _heads_of(place: int, line: str, separator: str | None) -> tuple[list[str], str | None]:
+    """Cut a header into cells: at what is most often outside quotes and brackets, or at white space (None)."""
+    bare = _CLOSED.sub("", line)
+    most = max(";\t,", key=bare.count)
+    separator = separator or (most if most in bare else None)
+    cells = _cells_of(place, line, separator)
+    if separator is None and len(cells) > 1 and any(cell[0] in "[(" for cell in cells):  # a unit after a space
+        cells = re.findall(r"[^\s\[(]+\s*(?:[\[(][^\])]*[\])])?", line)
+    while cells and not cells[-1]:
+        cells.pop()
+    return cells, separator
+
+
+def _names_in_a_comment(text: str, before: int, columns: int, separator: str | None) -> tuple[int, list[str]]:
+    """Find the names in the last comment above the first row that has as many words, as instruments write them."""
+    comments = list(islice(enumerate(io.StringIO(text, newline=None), 1), before - 1))
+    for place, line in reversed(comments):
+        cells, own = _heads_of(place, line.strip().lstrip("#").removeprefix(" columns:").strip(), None)
+        if own == separator and len(cells) == columns and not any(map(is_number, cells)):
+            return place, cells
+    raise ColumnsError(
+        f"line {before} has numbers where the names of the columns are expected; add a header line above it"
+    )
+
+
+def _check_names(header: Header) -> None:
+    """Check that each column that is read has a name of its own."""
+    for i in header.read:
+        if not header.names[i]:
+            raise ColumnsError(
+                f"column {i + 1} of the header on line {header.number} has no name; name it or remove it"
+            )
+        before = header.names.index(header.names[i])
+        if before < i:
+            raise ColumnsError(
+                f"columns {before + 1} and {i + 1} of the header on line {header.number} have one name, "
+                f"{shown(header.names[i])}; "
+                "rename one"
+            )
+
+
+def _units_below(cells: list[str], names: tuple[str, ...], read: tuple[int, ...], wanted: Wanted) -> dict[str, str]:
+    """Read a row of units below the names; nothing if it is none."""
+    while len(cells) > len(names) and not cells[-1]:
+        cells.pop()
+    if len(cells) != len(names) or any(is_number(cell) for cell in cells):
+        return {}
+    if any(cells[i].lower() in words for i in read if (words := wanted.words.get(names[i], {}))):
+        return {}
+    own = {names[i]: cells[i] for i in read if cells[i] and names[i] not in (*wanted.words, *wanted.whole)}
+    found = {name: _UNIT.fullmatch(cell) for name, cell in own.items()}
+    units = {name: tidy(unit[1]) for name, unit in found.items() if unit}
+    return units if len(units) == len(own) else {}
+
+
+def _rows(text: str, header: Header) -> Iterator[tuple[int, list[str]]]:
+    """
+    Give the cells of each row, with the number of its line.
+
+    Raises
+    ------
+    ColumnsError
+        A row is longer or shorter than the header.
+    """
+    count = len(header.names)
+    for place, line in _lines(text):
+        if place <= header.last:
+            continue
+        cells = _cells_of(place, line, header.separator)
+        while len(cells) > count and not cells[-1]:
+            cells.pop()
+        if len(cells) != count:
+            remedy = "give each row one value per column, separated as the header is"
+            whole = sum(bool(cell and _WHOLE.fullmatch(cell)) for cell in cells)
+            if header.separator == "," and whole >= 2 * (len(cells) - count) > 0:  # each such comma parts two
+                remedy = "if its numbers have decimal commas, write points, or separate the columns by semicolons"
+            values = f"{counted(len(cells), 'value')} under {counted(count, 'name')}"
+            raise ColumnsError(f"line {place} has {values}; {remedy}")
+        yield place, cells
+
+
+def _plain(text: str, header: Header) -> NDArray[np.float64] | None:
+    """Read a table of nothing but numbers by NumPy, which is four times as fast; None where anything else is in it."""
+    if '"' in text:
+        return None
+    try:
+        table = np.loadtxt(
+            io.StringIO(text, newline=None), delimiter=header.separator, skiprows=header.last, ndmin=2, unpack=True
+        )
+    except ValueError:
+        return None
+    return None if len(table) != len(header.names) or np.isinf(table).any() else table
+
+
+def _read(text: str, header: Header, readers: Mapping[int, Callable[[str], float]]) -> dict[int, NDArray[np.float64]]:
+    """Read the columns of a table; `readers` says for each of them by its place what reads a cell."""
+    numeric = [i for i, read in readers.items() if read is number]
+    commas = (header.separator != "," or '"' in text) and "," in text and _has_decimal_commas(text, header, numeric)
     found = {i: array("d") for i in readers}
-    for line, cells in rows_of(text, header):
+    for place, cells in _rows(text, header):
         for i, read in readers.items():
             cell = cells[i].replace(",", ".") if commas and _COMMA.fullmatch(cells[i]) else cells[i]
             try:
                 found[i].append(read(cell))
             except ValueError as error:
-                raise ColumnsError(f"line {line}: {header.label(i)}{quoted(cells[i])} {error}") from None
+                raise ColumnsError(f"line {place}: {_shown(header, i, cells[i])} {error}") from None
     return {i: np.array(values) for i, values in found.items()}
 
 
-def _has_decimal_commas(text: Text, header: Header, columns: list[int]) -> bool:
+def _shown(header: Header, column: int, cell: str) -> str:
+    """Name a column and show a cell of it."""
+    cell = cell if len(cell) <= SHOWN else f"{cell[:SHOWN]}..."
+    return f"{header.names[column]} = {shown(cell)}"
+
+
+def _has_decimal_commas(text: str, header: Header, columns: list[int]) -> bool:
     """
     Tell whether the numbers of a table have decimal commas.
 
@@ -127,14 +294,14 @@ def _has_decimal_commas(text: Text, header: Header, columns: list[int]) -> bool:
     """
     points = commas = sure = 0
     first = ""
-    for line, cells in rows_of(text, header):
+    for place, cells in _rows(text, header):
         for i in columns:
             if "." in cells[i] and is_number(cells[i]):
-                points = points or line
+                points = points or place
             elif "," in cells[i] and _COMMA.fullmatch(cells[i]):
-                sure = sure or (0 if _THOUSANDS.fullmatch(cells[i]) else line)
-                first = first or f"{header.label(i)}{quoted(cells[i])}"
-                commas = commas or line
+                sure = sure or (0 if _THOUSANDS.fullmatch(cells[i]) else place)
+                first = first or _shown(header, i, cells[i])
+                commas = commas or place
     if commas and points:
         raise ColumnsError(
             f"line {commas} has a comma and line {points} a point in a number; write points for the decimals, and "

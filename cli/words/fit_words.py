@@ -1,151 +1,245 @@
-"""A fit in words, and as a table: values with their intervals, what goes together, how well the loop is met."""
+"""Fits in words: values with their intervals, what goes together, how well loops are met; of several a row each."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Final
 
 import numpy as np
+import pandas as pd
 import xarray
 
-from gradhesion.cli.dataset.read.model_range import slope_warnings, tabor_warnings
-from gradhesion.cli.names.fits import MINIMUM, PARAMETER_UNITS
+from gradhesion.cli.dataset.read.model_range import SHORT_RANGED, slope_warnings, tabor_warnings
+from gradhesion.cli.dataset.read.soundness import is_fit
+from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.names.fits import LOOP, MINIMUM, PARAMETER_UNITS
 from gradhesion.cli.names.outputs import PARAMETER
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
+from gradhesion.cli.words.words import origin_lines
 from gradhesion.core.answers.flags import FLAG_WORDS
 from gradhesion.core.loops.fitted import poor_from
 from gradhesion.core.problem.inputs import INPUTS
-from gradhesion.core.problem.status import FLAGS, POOR_FIT
+from gradhesion.core.problem.status import ANOTHER_MINIMUM, FAILED, FLAGS, OF_FITS, POOR_FIT
 
 TOGETHER: Final = 0.9
 """Correlations from which on two values are said to go together."""
 WIDENED: Final = 1.1
 """The widening of intervals from which on it is said."""
-COLUMNS: Final = ("value", "standard_deviation", "low", "high", "on_bound")
-"""The columns of a table, after the parameter and its unit."""
+_SAME: Final = {
+    "measured_unloading": "other points (rows or branch)",
+    "measured_indentation": "other depths",
+    "measured_load": "other loads",
+    "noise_of_indentation": "another noise of the depth",
+    "noise_of_load": "another noise of the load",
+}
+"""What fits that are compared have in common, and what is said of others."""
 
 
-def fit_described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
-    """Report what a fit found, line by line."""
-    measured = dataset["residual"].size
+def fits_described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
+    """Report what the fits of one or several loops found, line by line."""
+    several = LOOP in dataset.dims
     cycles = np.unique(dataset["measured_cycle"].values).size
+    what = f"fits of {counted(dataset.sizes.get(LOOP, 1), 'loop')}"
+    if not several:
+        what = f"a fit of {counted(dataset['residual'].size, 'point')} in {counted(cycles, 'cycle')}"
     yield dataset.attrs["title"]
-    yield (
-        f"{file}: a fit of {counted(measured, 'point')} in {counted(cycles, 'cycle')}, "
-        f"{bytes_in_words(file.stat().st_size)}"
-    )
+    yield f"{file}: {what}, {bytes_in_words(file.stat().st_size)}"
     yield ""
-    yield from of_data(dataset)
-    depth, load = noise_of(dataset)
-    yield f"noise: {1e9 * depth:.3g} nm and {1e9 * load:.3g} nN, {dataset.attrs.get('noise_is', '')}"
-    if "contact_depth" in dataset:
-        at, deviation = (1e9 * float(dataset[name]) for name in ("contact_depth", "contact_depth_deviation"))
-        yield (
-            f"contact point: {at:.6g} +- {deviation:.2g} nm, found before the fit "
-            f"({dataset.attrs.get('contact_point', '')})"
-        )
+    yield from _of_data(dataset)
     yield ""
-    yield f"fitted, with 95 % intervals ({intervals_of(dataset)})"
-    yield from value_lines(dataset)
-    yield from of_given(dataset)
-    yield ""
-    yield from _quality(dataset)
-    yield from of_origin(dataset)
-
-
-def of_data(dataset: xarray.Dataset) -> Iterator[str]:
-    """Report the punch and the data of fits."""
-    yield f"profile: {dataset.attrs.get('profile', '')}"
-    yield from (f"{law}: {dataset.attrs[law]}" for law in ("toughness", "rate") if law in dataset.attrs)
-    words = {"data_rows_left_out": "without a number", "data_rows_of_pauses": "of pauses"}
-    counts = {what: int(dataset.attrs.get(name, 0)) for name, what in words.items()}
-    out = [f"{counted(count, 'row')} {what} left out" for what, count in counts.items() if count]
-    if "raw_points" in dataset and (raw := int(dataset["raw_points"].sum())) > int(dataset["kept_points"].sum()):
-        out.append(f"{counted(raw, 'point')} averaged along the path")
-    yield "; ".join([f"data: {dataset.attrs.get('data_file', 'a file')}", *out])
-
-
-def of_given(dataset: xarray.Dataset) -> Iterator[str]:
-    """Report what was given as a number."""
+    yield from _of_loops(dataset) if several else _of_one(dataset)
+    yield from (f"outside the range of the model: {line}" for line in slope_warnings(dataset))
     if fixed := [name for name in INPUTS if name in dataset.coords]:
         yield ""
         yield "given"
-        for name in fixed:
-            unit = str(dataset[name].attrs.get("units", "1"))
-            yield f"  {name:<20} {dataset[name].item():g}{'' if unit == '1' else ' ' + unit}"
+        yield from (f"  {name:<20} {dataset[name].item():g}{_unit(dataset[name].attrs.get('units'))}" for name in fixed)
+    yield from origin_lines(dataset)
 
 
-def intervals_of(dataset: xarray.Dataset) -> str:
-    """Say where the intervals of one fit come from, and by how much they are widened."""
+def _unit(unit: object) -> str:
+    """Write a unit behind a number."""
+    return f" {unit}" if unit not in (None, "1", "") else ""
+
+
+def _of_data(dataset: xarray.Dataset) -> Iterator[str]:
+    """Report the punch, the data and their noise."""
+    attributes = dataset.attrs
+    yield f"profile: {attributes.get('profile', '')}"
+    yield from (f"{law}: {attributes[law]}" for law in ("toughness", "rate") if law in attributes)
+    words = {"data_rows_left_out": "without a number", "data_rows_of_pauses": "of pauses"}
+    counts = {what: int(attributes.get(name, 0)) for name, what in words.items()}
+    out = [f"{counted(count, 'row')} {what} left out" for what, count in counts.items() if count]
+    if "raw_points" in dataset and (raw := int(dataset["raw_points"].sum())) > int(dataset["kept_points"].sum()):
+        out.append(f"{counted(raw, 'point')} averaged along the path")
+    yield "; ".join([f"data: {attributes.get('data_file', 'a file')}", *out])
+    depth, load = (1e9 * noise[0] if noise.size == 1 else np.nan for noise in _noise(dataset))
+    numbers = f"{depth:.3g} nm and {load:.3g} nN, " if LOOP not in dataset.dims else ""
+    yield f"noise: {numbers}{attributes.get('noise_is', '')}"
+    if "contact_depth" in dataset and LOOP not in dataset.dims:
+        at, deviation = (1e9 * float(dataset[name]) for name in ("contact_depth", "contact_depth_deviation"))
+        how = attributes.get("contact_point", "")
+        yield f"contact point: {at:.6g} +- {deviation:.2g} nm, found before the fit ({how})"
+
+
+def _noise(dataset: xarray.Dataset) -> list[np.ndarray[tuple[int], np.dtype[np.float64]]]:
+    """Give the standard deviations of depth and load; version 0.2 wrote them as attributes."""
+    names = ("noise_of_indentation", "noise_of_load")
+    return [np.ravel(dataset[name] if name in dataset else dataset.attrs.get(name, np.nan)) for name in names]
+
+
+def _intervals(dataset: xarray.Dataset) -> str:
+    """Say where the intervals come from, and by how much those of one fit are widened."""
     source = str(dataset.attrs.get("intervals", ""))
-    factor = float(dataset["interval_widening"]) if "interval_widening" in dataset else 1.0
+    if LOOP in dataset.dims or "interval_widening" not in dataset:
+        return source
+    factor = float(dataset["interval_widening"])
     return f"{source}, widened by {factor:.3g} for residuals above the noise" if factor > WIDENED else source
 
 
-def noise_of(dataset: xarray.Dataset) -> tuple[float, float]:
-    """Give the standard deviations of depth and load of one fit; version 0.2 wrote them as attributes."""
-    names = ("noise_of_indentation", "noise_of_load")
-    depth, load = (float(dataset[name] if name in dataset else dataset.attrs.get(name, np.nan)) for name in names)
-    return depth, load
-
-
-def value_lines(dataset: xarray.Dataset) -> Iterator[str]:
-    """Report each value with its interval."""
-    names = list(map(str, dataset[PARAMETER].values))
+def _of_one(dataset: xarray.Dataset) -> Iterator[str]:
+    """Report each value of one fit with its interval, and how well the loop is met."""
+    names, units = _names(dataset)
     width = max(20, *map(len, names))
+    through_a_machine = dataset.attrs.get("control") == "machine"
+    yield f"fitted, with 95 % intervals ({_intervals(dataset)})"
     for i, name in enumerate(names):
-        unit = str(dataset[PARAMETER_UNITS].values[i])
-        value, deviation, low, high = (float(dataset[column].values[i]) for column in COLUMNS[:4])
-        at_end = "  at an end of its range" if dataset["on_bound"].values[i] else ""
-        if at_end and "low_searched" in dataset:
-            ends = (float(dataset[column].values[i]) for column in ("low_searched", "high_searched"))
-            at_end += ", {:.6g} to {:.6g}".format(*ends)
-        written = f"{value:.6g} +- {deviation:.2g}{'' if unit == '1' else ' ' + unit}"
-        yield f"  {name:<{width}} {written:<34} {low:.6g} to {high:.6g}{at_end}"
-
-
-def _quality(dataset: xarray.Dataset) -> Iterator[str]:
-    """Report how well the loop is met, and what goes together."""
-    chi_square, degrees = float(dataset["chi_square"]), int(dataset["degrees_of_freedom"])
-    status = int(dataset["status"])
+        value, low, high = (float(dataset[column].values[i]) for column in ("value", "low", "high"))
+        remark = "  of the machine's displacement" if through_a_machine and name == "indentation_offset" else ""
+        if dataset["on_bound"].values[i]:
+            remark += "  at an end of its range"
+            if "low_searched" in dataset:
+                ends = (float(dataset[column].values[i]) for column in ("low_searched", "high_searched"))
+                remark += ", {:.6g} to {:.6g}".format(*ends)
+        written = f"{value:.6g}{_unit(units[i])}"
+        yield f"  {name:<{width}} {written:<22} {low:.6g} to {high:.6g}{remark}"
+    yield ""
+    chi_square, degrees, status = (dataset[name].item() for name in ("chi_square", "degrees_of_freedom", "status"))
     yield f"chi square: {chi_square:.6g} for {degrees:,} degrees of freedom; reduced {chi_square / degrees:.3g}"
     if status & POOR_FIT or chi_square > poor_from(degrees) * degrees:
         yield f"  a poor fit: the noise explains {poor_from(degrees):.3g} at most; try another model or other ranges"
     if not int(dataset["converged"]):
         yield "  it did not converge"
-    names, correlation = list(map(str, dataset[PARAMETER].values)), dataset["correlation"].values
-    for i, each in enumerate(dataset["minimum_value"].values if MINIMUM in dataset.dims else ()):
-        values = ", ".join(f"{name} = {value:.6g}" for name, value in zip(names, each, strict=True))
-        yield f"another minimum within the noise: chi square {float(dataset['minimum_chi_square'][i]):.6g} at {values}"
     for i, one in enumerate(names):
         for j, other in enumerate(names[:i]):
-            if abs(correlation[i, j]) > TOGETHER:
-                yield f"correlation of {other} and {one}: {correlation[i, j]:.3f}"
-    if "alike" in dataset.attrs:
-        yield f"indistinguishable: {dataset.attrs['alike']}"
-    if "tabor_parameter" in dataset:
-        tabor = float(dataset["tabor_parameter"])
-        comment = str(dataset["tabor_parameter"].attrs.get("comment", ""))
-        beyond = list(tabor_warnings(tabor, comment))
-        yield from beyond or [f"Tabor parameter {tabor:.3g} ({comment})"]
-    yield from (f"outside the range of the model: {line}" for line in slope_warnings(dataset))
-    for name, bit in FLAGS.items():
-        if status & bit:
-            yield f"status: {name}: {FLAG_WORDS[name]}"
+            if abs(correlation := float(dataset["correlation"].values[i, j])) > TOGETHER:
+                yield f"correlation of {other} and {one}: {correlation:.3f}"
+    if "tabor_parameter" in dataset and (tabor := float(dataset["tabor_parameter"])) >= SHORT_RANGED:
+        yield f"Tabor parameter {tabor:.3g} ({dataset['tabor_parameter'].attrs.get('comment', '')})"
+    yield from _doubts(dataset, str(dataset.attrs.get("alike", "")))
+    yield from (f"status: {name}: {FLAG_WORDS[name]}" for name, bit in FLAGS.items() if status & bit)
 
 
-def of_origin(dataset: xarray.Dataset) -> Iterator[str]:
-    """Report where a fit comes from."""
+def _names(dataset: xarray.Dataset) -> tuple[list[str], list[str]]:
+    """List what is fitted, and the units."""
+    names, units = (list(map(str, dataset[name].values)) for name in (PARAMETER, PARAMETER_UNITS))
+    return names, units
+
+
+def _doubts(one: xarray.Dataset, alike: str) -> Iterator[str]:
+    """Say of one fit which other minima there are, and what its loop cannot tell apart or does not obey."""
+    names, _ = _names(one)
+    for i, each in enumerate(one["minimum_value"].values if MINIMUM in one.dims else ()):
+        if not np.isnan(each).any():
+            values = ", ".join(f"{name} = {value:.6g}" for name, value in zip(names, each, strict=True))
+            chi_square = float(one["minimum_chi_square"][i])
+            yield f"another minimum within the noise: chi square {chi_square:.6g} at {values}"
+    if alike:
+        yield f"indistinguishable: {alike}"
+    if "tabor_parameter" in one:
+        comment = str(one["tabor_parameter"].attrs.get("comment", ""))
+        yield from tabor_warnings(float(one["tabor_parameter"]), comment)
+
+
+def _of_loops(dataset: xarray.Dataset) -> Iterator[str]:
+    """Report the values of several fits in a table, the medians of the sound ones, and what is said of each."""
+    names, units = _names(dataset)
+    files = list(map(str, dataset["file"].values))
+    value, low, high, reduced = (dataset[name].values for name in ("value", "low", "high", "reduced_chi_square"))
+    table = pd.DataFrame({"file": files})
+    for j, (name, unit) in enumerate(zip(names, units, strict=True)):
+        table[f"{name} [{unit}]" if unit != "1" else name] = [
+            "-" if np.isnan(one) else f"{one:.5g} ({least:.4g} to {most:.4g})"
+            for one, least, most in zip(value[:, j], low[:, j], high[:, j], strict=True)
+        ]
+    table["reduced chi square"] = ["-" if np.isnan(one) else f"{one:.3g}" for one in reduced]
+    table["flags"] = [" ".join(flags_of(dataset, i)) or "-" for i in range(len(files))]
+    yield f"fitted, with 95 % intervals ({_intervals(dataset)})"
+    yield from (line.rstrip() for line in table.to_string(index=False, justify="left").splitlines())
+    doubtful = dataset["status"].values & (FAILED | POOR_FIT | ANOTHER_MINIMUM) != 0
+    sound = value[~doubtful & ~np.isnan(value).any(axis=1)]
     yield ""
-    yield "origin"
-    yield f"  {dataset.attrs['source']}"
-    yield from (f"  {line}" for line in str(dataset.attrs.get("history", "")).splitlines())
-    if "study_sha256" in dataset.attrs:
-        yield f"  study with sha256 {dataset.attrs['study_sha256']}"
+    yield f"median of {counted(len(sound), 'loop')} without such a flag, with quartiles"
+    for name, column in zip(names, sound.T, strict=True):
+        if column.size:
+            least, middle, most = np.quantile(column, [0.25, 0.5, 0.75])
+            yield f"  {name:<20} {middle:<12.6g} {least:.6g} to {most:.6g}"
+    yield ""
+    for i, file in enumerate(files):
+        if problem := str(dataset["problem"].values[i]):
+            yield f"{file}: {problem}"
+        yield from (f"{file}: {line}" for line in _doubts(dataset.isel({LOOP: i}), str(dataset["alike"].values[i])))
 
 
-def fit_tabled(dataset: xarray.Dataset) -> Iterator[str]:
-    """Write the values of a fit as CSV, a line each, with all their digits."""
-    yield ",".join(("parameter", "unit", *COLUMNS))
-    for i, name in enumerate(map(str, dataset[PARAMETER].values)):
-        row = [dataset[column].values[i].item() for column in COLUMNS]
-        yield ",".join((name, str(dataset[PARAMETER_UNITS].values[i]), *(repr(item) for item in row)))
+def flags_of(dataset: xarray.Dataset, loop: int) -> list[str]:
+    """Name what is flagged of one of several loops."""
+    status = int(dataset["status"].values[loop])
+    flags = [name for name, bit in (FLAGS | OF_FITS).items() if status & bit]
+    if flags == ["no_value"]:
+        return flags
+    names = dataset[PARAMETER].values[dataset["on_bound"].values[loop] > 0]
+    converged = [] if dataset["converged"].values[loop] else ["not_converged"]
+    return [*flags, *converged, *(f"on_bound:{name}" for name in names)]
+
+
+def fits_compared(datasets: Sequence[xarray.Dataset], files: Sequence[Path]) -> Iterator[str]:
+    """
+    Compare fits of the same data by Akaike's criterion, chi square + 2 p: differences to the least, and weights.
+
+    Raises
+    ------
+    DatasetError
+        One is no fit, or they differ in data, noise, branch or averaging, so that their misfits cannot be compared.
+    """
+    first = datasets[0]
+    for dataset, file in zip(datasets, files, strict=True):
+        if not is_fit(dataset):
+            raise DatasetError(f"{file}: contains no fit; only fits can be compared, so name one file")
+        if why := _apart(first, dataset):
+            raise DatasetError(
+                f"{file}: {why} than {files[0]}, so that their misfits cannot be compared; fit the same points with "
+                "the same noise"
+            )
+        if np.isnan(dataset["chi_square"].values).any():
+            raise DatasetError(f"{file}: a loop has no fit, so that the total misfit is undefined; leave its file out")
+    table = pd.DataFrame(
+        {
+            "file": [str(file) for file in files],
+            "p": [dataset.sizes[PARAMETER] * dataset.sizes.get(LOOP, 1) for dataset in datasets],
+            "chi square": [float(dataset["chi_square"].sum()) for dataset in datasets],
+        }
+    )
+    criteria = table["chi square"] + 2.0 * table["p"]
+    table["AIC - least"] = criteria - criteria.min()
+    weights = np.exp(-0.5 * table["AIC - least"])
+    table["weight"] = weights / weights.sum()
+    points = int(np.sum(~np.isnan(first["residual"].values)))
+    yield f"{counted(len(files), 'fit')} of the same {counted(points, 'point')}, by AIC = chi square + 2 p"
+    yield ""
+    yield from (
+        table.sort_values("AIC - least", kind="stable")
+        .to_string(index=False, float_format="{:.6g}".format)
+        .splitlines()
+    )
+    for dataset, file in zip(datasets, files, strict=True):
+        if (dataset["status"].values & POOR_FIT).any():
+            yield f"{file}: a poor fit: the residual exceeds the noise, and weights mean little"
+
+
+def _apart(one: xarray.Dataset, other: xarray.Dataset) -> str:
+    """Say in which of their data two fits differ; nothing if in none."""
+    if one.attrs.get("data_sha256") != other.attrs.get("data_sha256"):
+        return "is a fit of other data (sha256)"
+    for name, what in _SAME.items():
+        mine, others = (np.asarray(each[name] if name in each else each.attrs.get(name)) for each in (one, other))
+        if mine.shape != others.shape or not np.array_equal(mine, others, equal_nan=mine.dtype.kind == "f"):
+            return f"has {what}"
+    return ""

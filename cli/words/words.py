@@ -1,32 +1,41 @@
-"""A dataset in words: its axes, its extremes and where they are, its failures, its origin."""
+"""A dataset in words: its axes, its values or their extremes and where they are, its flags, its origin."""
 
-from collections.abc import Iterator
+import hashlib
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+import pandas as pd
 import xarray
 from numpy.typing import NDArray
 
+from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by, is_cone
 from gradhesion.cli.dataset.read.reader import has_curves, tiling_of
-from gradhesion.cli.dataset.read.sensitivities import parts_of
-from gradhesion.cli.names.outputs import ON_BOUND
+from gradhesion.cli.dataset.read.sensitivities import parts_of, strongest
+from gradhesion.cli.dataset.read.waves import steep_waves
+from gradhesion.cli.names.outputs import ON_BOUND, PARETO_POINT, SI, labels_of
 from gradhesion.cli.names.scenes import IDLE, REALISATION, SCENE, SOLVER
 from gradhesion.cli.study.shape_words import control_in_words
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted, percent
-from gradhesion.cli.words.curve_words import curve_lines
-from gradhesion.cli.words.optimum_words import bound_lines, point_lines
-from gradhesion.cli.words.sensitivity_words import sensitivity_lines
-from gradhesion.cli.words.uncertainty_words import uncertainty_lines
-from gradhesion.cli.words.validity_words import validity_lines
-from gradhesion.cli.words.value_words import is_of_one_scene, value_lines
+from gradhesion.cli.words.curve_words import curve_lines, jump_lines, number_range
+from gradhesion.cli.words.table import columns_of
 from gradhesion.core import FAILED
-from gradhesion.core.answers.flags import FLAG_WORDS, FLAGS
+from gradhesion.core.answers.flags import FLAG_WORDS
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.inputs import INPUTS
+from gradhesion.core.problem.names import CONTACT_SLOPE
 
 FEW: Final = 8
 """Values of an axis that are listed one by one."""
+
+MOST: Final = 12
+"""Scenes whose values are all told, at most."""
+
+WIDTH: Final = 100
+"""Characters of a line of these, at most."""
 
 
 def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
@@ -36,26 +45,25 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
     if "profile" in dataset.attrs:
         yield ""
         yield f"profile: {dataset.attrs['profile']}"
-        yield from _fit(dataset)
+        yield from _fitted_profile(dataset)
         yield f"control: {control_in_words(Loading(control=dataset.attrs.get('control', 'displacement')))}"
         yield from (f"{law}: {dataset.attrs[law]}" for law in ("toughness", "rate") if law in dataset.attrs)
     yield from _parameters(dataset)
-    yield from uncertainty_lines(dataset)
-    yield from point_lines(dataset)
+    yield from _uncertain_inputs(dataset)
     if has_curves(dataset):
         yield from curve_lines(dataset)
+        yield from jump_lines(dataset)
     else:
         yield from _outputs(dataset)
-        yield from value_lines(dataset, _varying(dataset))
     yield from _status(dataset)
-    if beyond := list(validity_lines(dataset)):
+    if beyond := list(_beyond_the_model(dataset)):
         yield ""
         yield "outside the range of the model"
         yield from beyond
-    yield from _origin(dataset)
+    yield from origin_lines(dataset)
 
 
-def _fit(dataset: xarray.Dataset) -> Iterator[str]:
+def _fitted_profile(dataset: xarray.Dataset) -> Iterator[str]:
     """Tell which file a profile was fitted to, and how well."""
     if "profile_residual_rms" in dataset.attrs:
         rms, most = (1e9 * float(dataset.attrs[f"profile_residual_{name}"]) for name in ("rms", "max"))
@@ -123,11 +131,6 @@ def _remark(variable: xarray.DataArray) -> str:
     return f"  ({comment})" if comment.startswith(IDLE) else ""
 
 
-def _number(value: float | str) -> str:
-    """Write a value of a coordinate."""
-    return value if isinstance(value, str) else f"{value:g}"
-
-
 def _spacing(values: NDArray[np.float64]) -> str:
     """
     Report how the values of an axis are spaced, inf apart.
@@ -148,25 +151,81 @@ def _spacing(values: NDArray[np.float64]) -> str:
     return "listed"
 
 
+def _uncertain_inputs(dataset: xarray.Dataset) -> Iterator[str]:
+    """Say which inputs are uncertain, and by how much, as the study has it."""
+    table: object = None
+    with suppress(ValueError, RecursionError):
+        table = tomllib.loads(str(dataset.attrs.get("study", ""))).get("uncertainty")
+    if not isinstance(table, Mapping):
+        return
+    yield ""
+    yield "uncertain inputs" + (f", {table['samples']:,} samples" if table.get("samples") else "")
+    for name, value in table.items():
+        if isinstance(value, Mapping):
+            yield f"  {name:<17} uniform from {value.get('low')} to {value.get('high')}"
+        elif name not in ("samples", "seed"):
+            yield f"  {name:<17} standard deviation {value}" + (" of the value" if str(value).endswith("%") else "")
+
+
 def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
-    """Report the extremes of each output, and where they are; of a single scene they are values."""
-    for name in dataset.data_vars:
-        if name == "status" or is_of_one_scene(dataset, str(name)):
-            continue
+    """Report each output: all values of few scenes, else the extremes and where they are; in SI where it has a unit."""
+    names = [str(name) for name in dataset.data_vars if name != "status" and f"{name}{SI}" not in dataset]
+    if PARETO_POINT in dataset.dims:
+        counts = np.asarray(dataset[names[0]].notnull().sum(PARETO_POINT))
         yield ""
-        yield f"{name}: {dataset[name].attrs.get('long_name', 'without a name')}{_unit(dataset[name], ', in ')}"
+        yield f"Pareto fronts: {number_range(counts)} points per scene"
+    status = dataset["status"]
+    listed = [name for name in names if dataset[name].dims == status.dims and name != ON_BOUND]
+    listed = listed if status.size <= MOST else []
+    for name in [name for name in names if name not in listed]:
+        yield ""
+        yield _heading(dataset[name])
         if name == ON_BOUND:
-            yield from bound_lines(dataset[name])
-            continue
-        if parts_of(dataset, str(name)):
-            yield from sensitivity_lines(dataset[name], str(name))
-            continue
-        extremes = _extremes(dataset[name])
-        if not extremes:
-            yield "  no value in any scene"
-        for word, (extreme, place) in zip(("min", "max"), extremes, strict=False):
-            where = ", ".join(f"{key} = {_number(value)}" for key, value in place.items())
-            yield f"  {word:<9} {extreme:<12.7g}" + (f" at {where}" if where else "")
+            yield from _flag_counts(dataset[name]) or ["  no optimum is at a bound"]
+        elif parts_of(dataset, name):
+            yield from _sensitivities(dataset[name], name)
+        else:
+            extremes = _extremes(dataset[name])
+            if not extremes:
+                yield "  no value in any scene"
+            for word, (extreme, place) in zip(("min", "max"), extremes, strict=False):
+                where = ", ".join(f"{key} = {_number(value)}" for key, value in place.items())
+                yield f"  {word:<9} {extreme:<12.7g}" + (f" at {where}" if where else "")
+    if listed:
+        yield ""
+        yield "values"
+        yield from _of_one_scene(dataset, listed) if status.size == 1 else _of_few_scenes(dataset, listed)
+
+
+def _heading(variable: xarray.DataArray) -> str:
+    """Say what a variable is, and in which unit."""
+    return f"{variable.name}: {variable.attrs.get('long_name', 'without a name')}{_unit(variable, ', in ')}"
+
+
+def _of_one_scene(dataset: xarray.Dataset, names: Sequence[str]) -> Iterator[str]:
+    """Give each output of a single scene a line: its name, its value with its unit, what it is."""
+    values = [f"{dataset[name].values.item():.7g}{_unit(dataset[name])}" for name in names]
+    wide = [max(map(len, each)) for each in (names, values)]
+    for name, value in zip(names, values, strict=True):
+        yield f"  {name:<{wide[0]}}  {value:<{wide[1]}}  {dataset[name].attrs.get('long_name', 'without a name')}"
+
+
+def _of_few_scenes(dataset: xarray.Dataset, names: Sequence[str]) -> Iterator[str]:
+    """Give each scene a line of what distinguishes it and of its outputs, in several tables if they are many."""
+    status = dataset["status"]
+    yield from (f"  {_heading(dataset[name])}" for name in names)
+    yield ""
+    varying = [name for name in _varying(dataset) if len({*np.ravel(dataset[name].values)}) > 1]
+    flags = ["status"] if status.values.any() else []
+    table = pd.DataFrame(columns_of(dataset, [*varying, *names, *flags], status))
+    numbers = {name: f"{{:{'g' if name in varying else '.7g'}}}".format for name in table if name != SOLVER}
+    text = table.to_string(index=False, formatters=numbers, line_width=WIDTH - 2)
+    yield from (f"  {line.rstrip()}" for line in text.replace("\\\n", "\n").splitlines())
+
+
+def _number(value: float | str) -> str:
+    """Write a value of a coordinate."""
+    return value if isinstance(value, str) else f"{value:g}"
 
 
 def _extremes(variable: xarray.DataArray) -> list[tuple[float, dict[str, float | str]]]:
@@ -191,32 +250,77 @@ def _place(part: xarray.DataArray, index: tuple[Any, ...]) -> dict[str, float | 
     return {name: cell[name].item() for name in _varying(part)}
 
 
+def _sensitivities(variable: xarray.DataArray, name: str) -> Iterator[str]:
+    """Tell which parameter is the strongest in how many scenes, and between what each sensitivity lies."""
+    labels = [str(label) for label in variable[labels_of(name)].values]
+    values = variable.transpose(..., labels_of(name)).values.reshape(-1, len(labels))
+    place = strongest(values, labels)
+    counts = np.bincount(place[place >= 0], minlength=len(labels))
+    order = [i for i in np.argsort(-counts, kind="stable") if counts[i]]
+    if len(order) == 1:
+        yield f"  strongest: {labels[order[0]]}"
+    elif order:
+        shares = (f"{labels[i]} in {counts[i] / counts.sum():.3g} of the scenes" for i in order)
+        yield f"  strongest: {', '.join(shares)}"
+    for label, own in zip(labels, values.T, strict=True):
+        finite = own[np.isfinite(own)]
+        if finite.size:
+            low, high = finite.min(), finite.max()
+            yield f"  {label:<22} {low:.4g}" + (f" to {high:.4g}" if high > low else "")
+
+
+def _flag_counts(variable: xarray.DataArray) -> list[str]:
+    """Tell of each flag that occurs how many scenes have it, and what it means."""
+    masks = np.atleast_1d(variable.attrs["flag_masks"]).astype(int)
+    counts = np.zeros(masks.size, int)
+    for block in tiling_of(variable):
+        values = variable[block].values.astype(int)
+        counts += [np.count_nonzero(values & mask) for mask in masks]
+    lines = []
+    for name, count in zip(str(variable.attrs["flag_meanings"]).split(), counts, strict=True):
+        if count:
+            share = f"{count:,} of {counted(variable.size, 'scene')} ({percent(count, variable.size)})"
+            lines.append(f"  {name:<30} {share:<26} {FLAG_WORDS.get(name, '')}".rstrip())
+    return lines
+
+
 def _status(dataset: xarray.Dataset) -> Iterator[str]:
     """Report how many scenes have failed, and what the others report."""
-    counts = dict.fromkeys(FLAGS, 0)
-    failed = 0
-    for block in tiling_of(dataset["status"]):
-        status: NDArray[np.int16] = dataset["status"][block].values.astype(np.int16)
-        failed += int(np.count_nonzero(status & FAILED))
-        for name, bit in FLAGS.items():
-            counts[name] += int(np.count_nonzero(status & bit))
-    scenes = dataset["status"].size
+    status = dataset["status"]
+    failed = sum(int(np.count_nonzero(status[block].values.astype(np.int16) & FAILED)) for block in tiling_of(status))
+    scenes = status.size
     yield ""
     yield f"status: {scenes - failed:,} of {counted(scenes, 'scene')} ({(scenes - failed) / scenes:.1%}) have values"
-    for name, count in counts.items():
+    yield from _flag_counts(status)
+
+
+def _beyond_the_model(dataset: xarray.Dataset) -> Iterator[str]:
+    """Tell how many scenes leave the range of the model, by each number that is known."""
+    scenes = dataset["status"].size
+    for name, limit in LIMITS.items():
+        blocks = (beyond_by(name, dataset, block) for block in tiling_of(dataset["status"]))
+        count = sum(int(beyond.sum()) for beyond in blocks if beyond is not None)
+        condition = f"{limit.condition}: {limit.words}"
+        if name == "wave_slope" and name not in dataset:
+            count = steep_waves(dataset)
+        if name == CONTACT_SLOPE and is_cone(dataset):
+            count, condition = scenes, "1 at every radius: slopes of a cone are not small"
         if count:
             share = f"{count:,} of {counted(scenes, 'scene')} ({percent(count, scenes)})"
-            yield f"  {name:<30} {share:<26} {FLAG_WORDS[name]}"
+            yield f"  {name:<30} {share:<26} {condition}"
 
 
-def _origin(dataset: xarray.Dataset) -> Iterator[str]:
-    """Report where a dataset comes from."""
+def origin_lines(dataset: xarray.Dataset) -> Iterator[str]:
+    """Report where a dataset comes from, and whether the study in it was changed since."""
     attributes = dataset.attrs
-    named = ("python", "numpy", "numba", "scipy")
-    versions = ", ".join(f"{name} {attributes.get(f'{name}_version', 'unknown')}" for name in named)
+    versions = (
+        f"{name} {attributes.get(f'{name}_version', 'unknown')}" for name in ("python", "numpy", "numba", "scipy")
+    )
     yield ""
     yield "origin"
-    yield f"  {attributes['source']} ({versions})"
+    yield f"  {attributes['source']} ({', '.join(versions)})"
     yield from (f"  {line}" for line in str(attributes.get("history", "")).splitlines())
     if "study_sha256" in attributes:
-        yield f"  study with sha256 {attributes['study_sha256']}"
+        own = hashlib.sha256(str(attributes.get("study", "")).encode()).hexdigest()
+        changed = "" if own == attributes["study_sha256"] else "; its text was changed since"
+        yield f"  study with sha256 {attributes['study_sha256']}{changed}"

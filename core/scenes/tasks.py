@@ -111,7 +111,7 @@ Group: TypeAlias = Callable[[int, Floats, Floats, Floats], None]
 
 @leaf
 def _near_lowest(basis: Basis, kept: Kept, place: int, curve: Curve, rim: float) -> Lowest:
-    """Return the lowest load of a curve on the kept table of a place, whose bins are filled where the search arrives."""
+    """Return the lowest load of a curve on a kept table, whose bins are filled where the search arrives."""
     table, most, around = curve.table, basis.values.shape[0] - 1, _AROUND
     at_rim, middle = bin_of(table, min(rim, end_of(table))), bin_of(table, min(envelope_place(curve), rim))
     if rim <= end_of(table) and not kept.filled[place, 0] <= at_rim < kept.filled[place, 1]:

@@ -3,8 +3,8 @@
 All that a bin holds is a smooth function of k, once the powers of the radius are taken out. A basis holds the bins of
 one power, series and form at 49 exponents, the Chebyshev points of each quarter of [0, 1]; the bins of any k are sums
 over the 13 of its quarter, at a fraction of the price of new ones. (Those of a long series are not: a basis costs as
-much as 49 exponents, of which a study of rough profiles has one or two.) All scenes within its reach are solved on such tables, whatever else is in their
-call, so that a value does not depend on its neighbours.
+much as 49 exponents, of which a study of rough profiles has one or two.) All scenes within its reach are solved on
+such tables, whatever else is in their call, so that a value does not depend on its neighbours.
 """
 
 import math

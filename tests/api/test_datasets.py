@@ -105,7 +105,7 @@ def test_a_dataset_is_verified_whatever_the_order_of_its_axes(tmp_path: Path) ->
             assert (found.exceeding, len(found.deviations)) == (0, 2 * len(amplitudes))
         turned.to_netcdf(tmp_path / f"{len(amplitudes)}.nc")
         assert gr.verify(tmp_path / f"{len(amplitudes)}.nc", seed=1).exceeding == 0
-    with pytest.raises(gr.DatasetError, match="the dataset: its status does not consist of integers; give the dataset"):
+    with pytest.raises(gr.DatasetError, match="the dataset: its status is no integer; give the dataset"):
         gr.verify(dataset.where(dataset["A"] > 0.0))
 
 

@@ -12,6 +12,8 @@ import pytest
 import xarray
 
 from gradhesion.cli.dataset.fits.fit import write_fit
+from gradhesion.cli.dataset.read.reader import opened
+from gradhesion.cli.dataset.select import selected, write_dataset
 from gradhesion.cli.dataset.writer import write
 from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.study.reading import load_any, study_from
@@ -43,6 +45,10 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
         table = own if "physical" in changes else parameters | own
         paths[kind] = folder / f"{kind}.nc"
         write(study_from(common | changes | {"parameters": table}), paths[kind], history="made by a test")
+    for kind, wishes in {"part": (["lambda_over_R=0.1:0.3"], ()), "reduced": ((), ["k=max"])}.items():
+        paths[kind] = folder / f"{kind}.nc"
+        with opened(paths["map"]) as whole:
+            write_dataset(selected(whole, *wishes), paths[kind], overwrite=False)
     paths["fit"] = folder / "fit.nc"
     fit = load_any(CONFIGS / "fit.toml", ['fit.intervals="linear"'])
     assert isinstance(fit, FitStudy)

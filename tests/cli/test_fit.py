@@ -225,7 +225,7 @@ def test_what_is_missing_is_said(gradhesion: Call, folder: Path) -> None:
 FILES: dict[str, tuple[str, str]] = {
     "0 bytes": ("", "the file has 0 bytes"),
     "comments": ("# nothing\n", "the file has comments only"),
-    "no numbers": ("depth,force\n1.0,x\n", "line 2: force is not a number; write one"),
+    "no numbers": ("depth,force\n1.0,x\n", 'line 2: force = "x" is not a number; write one'),
     "a line": ("depth,force\n" + "".join(f"{i},{i}\n" for i in range(50)), "the data show no contact"),
     "few": (
         "depth,force\n0,1\n1,2\n0,1\n",
@@ -275,7 +275,8 @@ def test_a_column_of_branches_and_one_of_cycles_are_read(folder: Path) -> None:
     assert study.loop.cycles == 2
     (folder / "force_curve.csv").write_text("depth,force,branch\n" + rows[0].replace("loading,1", "up") + "\n")
     with pytest.raises(
-        gr.StudyError, match='line 2: branch is not one of its words; choose from "loading", "unloading", "approach"'
+        gr.StudyError,
+        match='line 2: branch = "up" is not one of its words; choose from "loading", "unloading", "approach"',
     ):
         gr.load("fit.toml", set={"data.branch": "branch"})
 

@@ -143,11 +143,12 @@ def test_run_writes_them_and_says_which_failed(gradhesion: Call, folder: Path) -
 def test_a_table_has_a_row_for_each_loop(gradhesion: Call, found: xarray.Dataset) -> None:
     told = gradhesion("info", "many.nc").stdout.splitlines()
     (head,) = (line for line in told if line.startswith("file "))
-    assert "  E_star [Pa]  " in head
-    assert "  reduced chi square  " in head
-    rows = [line for line in told if line.startswith("curves/") and "+-" in line]
+    assert "E_star [Pa]" in head
+    assert "reduced chi square" in head
+    rows = [line for line in told if line.startswith("curves/") and " to " in line]
     assert len(rows) == 3
-    assert f"{float(found['value'][1, 0]):.5g} +- " in rows[1]
+    value, low, high = (float(found[name][1, 0]) for name in ("value", "low", "high"))
+    assert f"{value:.5g} ({low:.4g} to {high:.4g})" in rows[1]
     assert any(line.startswith("curves/9.csv") and line.endswith("no_value") for line in told)
     table = list(csv.DictReader(io.StringIO(gradhesion("info", "many.nc", "--format", "csv").stdout)))
     assert len(table) == 4 * 4
@@ -205,14 +206,12 @@ def test_too_much_side_by_side_is_refused_before_it_is_fitted(home: Path, monkey
 
 
 def test_padding_keeps_types() -> None:
-    one = {"measured_unloading": (("p",), np.array([0, 1], np.int8)), "value": (("q",), np.array([1.0]))}
-    other: Any = {"measured_unloading": (("p",), np.array([1], np.int8))}
+    one = {"measured_unloading": np.array([0, 1], np.int8), "value": np.array([1.0])}
+    other = {"measured_unloading": np.array([1], np.int8)}
     both = side_by_side([one, other])
-    dims, values = both["measured_unloading"]
-    assert dims == ("loop", "p")
-    assert values.dtype == np.int8
-    assert values.tolist() == [[0, 1], [1, -1]]
-    np.testing.assert_array_equal(both["value"][1], [[1.0], [np.nan]])
+    assert both["measured_unloading"].dtype == np.int8
+    assert both["measured_unloading"].tolist() == [[0, 1], [1, -1]]
+    np.testing.assert_array_equal(both["value"], [[1.0], [np.nan]])
 
 
 @pytest.fixture(scope="module")
@@ -254,8 +253,8 @@ def test_fits_are_compared_by_the_criterion(gradhesion: Call, models: dict[str, 
     ("name", "words"),
     [
         ("other", "is a fit of other data (sha256) than"),
-        ("noise", "has another noise (6e-09, not 5e-09, in noise_of_load) than"),
-        ("branch", "is a fit of other points (rows or branch) than"),
+        ("noise", "has another noise of the load than"),
+        ("branch", "has other points (rows or branch) than"),
     ],
 )
 def test_what_differs_is_not_compared(gradhesion: Call, models: dict[str, Path], name: str, words: str) -> None:

@@ -6,7 +6,10 @@ from pathlib import Path
 import netCDF4
 import numpy as np
 import pytest
+import xarray
 from click.testing import Result
+
+from gradhesion.cli.terminal.printable import printable
 
 Call = Callable[..., Result]
 
@@ -110,7 +113,7 @@ def damaged_values(content: bytes, path: Path) -> bytes:
     pytest.fail("there is no such chunk")
 
 
-@pytest.mark.parametrize("command", ["info", "plot"])
+@pytest.mark.parametrize("command", ["info", "plot", "verify"])
 @pytest.mark.parametrize(
     ("damage", "message"),
     [
@@ -147,3 +150,58 @@ def test_a_file_that_is_no_dataset_of_ours(
     assert message in result.stderr
     assert "gradhesion run" in result.stderr, "it tells what to do"
     assert result.stdout == "" or damage == "flipped"
+
+
+CHANGES: dict[str, Callable[[xarray.Dataset], xarray.Dataset]] = {
+    "no status": lambda whole: whole.drop_vars("status"),
+    "a status with gaps": lambda whole: whole.assign(status=whole["status"].where(whole["k"] > 0)),
+    "no scene": lambda whole: whole.isel(k=[]),
+    "a mean beside values": lambda whole: whole.assign(pull_off_force=whole["pull_off_force"].mean("A")),
+    "no values of an axis": lambda whole: whole.drop_vars("A"),
+}
+"""What other programs may have made of a dataset."""
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_what_a_changed_dataset_lacks_is_one_sentence(
+    change: str, gradhesion: Call, dataset_file: Path, tmp_path: Path
+) -> None:
+    path = tmp_path / "changed.nc"
+    with xarray.open_dataset(dataset_file) as whole:
+        CHANGES[change](whole).to_netcdf(path)
+    for command in ("info", "plot", "verify"):
+        result = gradhesion(command, path)
+        assert (result.exit_code, result.stdout) == (2, "")
+        assert result.stderr.startswith(f"{path}: ")
+        assert len(result.stderr.splitlines()) == 1
+
+
+def test_jumps_of_some_scenes_do_not_belong_to_others(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
+    """As where a user takes scenes of a dataset of jumps with xarray, which does not know that the two belong together."""
+    curve = ["--set=kind='curve'", "--set=outputs=['jumps']", "--set=parameters.a_max_over_R=0.7"]
+    assert gradhesion("run", study_file, "-o", tmp_path / "whole.nc", "--quiet", *curve).exit_code == 0
+    with xarray.open_dataset(tmp_path / "whole.nc") as whole:
+        whole.isel(A=[1]).to_netcdf(tmp_path / "part.nc")
+    result = gradhesion("info", tmp_path / "part.nc")
+    assert result.exit_code == 2
+    assert "jump_count do not add up" in result.stderr
+
+
+def test_a_study_that_was_changed_is_told(gradhesion: Call, dataset_file: Path) -> None:
+    assert "changed since" not in gradhesion("info", dataset_file).stdout
+    with netCDF4.Dataset(dataset_file, "a") as file:
+        file.study += "# and more\n"
+    assert "changed since" in gradhesion("info", dataset_file).stdout
+
+
+def test_what_a_dataset_says_is_data(gradhesion: Call, dataset_file: Path) -> None:
+    """Words that a terminal obeys, formulas that are none and studies that are programs are printed or drawn as text."""
+    hostile = "\x1b[31m$\\bad{ </script> {0.__class__} %s"
+    with netCDF4.Dataset(dataset_file, "a") as file:
+        file.setncatts(dict.fromkeys(("title", "history", "profile", "study", "study_sha256"), hostile))
+        for name in ("k", "status", "pull_off_force"):
+            file[name].setncatts({"units": hostile, "long_name": hostile})
+    for command in (["info"], ["info", "--format", "csv"], ["plot"], ["explore"], ["verify"]):
+        result = gradhesion(*command, dataset_file)
+        assert result.exit_code == (2 if command == ["verify"] else 0), result.stderr
+        assert printable(result.output) == result.output

@@ -148,7 +148,7 @@ def test_an_optimum_at_a_bound_is_an_answer(
         meanings = found["on_bound"].attrs["flag_meanings"].split()
         assert meanings == ["lambda_over_R_at_its_lower_bound", "lambda_over_R_at_its_upper_bound"]
         upper = int((found["on_bound"].values == 2).sum())
-    assert f"{upper} of 2 optima" in " ".join(gradhesion("info", path).stdout.split())
+    assert f"{upper} of 2 scenes" in " ".join(gradhesion("info", path).stdout.split())
     picture = tmp_path / "picture.svg"
     assert gradhesion("plot", path, "-o", picture).exit_code == 0
     assert gradhesion("explore", path, "-o", tmp_path / "page.html").exit_code == 0

@@ -427,7 +427,7 @@ WRONG = [
     (["--variable", "pull_off_force,energy"], "--variable energy: not in this dataset"),
     (["--at", "k=0.5"], "--at k=0.5: outside the axis, which has values of 0 to 0.31; choose one within"),
     (["--at", "k=x"], "x is not a number"),
-    (["--over", "k=sum"], "--over k=sum: not a reduction; choose from"),
+    (["--over", "k=product"], "--over k=product: not a reduction; choose from"),
 ]  # fmt: skip
 
 

@@ -23,9 +23,9 @@ def dataset_file(gradhesion: Call, study_file: Path, tmp_path: Path) -> Path:
 
 def test_commands_are_listed_in_the_order_of_the_work_and_not_cut() -> None:
     text = CliRunner().invoke(cli, ["--help"], terminal_width=80).output
-    order = ["init", "validate", "plan", "run", "status", "info", "plot", "explore", "verify", "merge"]
+    order = ["init", "validate", "plan", "run", "status", "info", "plot", "explore", "select", "verify", "merge"]
     listed = re.findall(r"^  (\w+) +(\S.*)$", text.partition("Study and run:")[2], flags=re.MULTILINE)
-    assert [name for name, _ in listed][:10] == order
+    assert [name for name, _ in listed][:11] == order
     assert [name for name, _ in listed[: len(cli.commands)]] == list(cli.commands)
     assert {command for commands in SECTIONS.values() for command in commands} == {*cli.commands.values()}
     for _, words in listed[: len(cli.commands)]:

@@ -2,25 +2,16 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gradhesion.cli.dataset.dataset import origin
-from gradhesion.cli.dataset.fits.rows import refuse_size, rows_of, side_by_side
-from gradhesion.cli.disk import replacement, writing
-from gradhesion.cli.names.fits import (
-    FIT,
-    FIT_MORE,
-    FIT_POINTS,
-    FIT_UNITS,
-    FIT_WORDS,
-    LOOP,
-    OTHER_PARAMETER,
-    PARAMETER_UNITS,
-)
+from gradhesion.cli.dataset.fits.rows import VARIABLES, refuse_size, rows_of, side_by_side
+from gradhesion.cli.dataset.select import write_dataset
+from gradhesion.cli.names.fits import FIT_WORDS, LOOP, OTHER_PARAMETER, PARAMETER_UNITS
 from gradhesion.cli.names.outputs import PARAMETER
-from gradhesion.cli.names.scenes import STEEP, STEEP_CONTACT
+from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.fit.loop_files import fingerprint
 from gradhesion.cli.study.fit.study import FitStudy, unit_of_parameter
 from gradhesion.cli.study.shape_words import rate_in_words, shape_in_words, toughness_in_words
@@ -31,13 +22,6 @@ from gradhesion.core.problem.status import FLAGS, OF_FITS
 
 if TYPE_CHECKING:
     import xarray
-
-_UNITS: Final = {"indentation": "m", "load": "N"}
-_WAYS: Final = {"flag_values": np.array([0, 1], np.int8), "flag_meanings": "loading unloading"}
-_WAYS_OR_NONE: Final = {"flag_values": np.array([-1, 0, 1], np.int8), "flag_meanings": "none loading unloading"}
-_YES: Final = {"flag_values": np.array([0, 1], np.int8), "flag_meanings": "no yes"}
-_OWN_UNITS: Final = ("value", "standard_deviation", "low", "high", "low_searched", "high_searched", "minimum_value")
-"""What is in the units of what is fitted."""
 
 
 def compute_fit(study: FitStudy) -> "xarray.Dataset":
@@ -56,12 +40,7 @@ def write_fit(study: FitStudy, fits: Sequence[Fit], path: Path, *, history: str,
     OutputError
         It cannot be written, or exists.
     """
-    dataset = dataset_of(study, fits, history)
-    packed = {"zlib": True, "complevel": 1, "shuffle": True}
-    along = {name: packed for name, variable in dataset.variables.items() if variable.dims and variable.dtype != object}
-    own = {name: along.get(name, {}) | {"_FillValue": None} for name in dataset.variables}
-    with replacement(path, overwrite=overwrite) as temporary, writing(path):
-        dataset.to_netcdf(temporary, format="NETCDF4", engine="netcdf4", encoding=own)
+    write_dataset(dataset_of(study, fits, history), path, overwrite=overwrite)
 
 
 def dataset_of(study: FitStudy, fits: Sequence[Fit], history: str) -> "xarray.Dataset":
@@ -70,7 +49,11 @@ def dataset_of(study: FitStudy, fits: Sequence[Fit], history: str) -> "xarray.Da
 
     each = [rows_of(study, fit) for fit in fits]
     rows = each[0] if study.is_of_one else side_by_side(each)
-    made = {name: xarray.Variable(dims, values, _attributes_of(study, name)) for name, (dims, values) in rows.items()}
+    along = () if study.is_of_one else (LOOP,)
+    made = {
+        name: xarray.Variable((*along, *VARIABLES[name].dims), values, _attributes_of(study, name))
+        for name, values in rows.items()
+    }
     labels = np.array(study.parameters, dtype=object)
     units = np.array([unit_of_parameter(name) for name in study.parameters], dtype=object)
     parameter = (PARAMETER,)
@@ -123,32 +106,21 @@ def _attributes(study: FitStudy, fits: Sequence[Fit]) -> dict[str, Any]:
 
 def _attributes_of(study: FitStudy, name: str) -> dict[str, Any]:
     """Describe a variable."""
-    if name == "status":
-        return _of_status()
-    if name == STEEP:
-        return {"units": "1", "long_name": STEEP_CONTACT}
-    for own in (FIT, FIT_MORE):
-        if name in own:
-            attributes: dict[str, Any] = {"long_name": own[name][1]}
-            if name in ("on_bound", "converged"):
-                return attributes | _YES
-            if name == "tabor_parameter":
-                attributes["comment"] = range_words(study)
-            return attributes if name in _OWN_UNITS else attributes | {"units": FIT_UNITS.get(name, "1")}
-    words = next(own[name] for own in FIT_POINTS.values() if name in own)
-    if study.loading.control == "machine" and name.endswith("_indentation"):
+    one = VARIABLES[name]
+    words = one.about
+    if study.loading.control == "machine" and name.endswith("_indentation") and one.dims:
         words = words.replace("indentation depth", "displacement of the machine")
-    if name.endswith("_unloading"):
-        return {"long_name": words} | (_WAYS if study.is_of_one else _WAYS_OR_NONE)
-    return {"long_name": words, "units": _UNITS.get(name.rpartition("_")[2], "1")}
-
-
-def _of_status() -> dict[str, Any]:
-    """Describe the status of the fitted cycle."""
-    flags = FLAGS | OF_FITS
-    return {
-        "units": "1",
-        "long_name": "flags of the fitted cycle (0: nothing to report)",
-        "flag_masks": np.array(list(flags.values()), dtype=np.int16),
-        "flag_meanings": " ".join(flags),
-    }
+    attributes: dict[str, Any] = {"long_name": words} | ({"units": one.unit} if one.unit else {})
+    if one.meanings:
+        padded = not study.is_of_one and name.endswith("_unloading")
+        attributes["flag_values"] = np.array([-1, 0, 1][not padded :], np.int8)
+        attributes["flag_meanings"] = "none " * padded + one.meanings
+    if name == "tabor_parameter":
+        attributes["comment"] = range_words(study)
+    if name == "status":
+        flags = FLAGS | OF_FITS
+        attributes |= {
+            "flag_masks": np.array(list(flags.values()), dtype=np.int16),
+            "flag_meanings": " ".join(flags),
+        }
+    return attributes

@@ -12,9 +12,9 @@ DOUBTS: Final = DOUBTFUL | LINEAR_DEVIATION_OFF | RESOLUTION_TOO_COARSE
 """All bits that cast doubt on some variable."""
 
 
-def doubts_of(variable: str, *, turned: bool = False) -> int:
+def doubts_of(variable: str, *, turned: bool = False, sampled: bool = False) -> int:
     """
-    Give the bits that cast doubt on a variable.
+    Give the bits that cast doubt on a variable; `sampled` says that its dataset has deviations of samples.
 
     >>> doubts_of("dissipated_energy_si") == doubts_of("path_load") == DOUBTFUL
     True
@@ -25,4 +25,5 @@ def doubts_of(variable: str, *, turned: bool = False) -> int:
     bits = doubts_about(curve_of(plain) or plain, turned=turned)
     if variable.startswith(BEST):
         bits |= RESOLUTION_TOO_COARSE
-    return bits | LINEAR_DEVIATION_OFF if variable.removesuffix("_si").endswith("_std") else bits
+    linear = ("_std_linear",) if sampled else ("_std", "_std_linear")
+    return bits | LINEAR_DEVIATION_OFF if variable.removesuffix("_si").endswith(linear) else bits

@@ -9,6 +9,7 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read.reader import tiling_of
+from gradhesion.cli.dataset.read.waves import STEEPEST
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.terminal.amounts import counted
@@ -29,8 +30,6 @@ SHORT_RANGED: Final = 5.0
 """The Tabor parameter from which on JKR holds (Johnson & Greenwood 1997)."""
 LONG_RANGED: Final = 0.1
 """The Tabor parameter up to which the limit of Derjaguin, Muller & Toporov holds instead."""
-STEEPEST: Final = 0.5
-"""A slope that is no longer small: a linear half-space errs by about its square."""
 ONE_DISC: Final = 2.0 / np.sqrt(np.pi)
 """Johnson's alpha at chi = 1/2, up to which short waves keep the contact one disc (docs/theory.md, section 12)."""
 

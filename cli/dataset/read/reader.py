@@ -7,10 +7,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-import netCDF4
 import xarray
 
-from gradhesion.cli.dataset.read.soundness import check_form, check_size
+from gradhesion.cli.dataset.read.soundness import check_form
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.files import is_file, kind_of
 from gradhesion.cli.names.curves import EXTENTS, RAGGED
@@ -71,11 +70,7 @@ def found(path: Path, *, kept: bool) -> "Dataset":
         )
         raise DatasetError(f"{path}: {what}; name a dataset that `gradhesion run` wrote")
     try:
-        with netCDF4.Dataset(path) as file:
-            check_size(file, path)
         return xarray.open_dataset(path, engine="netcdf4", cache=kept, create_default_indexes=kept)
-    except DatasetError:
-        raise
     except (OSError, ValueError, RuntimeError, AttributeError, TypeError) as error:  # as the libraries say it
         reason = getattr(error, "strerror", None) or str(error)
         other = kind and not kind.startswith("a dataset")

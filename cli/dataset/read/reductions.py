@@ -8,10 +8,10 @@ import xarray
 
 from gradhesion.core import FAILED
 
-QUANTILES: Final = {"p05": 0.05, "p50": 0.5, "p95": 0.95}
+QUANTILES: Final = {"p05": 0.05, "p50": 0.5, "median": 0.5, "p95": 0.95}
 """The quantiles that an axis may be reduced to, by what they are called."""
 
-REDUCTIONS: Final = ("max", "min", "mean", *QUANTILES, "argmax", "argmin")
+REDUCTIONS: Final = ("max", "min", "mean", "sum", *QUANTILES, "argmax", "argmin")
 """How an axis may be reduced; the last two give the place of the extreme."""
 
 
@@ -86,16 +86,18 @@ def reduced(
     """
     Reduce an axis to an extreme, its place, or the mean of its items; what has no value (NaN) is left out.
 
-    The status is that of the scene of the extreme, or has the flags of all scenes of a mean or of a quantile.
+    The status is that of the scene of the extreme, or has the flags of all scenes of a mean, a sum or a quantile.
     """
     coordinate = values[axis]
     going = [name for name in values.coords if axis in values[name].dims]
     values, status = (one.drop_vars([name for name in going if name in one.coords]) for one in (values, status))
     there = values.notnull()
-    if how == "mean" or how in QUANTILES:
+    if how in ("mean", "sum", *QUANTILES):
         flags = status.where(there, 0).astype(status.dtype).reduce(np.bitwise_or.reduce, axis)
         if how == "mean":
             return values.mean(axis, skipna=True, keep_attrs=True), flags
+        if how == "sum":
+            return values.sum(axis, skipna=True, min_count=1, keep_attrs=True), flags
         return values.quantile(QUANTILES[how], axis, skipna=True, keep_attrs=True).drop_vars("quantile"), flags
     place = values.fillna(-np.inf).argmax(axis) if how.endswith("max") else values.fillna(np.inf).argmin(axis)
     found = there.any(axis)

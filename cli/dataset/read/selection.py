@@ -3,7 +3,7 @@
 The words of `--at` and `--over` become a `Selection` here; it narrows a dataset without loading it.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final
 
@@ -21,6 +21,7 @@ from gradhesion.cli.dataset.read.reductions import (
     without_failed,
 )
 from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.names.curves import EXTENTS, RAGGED
 from gradhesion.cli.names.scenes import SCENE, SOLVER
 from gradhesion.cli.study.text.quantities import si_value
 from gradhesion.cli.terminal.wording import did_you_mean
@@ -39,6 +40,8 @@ class Selection:
 
     fixed: Mapping[str, int] = field(default_factory=dict)
     """The item at which each of some axes is fixed."""
+    parts: Mapping[str, NDArray[np.intp]] = field(default_factory=dict)
+    """The items that are left of each of some axes."""
     between: tuple[Between, ...] = ()
     """Axes fixed at a value between two items."""
     scenes: NDArray[np.intp] | None = None
@@ -53,7 +56,21 @@ class Selection:
         An axis that is fixed becomes a coordinate without dimension that has the value really used. One that is
         fixed between two items keeps these two, and one that is to be reduced stays: that takes values, see `taken`.
         """
-        narrow = dataset.isel({axis: item for axis, item in self.fixed.items() if axis in dataset.dims})
+        narrow = self._cut(dataset)
+        counts = {RAGGED[curve]: EXTENTS[curve] for curve in RAGGED if RAGGED[curve] in dataset}
+        for count, extent in counts.items():  # items of all scenes that follow one another
+            if extent in dataset.dims:
+                scenes = dataset[count].copy(data=np.arange(dataset[count].size).reshape(dataset[count].shape))
+                ends = np.cumsum(dataset[count].values)
+                left = self._cut(scenes.to_dataset(name="scene_number"))["scene_number"].values.ravel()
+                first = np.concatenate([[0], ends[:-1]])
+                items = [np.arange(first[scene], ends[scene]) for scene in left]
+                narrow = narrow.isel({extent: np.concatenate(items).astype(np.intp)})
+        return narrow
+
+    def _cut(self, dataset: xarray.Dataset) -> xarray.Dataset:
+        """Fix axes of what has a value a scene."""
+        narrow = dataset.isel({axis: one for axis, one in {**self.fixed, **self.parts}.items() if axis in dataset.dims})
         narrow = narrow.isel({one.axis: [*one.items] for one in self.between})
         return narrow if self.scenes is None else narrow.isel({SCENE: self.scenes})
 
@@ -90,11 +107,11 @@ def selection_of(
         What the wishes are about; of it only the axes are looked at.
     at
         An axis is fixed at the value nearest to the one that is written (in the logarithm of an axis that is
-        log-spaced). Values of an axis with a unit are in SI, or have one: "R=2 um". Of a dataset of points the
-        scenes with the nearest value stay.
+        log-spaced), or cut to a range, "A=0.01:0.05", either end of which may be left out. Values of an axis with a
+        unit are in SI, or have one: "R=2 um". Of a dataset of points the scenes with these values stay.
     over
-        An axis is reduced by "max", "min", "mean", a quantile ("p05", "p50", "p95"), or to the place of the extreme,
-        "argmax" or "argmin".
+        An axis is reduced by "max", "min", "mean", "sum", a quantile ("p05", "median", "p95"), or to the place of the
+        extreme, "argmax" or "argmin".
     interpolate
         Whether `at` interpolates, linearly in the axis or in its logarithm, instead of taking the nearest value.
 
@@ -105,23 +122,27 @@ def selection_of(
     """
     points = SCENE in dataset["status"].dims
     fixed: dict[str, int] = {}
+    parts: dict[str, NDArray[np.intp]] = {}
     between: list[Between] = []
     scenes: NDArray[np.intp] | None = None
     named: set[str] = set()
-    for option, axis, text in _choices("--at", at, "AXIS=VALUE"):
-        check_axis(dataset, option, axis)
-        _check_once(option, axis, named)
+    for option, axis, text in _wishes(dataset, "--at", at, named):
         if axis == SOLVER:
             fixed[axis] = _solver(dataset, option, text)
             continue
         values = np.asarray(dataset[axis].values, dtype=float)
-        value = _checked(option, values, axis, _number(option, axis, text))
-        nearest = _nearest(values, value)
+        if ":" in text:
+            left = _within(option, values, axis, text)
+        else:
+            value = _checked(option, values, axis, _number(option, axis, text))
+            nearest = _nearest(values, value)
+            left = np.flatnonzero(values == values[nearest])
         if points and axis not in dataset["status"].dims:
             if interpolate:
                 raise DatasetError(f"{option}: points cannot be interpolated; leave --interpolate out")
-            same = np.flatnonzero(values == values[nearest])
-            scenes = same if scenes is None else np.intersect1d(scenes, same)
+            scenes = left if scenes is None else np.intersect1d(scenes, left)
+        elif ":" in text:
+            parts[axis] = left
         elif interpolate and not np.isinf(value) and abs(values[nearest] - value) > SAME * abs(value):
             between.append(_between(values, axis, value))
         else:
@@ -130,21 +151,30 @@ def selection_of(
         raise DatasetError(f"--at {' --at '.join(at)}: no scene has all these values; leave one of them out")
     if interpolate and not at:
         raise DatasetError("--interpolate: there is nothing to interpolate; add --at AXIS=VALUE")
-    return Selection(fixed=fixed, between=tuple(between), scenes=scenes, over=_reductions(dataset, over, named))
+    reductions: dict[str, str] = {}
+    for option, axis, how in _wishes(dataset, "--over", over, named):
+        if points and axis not in dataset["status"].dims:
+            raise DatasetError(f"{option}: points have no axes to reduce; choose some of them with --at")
+        if axis == SOLVER:
+            raise DatasetError(f"{option}: solvers cannot be reduced; choose one with --at solver=NAME")
+        if how not in REDUCTIONS:
+            raise DatasetError(f"{option}: not a reduction; {did_you_mean(how, list(REDUCTIONS))}")
+        if how.startswith("arg") and any(other.startswith("arg") for other in reductions.values()):
+            raise DatasetError(f"{option}: the place of an extreme is already requested; reduce by max, min or mean")
+        reductions[axis] = how
+    return Selection(fixed=fixed, parts=parts, between=tuple(between), scenes=scenes, over=reductions)
 
 
 def nearest_values(dataset: xarray.Dataset, at: Sequence[str]) -> list[str]:
     """Say which wishes of `--at` are met by another value, the nearest of the axis."""
     notes = []
-    for option, axis, text in _choices("--at", at, "AXIS=VALUE"):
-        if axis == SOLVER:
+    for option, axis, text in _wishes(dataset, "--at", at, set()):
+        if axis == SOLVER or ":" in text:
             continue
-        values = np.asarray(dataset[axis].values, dtype=float)
-        value = _number(option, axis, text)
+        values, value = np.asarray(dataset[axis].values, dtype=float), _number(option, axis, text)
         near = float(values[_nearest(values, value)])
         if not np.isinf(value) and abs(near - value) > SAME * abs(value):
-            unit = f" {PHYSICAL[axis].unit}" if axis in PHYSICAL else ""
-            notes.append(f"{option}: shows {axis} = {near:.10g}{unit}, its nearest value")
+            notes.append(f"{option}: shows {axis} = {near:.10g}{_unit(axis)}, its nearest value")
     return notes
 
 
@@ -157,33 +187,24 @@ def is_log(values: NDArray[np.float64]) -> bool:
     return bool(finite.size == 2 or np.std(ratios) / np.mean(ratios) < np.std(steps) / np.mean(steps))
 
 
-def _reductions(dataset: xarray.Dataset, over: Sequence[str], named: set[str]) -> dict[str, str]:
-    """Read the wishes of `--over`."""
-    reductions: dict[str, str] = {}
-    for option, axis, how in _choices("--over", over, "AXIS=max"):
-        check_axis(dataset, option, axis)
-        _check_once(option, axis, named)
-        if SCENE in dataset["status"].dims and axis not in dataset["status"].dims:
-            raise DatasetError(f"{option}: points have no axes to reduce; choose some of them with --at")
-        if axis == SOLVER:
-            raise DatasetError(f"{option}: solvers cannot be reduced; choose one with --at solver=NAME")
-        if how not in REDUCTIONS:
-            raise DatasetError(f"{option}: not a reduction; {did_you_mean(how, list(REDUCTIONS))}")
-        if how.startswith("arg") and any(other.startswith("arg") for other in reductions.values()):
-            raise DatasetError(f"{option}: the place of an extreme is already requested; reduce by max, min or mean")
-        reductions[axis] = how
-    return reductions
-
-
-def _choices(option: str, words: Sequence[str], form: str) -> list[tuple[str, str, str]]:
-    """Take wishes apart: what was written, the axis and the rest."""
-    choices = []
+def _wishes(
+    dataset: xarray.Dataset, option: str, words: Sequence[str], named: set[str]
+) -> Iterator[tuple[str, str, str]]:
+    """Take wishes apart: what was written, the axis and the rest; each axis of the dataset may be named once."""
     for word in words:
         axis, sign, rest = (part.strip() for part in word.partition("="))
         if not (axis and sign and rest):
-            raise DatasetError(f"{option} {word}: write {option} {form}")
-        choices.append((f"{option} {word}", axis, rest))
-    return choices
+            raise DatasetError(f"{option} {word}: write {option} AXIS={'VALUE' if option == '--at' else 'max'}")
+        check_axis(dataset, f"{option} {word}", axis)
+        if axis in named:
+            raise DatasetError(f"{option} {word}: {axis} is fixed or reduced already; keep one of the two")
+        named.add(axis)
+        yield f"{option} {word}", axis, rest
+
+
+def _unit(axis: str) -> str:
+    """Give the unit of an axis behind a value; nothing if it has none."""
+    return f" {PHYSICAL[axis].unit}" if axis in PHYSICAL else ""
 
 
 def axes_of(dataset: xarray.Dataset) -> list[str]:
@@ -207,13 +228,6 @@ def check_axis(dataset: xarray.Dataset, option: str, axis: str) -> None:
         raise DatasetError(f"{option}: not an axis; {axis} follows from {' and '.join(map(str, dataset[axis].dims))}")
     remedy = did_you_mean(axis, known) if known else "it has a single scene and no axes"
     raise DatasetError(f"{option}: not an axis of this dataset; {remedy}")
-
-
-def _check_once(option: str, axis: str, named: set[str]) -> None:
-    """Refuse an axis that is named twice."""
-    if axis in named:
-        raise DatasetError(f"{option}: {axis} is fixed or reduced already; keep one of the two")
-    named.add(axis)
 
 
 def _solver(dataset: xarray.Dataset, option: str, name: str) -> int:
@@ -250,9 +264,21 @@ def _checked(option: str, values: NDArray[np.float64], axis: str, value: float) 
     if not inside:
         written = f"{finite.min():g} to {finite.max():g}" if finite.size else ""
         written = " and ".join(filter(None, (written, "inf" if np.isinf(values).any() else "")))
-        unit = f" {PHYSICAL[axis].unit}" if axis in PHYSICAL else ""
-        raise DatasetError(f"{option}: outside the axis, which has values of {written}{unit}; choose one within")
+        raise DatasetError(f"{option}: outside the axis, which has values of {written}{_unit(axis)}; choose one within")
     return value
+
+
+def _within(option: str, values: NDArray[np.float64], axis: str, text: str) -> NDArray[np.intp]:
+    """Find the items of an axis within a range such as 0.1:0.5, either end of which may be left out."""
+    low, high = (
+        _number(option, axis, end.strip()) if end.strip() else open_end
+        for end, open_end in zip(text.split(":", 1), (-np.inf, np.inf), strict=True)
+    )
+    low, high = low - SLACK * abs(low), high + SLACK * abs(high)
+    left: NDArray[np.intp] = np.flatnonzero((low <= values) & (values <= high))
+    if not left.size:
+        raise DatasetError(f"{option}: no value of the axis is within; it has {values.min():g} to {values.max():g}")
+    return left
 
 
 def _nearest(values: NDArray[np.float64], value: float) -> int:

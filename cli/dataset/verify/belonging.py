@@ -8,16 +8,21 @@ from typing import Any, Final
 
 import numpy as np
 import xarray
+from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.coordinates import following
 from gradhesion.cli.dataset.read.reader import study_text
 from gradhesion.cli.errors import DatasetError, StudyError
 from gradhesion.cli.names.outputs import labels_of
-from gradhesion.cli.names.scenes import SOLVER
+from gradhesion.cli.names.scenes import SCENE, SOLVER
 from gradhesion.cli.study.points import COMMENT, points_of
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
 from gradhesion.core.problem.inputs import INPUTS
+from gradhesion.core.problem.outputs import GIVEN_UP
+
+ONLY_SCENES: Final = "`gradhesion verify` accepts the dataset that it was taken from"
+"""What to do with values that are not those of scenes."""
 
 CLOSE: Final = 16 * 2.0**-52
 """Of a coordinate: logarithmic spacing may differ by some units in the last place from one numpy to the next."""
@@ -47,6 +52,8 @@ def study_of(
         raise _apart(path, f"its study is not valid TOML ({error})") from None
     if (kind := data.get("kind", "map")) not in kinds:
         raise DatasetError(f"{path}: contains {'an' if kind == 'optimum' else 'a'} {kind}; {wanted}")
+    if isinstance(data.get("outputs"), list):  # a file of an earlier version has them
+        data["outputs"] = [name for name in data["outputs"] if name not in GIVEN_UP]
     try:
         study = study_from(_with_fit(dataset, data), "its study", **_points_of(dataset, data, path))
     except StudyError as error:
@@ -89,36 +96,58 @@ def _points_of(dataset: xarray.Dataset, data: dict[str, Any], path: Path) -> dic
 
 
 def _check_variables(dataset: xarray.Dataset, study: Study, path: Path) -> None:
-    """Check that a dataset has what its study asks for."""
+    """Check that a dataset has what its study asks for, along its axes or a part of them."""
+    sizes = dict(dataset["status"].sizes)
     for name in (*study.variables, "status"):
+        if name not in dataset.data_vars and name in study.spreads:
+            continue  # which earlier versions did not write, and nobody recomputes
         if name not in dataset.data_vars:
             raise _apart(path, f"its study requests {name}, which the dataset lacks")
         own = labels_of(name)
-        if dict(dataset[name].sizes) != study.sizes | ({own: len(study.labels[own])} if own else {}):
-            raise _apart(path, f"the axes of {name} are not those of its study")
-    if SOLVER in study.sizes and (
-        SOLVER not in dataset.coords or tuple(dataset[SOLVER].values) != tuple(study.method.solver)
-    ):
+        if dict(dataset[name].sizes) != sizes | ({own: len(study.labels[own])} if own else {}):
+            raise _apart(path, f"the axes of {name} are not those of status")
+    for axis in [axis for axis in study.sizes if axis not in dataset.variables and axis != SCENE]:
+        raise DatasetError(
+            f"{path}: was reduced over {axis}, so that its values are not those of scenes; {ONLY_SCENES}"
+        )
+    for axis, size in ((str(axis), size) for axis, size in sizes.items()):
+        if size > (own_size := study.sizes.get(axis, 0)):
+            raise _apart(path, f"its study has {own_size:,} items of {axis}, the dataset {size:,}")
+    solvers = [str(solver) for solver in np.ravel(dataset[SOLVER].values if SOLVER in dataset else ())]
+    if [solver for solver in np.ravel(study.method.solver) if solver in solvers] != solvers:
         raise _apart(path, "its solvers are not those of its study")
 
 
 def _check_coordinates(dataset: xarray.Dataset, study: Study, path: Path) -> None:
-    """Check that the parameters of a dataset are those of its study."""
+    """Check that the parameters of a dataset are those of its study, or some of them."""
     for name, values in study.parameters.items():
         if name not in dataset.coords:
             raise _apart(path, f"its study has {name}, which the dataset lacks")
-        here = np.asarray(dataset[name].values)
-        given = np.broadcast_to(values, tuple(study.axes.values()) if study.layout == "points" else np.shape(values))
-        if here.shape != given.shape:
-            raise _apart(path, f"it has {here.size:,} values of {name}, its study {given.size:,}")
-        wrong = np.flatnonzero(~np.isclose(here, given, rtol=CLOSE, atol=0.0))
+        here, given = np.ravel(dataset[name].values), np.ravel(values)
+        nearest = given if here.size == given.size else _nearest(given, here)
+        wrong = np.flatnonzero(~np.isclose(here, nearest, rtol=CLOSE, atol=0.0))
         if wrong.size:
-            at = f"[{wrong[0]}]" if here.ndim else ""
-            both = f"{here.flat[wrong[0]]!s}, in its study {given.flat[wrong[0]]!s}"
-            raise _apart(path, f"{name}{at} is {both}")
+            at = f"[{wrong[0]}]" if dataset[name].ndim else ""
+            raise _apart(path, f"{name}{at} is {here[wrong[0]]!s}, in its study {nearest[wrong[0]]!s}")
     for name in study.made:
-        if name not in dataset.coords or dataset[name].dims != following(study, name):
+        if name not in dataset.coords or not {*dataset[name].dims} <= {*following(study, name)}:
             raise _apart(path, f"the axes of {name} are not those of its study")
+
+
+def _nearest(given: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """
+    Find for each of some values the nearest of those that a study gives.
+
+    >>> _nearest(np.array([np.inf, 1.0, 2.0]), np.array([1.9, np.inf]))
+    array([ 2., inf])
+    """
+    ordered = np.sort(given)
+    after = np.clip(np.searchsorted(ordered, values), 0, ordered.size - 1)
+    before = np.maximum(after - 1, 0)
+    with np.errstate(invalid="ignore"):
+        closer = np.abs(ordered[before] - values) < np.abs(ordered[after] - values)
+    found: NDArray[np.float64] = np.where(closer, ordered[before], ordered[after])
+    return found
 
 
 def _apart(path: Path, what: str) -> DatasetError:

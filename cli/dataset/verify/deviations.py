@@ -11,56 +11,41 @@ ROWS: Final = 12
 """Deviations that are printed one by one."""
 
 
-def lines_of(found: Recomputed, title: str, file: Path, *, digits: bool) -> Iterator[str]:
+def lines_of(found: Recomputed, title: str, file: Path) -> Iterator[str]:
     """Report what was found, line by line."""
+    every = found.deviations
     yield title
     yield (
         f"{file}: {found.scenes:,} of {counted(found.total, 'scene')} recomputed (--seed {found.seed}), "
-        f"{counted(len(found.deviations), 'value')}, solver {' and '.join(found.solvers)}"
+        f"{counted(len(every), 'value')}, solver {' and '.join(found.solvers)}"
     )
+    width = max(len("worst of each"), *(len(one.output) for one in every))
+    heads = f"{'deviation':<10} {'stated':<10} {'share':<9}"
     yield ""
-    yield f"{'worst first':<18} {'deviation':<10} {'stated':<10} {'share':<9} scene"
-    for one in found.deviations[:ROWS]:
-        yield _row(one)
-        if digits:
-            yield f"  in the dataset   {int(one.value) if one.output.endswith('_jumps') else one.value!r}"
-            yield f"  recomputed       {one.expected}"
-    if len(found.deviations) > ROWS:
-        rest = found.deviations[ROWS].share
-        yield f"... and {len(found.deviations) - ROWS:,} more, none beyond {rest:.2g} of its stated error"
+    yield f"{'worst first':<{width}} {heads} scene"
+    for one in every[:ROWS]:
+        scene = ", ".join(
+            f"{name} = {value if isinstance(value, str) else f'{value:g}'}" for name, value in one.scene.items()
+        )
+        yield f"{_numbers(one, width)} {scene or 'the only scene'}"
+    if len(every) > ROWS:
+        yield f"... and {len(every) - ROWS:,} more, none beyond {every[ROWS].share:.2g} of its stated error"
     yield ""
-    yield f"{'worst of each':<18} {'deviation':<10} {'stated':<10} {'share':<9} values"
-    for output in dict.fromkeys(one.output for one in found.deviations):
-        of_output = [one for one in found.deviations if one.output == output]
-        yield f"{_numbers(of_output[0])} {len(of_output):,}"
+    yield f"{'worst of each':<{width}} {heads} values"
+    for output in dict.fromkeys(one.output for one in every):
+        of_output = [one for one in every if one.output == output]
+        yield f"{_numbers(of_output[0], width)} {len(of_output):,}"
     yield from _left_out(found)
     yield ""
     if found.exceeding:
-        values = counted(len(found.deviations), "value")
-        yield f"{found.exceeding:,} of {values} deviate by more than their stated errors"
+        yield f"{found.exceeding:,} of {counted(len(every), 'value')} deviate by more than their stated errors"
     else:
-        yield f"all {len(found.deviations):,} values are within their stated errors"
+        yield f"all {len(every):,} values are within their stated errors"
 
 
-def _row(one: Deviation) -> str:
-    """
-    Write a deviation.
-
-    >>> _row(Deviation(output="delta_max", scene={"k": 0.5}, value=1.0, expected="1", deviation=0.0, stated=1e-13))
-    'delta_max          0          1e-13      0         k = 0.5'
-    """
-    scene = (
-        ", ".join(
-            f"{name} = {value}" if isinstance(value, str) else f"{name} = {value:g}"
-            for name, value in one.scene.items()
-        )
-        or "the only scene"
-    )
-    return f"{_numbers(one)} {scene}"
-
-
-def _numbers(one: Deviation) -> str:
-    return f"{one.output:<18} {one.deviation:<10.2g} {one.stated:<10.2g} {one.share:<9.2g}"
+def _numbers(one: Deviation, width: int) -> str:
+    """Write the first columns of a deviation."""
+    return f"{one.output:<{width}} {one.deviation:<10.2g} {one.stated:<10.2g} {one.share:<9.2g}"
 
 
 def _left_out(found: Recomputed) -> Iterator[str]:

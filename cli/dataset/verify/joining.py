@@ -1,147 +1,112 @@
-"""Datasets that differ along axes, as the dataset of one study whose axes have the values of all."""
+"""Datasets whose axes have other values, as the dataset of one study whose axes have the values of all."""
 
 import tomllib
-from collections.abc import Mapping, Sequence
-from contextlib import ExitStack
-from dataclasses import dataclass
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, Final
 
 import numpy as np
+import xarray
 from numpy.typing import NDArray
 
+from gradhesion.cli.dataset.dataset import assembled
+from gradhesion.cli.dataset.verify.belonging import study_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.study.tiling import Block, shape_of
-from gradhesion.cli.work.engines import Solved
-from gradhesion.cli.work.folder import Parts, Results
 from gradhesion.core.problem.inputs import INPUTS
 
-if TYPE_CHECKING:
-    import xarray
-
-Sources = Mapping[Path, "xarray.Dataset"]
-Places = Mapping[str, NDArray[np.intp]]
-"""Of the values of a source along an axis that is joined: where they are on the axis of all."""
+WANTED: Final = "only maps and optima on a grid can be joined"
+SHARED: Final = ("kind", "search", "outputs", "method", "profile", "spectrum", "loading", "uncertainty")
+"""What the studies of datasets that are joined have in common, beside the keys of their scenes."""
 
 
-def joined(sources: Sources) -> tuple[Study, "Joined"]:
+def joined(sources: Mapping[Path, xarray.Dataset], history: str) -> tuple[Study, xarray.Dataset]:
     """
-    Make the study of several datasets together, and the engine that takes its values from them.
+    Join datasets in memory; where several have a scene, the first one's values hold.
 
     Raises
     ------
     DatasetError
-        They differ in something else, or in nothing, or together they lack scenes; or one was changed since it was
-        written.
+        They differ in something else than the values of axes, in nothing, or lack scenes of the grid of all; or one was
+        changed since it was written.
     """
-    from gradhesion.cli.dataset.verify import belonging  # noqa: PLC0415 (xarray, which shards do without)
-
-    wanted = "only maps and optima on a grid can be joined"
     studies = {
-        file: belonging.study_of(dataset, file, kinds=("map", "optimum"), wanted=wanted)
-        for file, dataset in sources.items()
+        file: study_of(dataset, file, kinds=("map", "optimum"), wanted=WANTED) for file, dataset in sources.items()
     }
     (first, one), *others = studies.items()
+    for file, study in studies.items():
+        if study.layout != "grid":
+            raise DatasetError(f"{file}: {WANTED}, not points")
+        if dict(sources[file]["status"].sizes) != study.sizes:
+            raise DatasetError(f"{file}: has only a part of the scenes of its study; join whole datasets")
+        if missing := [name for name in study.variables if name not in sources[file]]:
+            raise DatasetError(f"{file}: lacks {missing[0]}, which earlier versions did not write; run it again")
     for file, other in others:
-        if {one.layout, other.layout} != {"grid"}:
-            raise DatasetError(f"{file}, {first}: {wanted}, not points")
-        for what in ("kind", "search", "outputs", "method", "profile", "spectrum", "loading", "uncertainty"):
-            if getattr(one, what) != getattr(other, what):
-                raise DatasetError(f"{file}: differs from {first} in {what}; join datasets that share it")
-        if one.parameters.keys() != other.parameters.keys():
-            keys = ", ".join(sorted(one.parameters.keys() ^ other.parameters.keys()))
-            raise DatasetError(
-                f"{file}: gives its scenes by different keys from {first} ({keys}); join datasets that share them"
-            )
+        _check_shared(first, one, file, other)
         written = [sources[each].attrs["source"] for each in (first, file)]
         if written[0] != written[1]:
             raise DatasetError(
                 f"{file}: was written by {written[1]}, and {first} by {written[0]}; run one of them again"
             )
-    differing = [
-        name
+    axes = {
+        name: np.unique(np.concatenate([np.atleast_1d(study.parameters[name]) for study in studies.values()]))
         for name, values in one.parameters.items()
         if any(not np.array_equal(values, other.parameters[name]) for _, other in others)
-    ]
-    if not differing:
-        raise DatasetError(f"{', '.join(map(str, studies))}: have the same scenes; join datasets that differ")
-    own = {axis: [np.atleast_1d(study.parameters[axis]) for study in studies.values()] for axis in differing}
-    values = {axis: np.unique(np.concatenate(parts)) for axis, parts in own.items()}
-    places = [
-        {axis: np.searchsorted(values[axis], own[axis][number]) for axis in differing} for number in range(len(studies))
-    ]
-    _refuse_gaps(values, places, studies)
-    data = tomllib.loads(one.text)
-    for axis in differing:
-        data = _with_axis(data, axis, values[axis])
-    return study_from(data, one.name), Joined(sources, places)
-
-
-def _refuse_gaps(
-    values: Mapping[str, NDArray[np.float64]], places: Sequence[Places], studies: Mapping[Path, Study]
-) -> None:
-    """Make sure that each combination of the values is in some dataset."""
-    covered = np.zeros([own.size for own in values.values()], bool)
-    for own in places:
-        covered[np.ix_(*own.values())] = True
-    if not covered.all():
-        gap = np.argwhere(~covered)[0]
-        cell = ", ".join(f"{axis} = {own[place]:g}" for (axis, own), place in zip(values.items(), gap, strict=True))
+    }
+    if not axes:
         raise DatasetError(
-            f"{', '.join(map(str, studies))}: differ in {' and '.join(values)}, and none of them has {cell}; run the "
-            "scenes that are missing, and join all"
+            f"{', '.join(map(str, studies))}: have the same scenes; join datasets that differ in an axis"
+        )
+    study = study_from(_with_axes(tomllib.loads(one.text), axes), one.name)
+    return study, assembled(study, _values(study, studies, sources, axes), history)
+
+
+def _check_shared(first: Path, one: Study, file: Path, other: Study) -> None:
+    """Check that two studies differ in nothing but the values of their parameters."""
+    for what in SHARED:
+        if getattr(one, what) != getattr(other, what):
+            raise DatasetError(f"{file}: differs from {first} in {what}; join datasets that share it")
+    if one.parameters.keys() != other.parameters.keys():
+        keys = ", ".join(sorted(one.parameters.keys() ^ other.parameters.keys()))
+        raise DatasetError(
+            f"{file}: gives its scenes by different keys from {first} ({keys}); join datasets that share them"
         )
 
 
-def _with_axis(data: Mapping[str, Any], axis: str, values: NDArray[np.float64]) -> dict[str, Any]:
-    """Give a study other values of an axis, in the unit of the dataset where it has one."""
-    table = INPUTS[axis].table
-    entry: list[Any] = values.tolist()
-    if table == "physical":
-        entry = ["inf" if value == np.inf else f"{value!r} {INPUTS[axis].unit}" for value in entry]
-    return {**data, table: {**data[table], axis: entry}}
+def _with_axes(data: dict[str, Any], axes: Mapping[str, NDArray[np.float64]]) -> dict[str, Any]:
+    """Give a study other values of axes, in the unit of the dataset where they have one."""
+    for name, values in axes.items():
+        table, entry = INPUTS[name].table, values.tolist()
+        if table == "physical":
+            entry = ["inf" if value == np.inf else f"{value!r} {INPUTS[name].unit}" for value in entry]
+        data = {**data, table: {**data[table], name: entry}}
+    return data
 
 
-@dataclass(frozen=True)
-class Joined:
-    """An engine that solves nothing: the values of a joined study are those of its sources."""
-
-    sources: Sources
-    places: Sequence[Places]
-    """Of each source."""
-
-    def __call__(self, parts: Parts, numbers: Sequence[int]) -> Solved:
-        """Give the blocks in order; where several sources have a value, that of the first."""
-        for number in numbers:
-            yield number, self._values(parts.study, parts.study.tiling[number]), True
-
-    def _values(self, study: Study, block: Block) -> Results:
-        """Fill a block from the last source to the first."""
-        dimensions = list(study.sizes)
-        filled: Results = {}
-        for source, places in reversed([*zip(self.sources.values(), self.places, strict=True)]):
-            source = source.reset_coords(STEEP) if STEEP in source.coords else source
-            source = source.expand_dims([axis for axis in places if axis not in source.dims])
-            here: list[NDArray[np.intp]] = []  # in the block, along each dimension
-            there: dict[str, Any] = {}
-            for axis, part in zip(dimensions, block, strict=True):
-                own = places.get(axis, np.arange(study.sizes[axis]))
-                there[axis] = np.flatnonzero((own >= part.start) & (own < part.stop))
-                here.append(own[there[axis]] - part.start)
-            known = [name for name in (*study.variables, STEEP, "status") if name in source.variables]
-            cut = source[known].isel(there).transpose(*dimensions, ...)
-            for name in known:
-                shape = study.shape_of(name, shape_of(block))
-                values = filled.setdefault(name, np.zeros(shape, cut[name].dtype))  # no scene is marked without marks
-                values[np.ix_(*here)] = cut[name].values
-        return filled
-
-
-def opened_all(files: Sequence[Path], stack: ExitStack) -> dict[Path, "xarray.Dataset"]:
-    """Open datasets until the stack is left."""
-    from gradhesion.cli.dataset.read.reader import opened  # noqa: PLC0415 (xarray, which shards do without)
-
-    return {file: stack.enter_context(opened(file)) for file in files}
+def _values(
+    study: Study,
+    studies: Mapping[Path, Study],
+    sources: Mapping[Path, xarray.Dataset],
+    axes: Mapping[str, NDArray[np.float64]],
+) -> dict[str, NDArray[Any]]:
+    """Put the values of all sources where they belong in the dataset of their common study."""
+    names = [*study.variables, "status", *([STEEP] if any(STEEP in source for source in sources.values()) else [])]
+    there = np.zeros(study.shape, bool)
+    found: dict[str, NDArray[Any]] = {}
+    for file, source in reversed([*sources.items()]):
+        own = studies[file].parameters
+        along = {axis: np.searchsorted(values, np.atleast_1d(own[axis])) for axis, values in axes.items()}
+        place = np.ix_(*(along.get(axis, np.arange(size)) for axis, size in study.sizes.items()))
+        there[place] = True
+        for name in names:
+            values = source[name] if name in source else xarray.zeros_like(source["status"])  # no scene is marked
+            values = values.expand_dims([axis for axis in axes if axis not in values.dims]).transpose(*study.sizes, ...)
+            whole = found.setdefault(name, np.empty(study.shape_of(name, study.shape), values.dtype))
+            whole[place] = values.values
+    if not there.all():
+        missing = f"{np.count_nonzero(~there):,} scenes of their common grid are in none of them"
+        files = ", ".join(map(str, sources))
+        raise DatasetError(f"{files}: differ in {' and '.join(axes)}, and {missing}; join datasets that fill it")
+    return found

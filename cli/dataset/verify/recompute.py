@@ -6,17 +6,16 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 import xarray
-from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.verify.belonging import study_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import SI, labels_of
 from gradhesion.cli.names.scenes import REALISATION, SOLVER
-from gradhesion.cli.study.study import Method, Study
+from gradhesion.cli.study.study import Study
 from gradhesion.core import FAILED, PARAMETERS
 from gradhesion.core.answers.spectrum import random_profile
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, NO_VALUE
@@ -31,15 +30,12 @@ Progress = Callable[[int], AbstractContextManager[Callable[[int], None]]]
 
 @dataclass(frozen=True, kw_only=True)
 class Scene:
-    """A cell of a dataset: where it is, its solver, its parameters, and those of them that distinguish it."""
+    """A cell of a dataset: its place along each axis, its parameters, and those of them that distinguish it."""
 
     index: Mapping[str, int]
-    """Its place along each axis, in whatever order the dataset has them."""
     solver: str
     parameters: Mapping[str, float]
     place: Mapping[str, float | str]
-    realisation: int = 0
-    """Which punch of random roughness."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,36 +89,32 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
     """
     study = study_of(dataset, path)
     if dataset["status"].dtype.kind not in "iu":
-        raise DatasetError(
-            f"{path}: its status does not consist of integers; give the dataset as it was before `where`"
-        )
-    solvers = study.method.solver
-    requested = (solvers,) if isinstance(solvers, str) else solvers
-    known = tuple(solver for solver in requested if solver in stated.SOLVERS)
+        raise DatasetError(f"{path}: its status is no integer; give the dataset as it was before `where`")
+    solvers = [str(solver) for solver in np.ravel(dataset[SOLVER].values if SOLVER in dataset else study.method.solver)]
+    known = tuple(solver for solver in solvers if solver in stated.SOLVERS)
     if not known:
         raise DatasetError(
-            f"{path}: made with the solver {' and '.join(requested)}, an approximation without an independent twin; "
+            f"{path}: made with the solver {' and '.join(solvers)}, an approximation without an independent twin; "
             f"`gradhesion verify` accepts {' and '.join(stated.SOLVERS)}"
         )
-    if study.method != Method(solver=solvers, check_contact=study.method.check_contact):  # that changes no value
-        raise DatasetError(f"{path}: its study has settings that `gradhesion verify` cannot recompute")
     if study.rate is not None:
         raise DatasetError(
             f"{path}: edges with a speed have no independent twin; `gradhesion verify` accepts only those at rest"
         )
-    if seed is None:
-        seed = random.SystemRandom().randrange(10**6)
-    found = Recomputed(seed=seed, total=study.scenes // len(requested) * len(known), solvers=known)
     outputs = [name for name in study.outputs if name in stated.KNOWN]
+    total = dataset["status"].size // len(solvers) * len(known)
+    found = Recomputed(
+        seed=random.SystemRandom().randrange(10**6) if seed is None else seed, total=total, solvers=known
+    )
     found.unknown = (
         *(name for name in study.outputs if name not in outputs and not name.endswith("_error")),
-        *(f"all of the solver {solver}" for solver in requested if solver not in known),
+        *(f"all of the solver {solver}" for solver in solvers if solver not in known),
     )
     scenes = _drawn(dataset, study, outputs, sample, found)
     scenes.sort(key=lambda scene: scene.parameters["k"])  # scenes of one exponent share what is known of it
     with progress(len(scenes)) as advance:
         for scene in scenes:
-            found.deviations += _compared(dataset, scene, shape_of(study, scene.realisation), outputs, found)
+            found.deviations += _compared(dataset, scene, _shape_of(study, scene), outputs, found)
             advance(1)
     if not found.deviations:
         raise DatasetError(
@@ -133,28 +125,31 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
     return found
 
 
-def shape_of(study: Study, realisation: int = 0) -> Shape:
-    """Give the reference solver the shape of the punch, and what is prescribed."""
-    drawn = study.spectrum
-    profile = study.profile if drawn is None else random_profile(drawn, realisation, study.profile.exponent)
+def _shape_of(study: Study, scene: Scene) -> Shape:
+    """Give the reference solver the shape of the punch of a scene, and what is prescribed."""
+    profile = study.profile
+    if study.spectrum is not None:
+        profile = random_profile(study.spectrum, int(scene.place[REALISATION]), profile.exponent)
     harmonics = tuple((wave.n, wave.cos, wave.sin) for wave in profile.harmonics)
     pattern = () if study.toughness is None else study.toughness.harmonics
     waves = tuple((wave.n, wave.cos, wave.sin) for wave in pattern if wave.cos != 0.0 or wave.sin != 0.0)
     of = "toughness" if study.toughness is None else study.toughness.of
-    return Shape(study.profile.exponent, harmonics, study.loading.control, waves, of)
+    return Shape(profile.exponent, harmonics, study.loading.control, waves, of)
 
 
 def _drawn(
     dataset: xarray.Dataset, study: Study, outputs: Collection[str], sample: int, found: Recomputed
 ) -> list[Scene]:
     """Draw scenes until `sample` of them have values that can be recomputed."""
-    coordinates = {name: dataset[name].values for name in study.parameters}
+    names = [name for name in (*study.parameters, *study.made, SOLVER, REALISATION) if name in dataset.coords]
+    cells = dataset[names].load().assign(status=dataset["status"])
+    if SOLVER in cells.dims:
+        cells = cells.isel({SOLVER: np.flatnonzero(np.isin(cells[SOLVER].values.astype(str), found.solvers))})
     scenes: list[Scene] = []
-    candidates = random.Random(found.seed).sample(range(found.total), min(found.total, CANDIDATES * sample))
-    for candidate in candidates:
+    for candidate in random.Random(found.seed).sample(range(found.total), min(found.total, CANDIDATES * sample)):
         if len(scenes) == sample:
             break
-        scene = _scene(dataset, study, coordinates, candidate, found.solvers)
+        scene = _scene(dataset, study, cells, candidate, found.solvers[0])
         status = int(dataset["status"][scene.index])
         if status & FAILED:
             found.failed += 1
@@ -162,7 +157,7 @@ def _drawn(
                 found.deviations += _without_value(dataset, scene, study.variables)
         elif missing := [name for name in PARAMETERS if math.isnan(scene.parameters[name])]:
             found.deviations += [_unlike(scene, name, math.nan, "a value, by its status") for name in missing]
-        elif _is_within_reach(scene, shape_of(study, scene.realisation), outputs):
+        elif _is_within_reach(scene, _shape_of(study, scene), outputs):
             scenes.append(scene)
         else:
             found.beyond += 1
@@ -176,37 +171,20 @@ def _is_within_reach(scene: Scene, shape: Shape, outputs: Collection[str]) -> bo
         return True
 
 
-def _scene(
-    dataset: xarray.Dataset,
-    study: Study,
-    coordinates: Mapping[str, NDArray[np.float64]],
-    candidate: int,
-    known: tuple[str, ...],
-) -> Scene:
-    """Find the cell of a number below that of all scenes of the known solvers."""
-    of_punch, realisation = divmod(candidate, study.sizes.get(REALISATION, 1))
-    which, rest = divmod(of_punch, math.prod(study.axes.values()))
-    index: tuple[Any, ...] = np.unravel_index(rest, tuple(study.axes.values()))
-    along = dict(zip(study.axes, index, strict=True))
-    if study.layout == "points":
-        parameters = {name: float(values[index]) for name, values in coordinates.items()}
-    else:
-        parameters = {
-            name: float(values[along[name]] if name in along else values) for name, values in coordinates.items()
-        }
-    place: dict[str, float | str] = {
-        name: value for name, value in parameters.items() if isinstance(study.parameters[name], np.ndarray)
-    }
-    for name in study.made:
-        own = {axis: at for axis, at in along.items() if axis in dataset[name].dims}
-        parameters[name] = float(dataset[name].isel(own))
-    if SOLVER in study.sizes:
-        place = {SOLVER: known[which], **place}
-        index = (study.method.solver.index(known[which]), *index)
-    if REALISATION in study.sizes:
-        place, index = {**place, REALISATION: realisation}, (*index, realisation)
-    places = dict(zip(study.sizes, map(int, index), strict=True))
-    return Scene(index=places, solver=known[which], parameters=parameters, place=place, realisation=realisation)
+def _scene(dataset: xarray.Dataset, study: Study, cells: xarray.Dataset, number: int, solver: str) -> Scene:
+    """Find the cell of a number among those that can be recomputed; `solver` is theirs where they have no other."""
+    status = cells["status"]
+    index = dict(zip(map(str, status.dims), map(int, np.unravel_index(number, status.shape)), strict=True))
+    cell = cells.isel(index)
+    values = {str(name): cell[name].item() for name in cell.coords}
+    solver = str(values.pop(SOLVER, solver))
+    parameters = {name: float(value) for name, value in values.items() if name != REALISATION}
+    if SOLVER in index:  # among all solvers
+        index[SOLVER] = dataset[SOLVER].values.tolist().index(solver)
+    place = {name: value for name, value in values.items() if isinstance(study.parameters.get(name), np.ndarray)}
+    place = ({SOLVER: solver} if SOLVER in dataset.coords else {}) | place
+    place |= {REALISATION: values[REALISATION]} if REALISATION in values else {}
+    return Scene(index=index, solver=solver, parameters=parameters, place=place)
 
 
 def _without_value(dataset: xarray.Dataset, scene: Scene, outputs: Collection[str]) -> Iterator[Deviation]:

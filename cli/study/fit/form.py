@@ -131,7 +131,7 @@ def _column(value: Any) -> Any:
         raise ValueError("sign is 1 or -1; write -1 to change the sign of the column")
     words = {name: item for name, item in value.items() if name != "sign"} if isinstance(value, Mapping) else {}
     sound = isinstance(words.get("column"), str) and words["column"]
-    if not sound or not all(isinstance(item, str) for item in words.values()) or {*words} - {"column", "unit"}:
+    if not sound or not all(isinstance(item, str) for item in words.values()) or {*words} - {"column", "back", "unit"}:
         what = 'write for example load = { column = "force", unit = "nN" }'
         raise ValueError(f"this must name a column of the file, with its unit; {what}")
     return dict(words, sign=int(value.get("sign", 1)))
@@ -141,6 +141,7 @@ class ColumnTable(Table):
     """A column of the data, with its unit."""
 
     column: str = said("name of the column in the header", '"depth"', min_length=1)
+    back: str = said("column of unloading, where it stands beside that of loading", '"depth_retract"', "")
     unit: str = said("unit of the column [from the header]", '"nm"', "")
     sign: int = said(
         "-1 changes the sign of the column, so that depth grows into the half-space and positive loads press", "-1", 1

@@ -25,6 +25,8 @@ BRANCHES: Final = {
     "retracting": 1.0,
     "extend": 0.0,
     "withdraw": 1.0,
+    "forward": 0.0,
+    "backward": 1.0,
     "false": 0.0,
     "true": 1.0,
 }
@@ -85,29 +87,49 @@ def read_table(path: Path, table: "DataTable") -> Raw:
     if depth.column == load.column:
         sentence = f"the column {shown(load.column)} has the depths already; name the column of the loads"
         raise LoopFileError("load", sentence)
-    wanted = {depth_key: depth.column, "load": load.column, "branch": table.branch, "cycle": table.cycle}
+    if bool(depth.back) != bool(load.back) or (depth.back and (table.branch or table.cycle)):
+        sentence = "back names the columns of unloading, of depths and of loads, and then there is no branch or cycle"
+        raise LoopFileError("load" if depth.back else depth_key, f"{sentence}; write all of them so")
+    wanted = [(depth_key, depth.column), ("load", load.column), ("branch", table.branch), ("cycle", table.cycle)]
+    wanted += [(depth_key, depth.back), ("load", load.back)]
     words = {table.branch: words_of(table)} if table.branch else {}
     try:
         found = read_columns(
             path,
-            only=[name for name in wanted.values() if name],
+            only=[name for _, name in wanted if name],
             words=words,
             whole=[table.cycle] if table.cycle else [],
         )
     except ColumnsError as error:
         raise LoopFileError("file", str(error)) from None
-    for key, name in wanted.items():
+    for key, name in wanted:
         if name and name not in found.values:
             there = (*found.values, *found.others)
             raise LoopFileError(key, f"the file has no column {shown(name)}; {did_you_mean(name, there)}")
+    if depth.back:
+        return _side_by_side(found, depth_key, depth, load)
     missing = np.isnan(found.values[table.cycle]) if table.cycle else np.zeros(found.rows, bool)
     return Raw(
         depth=np.where(missing, np.nan, _scaled(found, depth_key, depth, "length")),
         load=_scaled(found, "load", load, "force"),
         branch=found.values[table.branch] if table.branch else None,
-        cycle=found.whole[table.cycle] if table.cycle else None,
+        cycle=np.nan_to_num(found.values[table.cycle]).astype(np.int64) if table.cycle else None,
         sha256=found.sha256,
     )
+
+
+def _side_by_side(found: Columns, depth_key: str, depth: "ColumnTable", load: "ColumnTable") -> Raw:
+    """Put unloading, which has columns of its own, behind loading, in the order of a cycle."""
+    ways = []
+    for word in ("column", "back"):
+        own = (one.model_copy(update={"column": getattr(one, word)}) for one in (depth, load))
+        points = np.array([_scaled(found, *each) for each in zip((depth_key, "load"), own, _DIMENSIONS, strict=True)])
+        points = points[:, ~np.isnan(points).all(axis=0)]  # the shorter of the two is padded
+        falls = points.size > 0 and points[0, -1] < points[0, 0]
+        ways.append(points if falls == (word == "back") else points[:, ::-1])
+    branch = np.repeat([0.0, 1.0], [way.shape[1] for way in ways])
+    both = np.concatenate(ways, axis=1)
+    return Raw(depth=both[0], load=both[1], branch=branch, sha256=found.sha256)
 
 
 def _scaled(found: Columns, key: str, requested: "ColumnTable", dimension: str) -> NDArray[np.float64]:

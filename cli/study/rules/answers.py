@@ -95,6 +95,9 @@ class Uncertainty:
 
     def spreads(self, outputs: tuple[str, ...], *, exact: bool) -> tuple[str, ...]:
         """Name the variables that a dataset has beside its outputs."""
-        linear, ways = self.linear(outputs, exact=exact), tuple(SPREAD) if self.samples else tuple(SPREAD)[:1]
-        known = [name for name in outputs if self and name in SPREADABLE and (self.samples or name in linear)]
-        return tuple(f"{name}_{way}" for name in known for way in ways)
+        linear = self.linear(outputs, exact=exact)
+        if not self.samples:
+            return tuple(f"{name}_std" for name in linear)
+        known = [name for name in outputs if self and name in SPREADABLE]
+        ways = {name: [way for way in SPREAD if way != "std_linear" or name in linear] for name in known}
+        return tuple(f"{name}_{way}" for name in known for way in ways[name])

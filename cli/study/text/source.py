@@ -13,6 +13,7 @@ from typing import Any, Final
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.files import kind_of
 from gradhesion.cli.study.text import places
+from gradhesion.cli.study.text.fitted import fitted_value
 from gradhesion.cli.terminal import wording
 
 MOST_BYTES: Final = 2**28
@@ -216,6 +217,12 @@ def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[plac
                 f"--set {shown}: nested more than {places.DEEPEST} deep, too deep for a study; remove levels"
             )
             continue
+        if parsed.keys() != {"value"} and value.strip().endswith(".nc") and '"' not in value:
+            try:
+                parsed = {"value": fitted_value(Path(value.strip()), steps[-1])}
+            except ValueError as error:
+                mistakes.append(f"--set {override}: {error}")
+                continue
         if parsed.keys() != {"value"}:
             quoted = f"[{value.strip()}]" if _is_list(value) else json.dumps(value.strip(), ensure_ascii=False)
             if _is_list(value):

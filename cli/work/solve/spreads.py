@@ -69,11 +69,11 @@ def solve_uncertain(study: Study, block: Block, threads: int | None) -> Arrays:
     watch = study.watches_slope
     found = centre.solve(centre.given, tuple(dict.fromkeys((*study.outputs, *more))), watch=watch)
     linear = {name: values for one in study.linear for name, values in _linear(centre, one, found).items()}
-    made = {_named(name, "std"): _deviation(centre, linear[name]) for name in linear}
+    by_slopes = "std_linear" if study.uncertainty.samples else "std"
+    made = {_named(name, by_slopes): _deviation(centre, linear[name]) for name in linear}
     if study.uncertainty.samples:
-        sampled = _sampled(centre, study.uncertainty, found["status"].shape)
-        off = [differ(made[_named(name, "std")], sampled[_named(name, "std")]) for name in linear]
-        made = sampled | made
+        made |= _sampled(centre, study.uncertainty, found["status"].shape)
+        off = [differ(made[_named(name, by_slopes)], made[_named(name, "std")]) for name in linear]
     else:
         off = _off_the_line(centre, study.uncertainty.seed, found, linear)
     failed = (found["status"] & NO_VALUE) != 0

@@ -145,7 +145,7 @@ WRONG = {
     ("0.023", "nan"): "line 3: A is missing (NaN); give it, or remove the row",
     ("0.041", "-0.041"): "line 4: A = -0.041 is out of range; choose a value with A >= 0, and finite",
     ("517.3", "inf"): "line 3: modulus = inf is out of range",
-    ("611.9", "six"): "line 4: modulus is not a number; write one",
+    ("611.9", "six"): 'line 4: modulus = "six" is not a number; write one',
     ("430.0,", "430.0"): "line 2 has 3 values under 4 names",
     ("1.7", "nan"): "line 2: a_max_over_R is missing (NaN)",
     ("0.9", "-0.9"): "line 4: a_max_over_R = -0.9 is out of range",

@@ -178,7 +178,7 @@ FILES = {
     "r [um],height [V]\n1,2\n": "the unit of height [V] is not a length",
     "r [um],height [nm]\n1,2\n": "too few",
     "r [um],height [nm]\n1,nan\n": "no row has two numbers",
-    "r [um],height [nm]\n1,two\n": "line 2: height is not a number; write one",
+    "r [um],height [nm]\n1,two\n": 'line 2: height = "two" is not a number; write one',
 }
 
 

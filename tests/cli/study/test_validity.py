@@ -81,3 +81,25 @@ def test_info_counts_what_is_beyond_the_model(
     assert "2 of 8 scenes" in lines["wave_slope"]
     assert "2 of 8 scenes" in lines["johnson_alpha"], "chi = 0.886 at the largest amplitude, 0.177 at the one before"
     assert gradhesion("verify", tmp_path / "out.nc").exit_code == 2, "there is nothing to recompute"
+
+
+@pytest.mark.parametrize(
+    ("more", "steep", "apart"),
+    [
+        ({}, 2, 2),
+        ({"profile": {"harmonics": [{"n": 1, "cos": 0.0, "sin": 0.2}]}}, 0, 0),
+        ({"outputs": ["pull_off_force", "wave_slope"]}, 2, 0),
+    ],
+)
+def test_run_and_info_say_how_many_waves_are_steep_and_how_many_scenes_not_one_disc(
+    more: dict[str, Any], steep: int, apart: int, gradhesion: Call, tmp_path: Path, write_study: Callable[[str], Path]
+) -> None:
+    """Two of four amplitudes have 2 pi A above 0.5, and there chi is above 1/2 and loading not one disc."""
+    numbers = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1, "a_max_over_R": 1.0}
+    study = {"outputs": ["dissipated_energy"], "parameters": numbers | {"A": [0.01, 0.05, 0.1, 0.2]}} | more
+    result = gradhesion("run", write_study(study_from(study).text), "-o", tmp_path / "out.nc")
+    assert result.exit_code == 0
+    assert ("slopes above 0.5 in 2 of 4 scenes" in result.stderr) == (steep > 0 and "outputs" not in more)
+    assert ("not one disc in 2 of 4 scenes" in result.stderr) == (apart > 0)
+    told = gradhesion("info", tmp_path / "out.nc").stdout.partition("outside the range of the model\n")[2]
+    assert ("wave_slope" in told) == (steep > 0)

@@ -15,7 +15,7 @@ from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.dataset.read.reader import opened
 from gradhesion.cli.names.curves import CURVES, INTEGERS
 from gradhesion.cli.study.reading import study_from
-from gradhesion.cli.words.jump_words import jump_lines, jumps_listed
+from gradhesion.cli.words.table import jumps_listed
 from gradhesion.core import draw_curves, solve
 from gradhesion.core.problem.inputs import INPUTS
 
@@ -130,8 +130,6 @@ def test_info_tells_them_in_words(gradhesion: Call, dataset_file: Callable[..., 
         f", {where} status: 6 of 6 scenes",
     ):
         assert words in told, words
-    with opened(path) as dataset:
-        assert list(jump_lines(dataset, items=7)) == list(jump_lines(dataset)), "read in whatever pieces"
 
 
 def test_info_lists_them_as_csv_without_losing_a_digit(gradhesion: Call, dataset_file: Callable[..., Path]) -> None:

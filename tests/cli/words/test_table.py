@@ -14,7 +14,6 @@ from click.testing import Result
 
 from gradhesion.cli.dataset.writer import write
 from gradhesion.cli.study.reading import study_from
-from gradhesion.cli.words import table
 
 Call = Callable[..., Result]
 
@@ -81,15 +80,6 @@ def test_a_curve_has_a_line_for_each_of_its_points(gradhesion: Call, written: Ca
         result = gradhesion("info", path, "--format", "csv", *wrong)
         assert result.exit_code == 2
         assert sentence in result.stderr
-
-
-def test_a_large_table_is_refused(
-    gradhesion: Call, written: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(table, "MOST", 23)
-    result = gradhesion("info", written(), "--format", "csv")
-    assert result.exit_code == 2
-    assert "24 lines, and a table has at most 23; read it with xarray or NCO instead" in result.stderr
 
 
 def test_variables_belong_to_a_table(gradhesion: Call, written: Callable[..., Path]) -> None:

@@ -61,7 +61,7 @@ def test_a_plan_and_python_say_it_as_well(
     assert len(gradhesion("plan", study_file, "--json").stderr.splitlines()) == 1
     (folder / "another").mkdir()
     monkeypatch.setattr(compiling, "place", lambda: Place(folder / "another", ""))
-    scene = dict.fromkeys(data["parameters"], 0.3)
+    scene = dict.fromkeys(data["parameters"], 0.3) | {"A": 0.01}
     gr.solve(scene, "pull_off_force")
     gr.curves(scene, "path")
     assert len(capsys.readouterr().err.splitlines()) == 1

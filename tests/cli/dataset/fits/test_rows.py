@@ -1,11 +1,13 @@
 """What a dataset has of a fit beyond its values, and what `info` says of it; nothing is fitted here."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from click.testing import Result
 
 import gradhesion as gr
 from gradhesion.cli.dataset.fits.fit import dataset_of, write_fit
@@ -13,13 +15,13 @@ from gradhesion.cli.dataset.read.reader import opened
 from gradhesion.cli.names.fits import FIT_MORE
 from gradhesion.cli.picture.fits.fit import drawn_fit
 from gradhesion.cli.study.fit.study import FitStudy
-from gradhesion.cli.words.fit_words import fit_described
-from gradhesion.cli.words.loops_words import loops_described
+from gradhesion.cli.words.fit_words import fits_described
 from gradhesion.cli.work.solve.fitting import Fit
 from gradhesion.core.loops.fitted import FittedLoop, OtherMinimum
 from gradhesion.core.loops.measured.features import ContactPoint
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, NO_VALUE, POOR_FIT
 
+Call = Callable[..., Result]
 CONFIGS = Path(__file__).parents[4] / "configs"
 
 
@@ -79,7 +81,7 @@ def test_a_dataset_has_minima_ranges_and_the_contact_point(study: FitStudy, tmp_
             zip(dataset["status"].attrs["flag_meanings"].split(), dataset["status"].attrs["flag_masks"], strict=True)
         )
         assert (masks["poor_fit"], masks["another_minimum"]) == (2048, 4096)
-        told = "\n".join(fit_described(dataset, path))
+        told = "\n".join(fits_described(dataset, path))
     for words in (
         "contact point: 2 +- 0.1 nm, found before the fit (the end of the base line)",
         "widened by 1.5 for residuals above the noise",
@@ -98,7 +100,7 @@ def test_a_file_of_version_0_2_is_read(study: FitStudy, tmp_path: Path) -> None:
     old = sound.drop_vars([name for name in FIT_MORE if name in sound]).assign_attrs(noise)
     old.to_netcdf(path)
     with opened(path) as dataset:
-        told = "\n".join(fit_described(dataset, path))
+        told = "\n".join(fits_described(dataset, path))
         drawn_fit(dataset)
     assert "noise: 0.25 nm and 7 nN, given" in told
     assert "reduced 2.25" in told
@@ -115,7 +117,37 @@ def test_side_by_side_minima_are_padded(study: FitStudy, tmp_path: Path) -> None
     path = tmp_path / "all.nc"
     write_fit(several, fits, path, history="made by a test", overwrite=False)
     with opened(path) as again:
-        told = list(loops_described(again, path))
+        told = list(fits_described(again, path))
     assert sum("another minimum within the noise" in line for line in told) == 2
     assert any(line.endswith("poor_fit another_minimum") for line in told)
+    assert not any("+-" in line for line in told), "what stands beside 95 % is an interval"
+    median = told.index("median of 1 loop without such a flag, with quartiles") + 1
+    assert told[median].split() == ["E_star", "1e+07", "1e+07", "to", "1e+07"], "not of the loop that is flagged"
     assert "force_curve.csv: it has no path" in told
+
+
+def test_a_fitted_value_is_taken_for_a_key(study: FitStudy, tmp_path: Path, gradhesion: Call) -> None:
+    sound, poor = tmp_path / "sound.nc", tmp_path / "poor.nc"
+    write_fit(study, [fit(study, others=(), status=0)], sound, history="made by a test", overwrite=False)
+    write_fit(study, [fit(study)], poor, history="made by a test", overwrite=False)
+    scene = tmp_path / "scene.toml"
+    scene.write_text(
+        'outputs = ["pull_off_force"]\n[parameters]\nk = 0.0\nnu = 0.3\n[physical]\nR = "5 um"\na_max = "1 um"\n'
+    )
+    keys = ("physical.E_star", "physical.work_of_adhesion", "physical.wavelength", "parameters.A")
+    sets = [f"--set={key}={sound}" for key in keys]
+    assert gradhesion("run", scene, "-o", tmp_path / "scene.nc", *sets).exit_code == 0
+    with opened(tmp_path / "scene.nc") as found:
+        assert [found[name].item() for name in ("E_star", "work_of_adhesion", "wavelength", "A")] == [
+            1e7, 0.03, 5e-7, 0.01
+        ]  # fmt: skip
+        assert 'E_star = "10000000.0 Pa"' in found.attrs["study"]
+    for wrong, words in {
+        f"physical.R={sound}": "the fit has no R",
+        f"physical.E_star={poor}": "the fit is flagged",
+        f"physical.E_star={tmp_path / 'scene.nc'}": "not that of a fit",
+        f"physical.E_star={tmp_path / 'none.nc'}": "not the dataset of a fit",
+    }.items():
+        result = gradhesion("validate", scene, *sets[1:], "--set", wrong)
+        assert result.exit_code == 2
+        assert words in result.stderr

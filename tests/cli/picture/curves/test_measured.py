@@ -99,7 +99,7 @@ WRONG = {
     "depth [nm],forse [nN]\n1,2\n": 'the file has depth alone; rename "forse" to "force"',
     "x,y\n1,2\n": "the file has none of them; name them in the header",
     "depth [nm],force [nN]\nnan,2\n1,nan\n": "no row has numbers in all of depth, force",
-    "depth [nm],force [nN]\n1,x\n": "line 2: force is not a number; write one",
+    "depth [nm],force [nN]\n1,x\n": 'line 2: force = "x" is not a number; write one',
     "depth [nm],force [nN]\n1\n": "line 2 has 1 value under 2 names",
 }
 

@@ -104,7 +104,7 @@ def test_pauses_are_left_out_by_label_and_counted(folder: Path) -> None:
     words = [*300 * ["approach"], *50 * ["hold"], *50 * ["Wait here"], *300 * ["retract"]]
     written(folder / "loop.csv", joined, way=words)
     told = refused(data__branch="way")
-    assert 'way is not one of its words; choose from "loading", "unloading"' in told
+    assert 'way = "Wait here" is not one of its words; choose from "loading", "unloading"' in told
     study = load(data__branch="way", data__leave_out=["wait here"])
     np.testing.assert_allclose(study.loop.depth, 1e-9 * rows["depth"], rtol=1e-12)
     assert study.loop.paused == 100
