@@ -14,7 +14,7 @@ from gradhesion.core.curve.trace import END, END_LEVEL, LANDING, START
 from gradhesion.core.curve.values import Curve, load_curve, softness, state_in
 from gradhesion.core.cycle.disc import Disc, gap_is_open, loading_is_one_disc
 from gradhesion.core.cycle.path import Loaded, Unloaded, load_to, snap_in, unload_from, visited_within, walk_loading
-from gradhesion.core.cycle.pull_off import Lowest, serves, lowest_load
+from gradhesion.core.cycle.pull_off import Lowest, lowest_load, serves
 from gradhesion.core.cycle.residual import work_of_cycle
 from gradhesion.core.cycle.ties import loading_is_tied, rim_is_tied, target_is_tied, unloading_is_tied
 from gradhesion.core.cycle.turning import turning_radius

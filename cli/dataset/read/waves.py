@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core.problem.profile import Harmonic, Profile
-from gradhesion.core.problem.profile import rows_of, swings
+from gradhesion.core.problem.profile import Harmonic, Profile, rows_of, swings
 
 if TYPE_CHECKING:
     import xarray
