@@ -4,8 +4,6 @@ A kernel is a function of floats, arrays and NamedTuples. It neither raises nor 
 step) is the only freedom that its arithmetic has; sums of quadrature may be reordered as well. `isnan` keeps its
 meaning everywhere.
 
-Numba counts references to arrays, but not in functions that call leaves alone and end in one place: inner loops do so.
-
 Numba notices an edit in the file of a kernel, but not in the files of those that it calls. Code is therefore kept in a
 folder that is named after a digest of all sources of the core. Code that is kept is run unchecked, and numba's index
 of it is a pickle: a folder is used only if this user and the system alone can change what is in it.
