@@ -15,7 +15,7 @@ _OPTIONS: Final = (
     (r"--(xlim|ylim|inset) 0\.1:0\.5", r"\1=(0.1, 0.5)"),
     (r"--(xlim|ylim|inset|band)\b", r"\1"),
     (r"--x indentation --y load", 'x="indentation", y="load"'),
-    (r"--(data|set|at|over|variable|x|y|interpolate|width|height|levels|style|sample|seed)\b", r"\1"),
+    (r"--(data|set|at|over|variable|x|y|xlabel|ylabel|interpolate|width|height|levels|style|sample|seed)\b", r"\1"),
     (r"(?:; )?name another with -o", ""),
 )
 """Options of commands are keywords in Python."""

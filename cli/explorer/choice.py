@@ -12,7 +12,7 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.curves import RAGGED, STATE_CURVES, curve_of
 from gradhesion.cli.names.outputs import PARETO_POINT, SI
 from gradhesion.cli.names.scenes import SCENE
-from gradhesion.cli.picture.curves.axes import wants_si
+from gradhesion.cli.picture.curves import wants_si
 from gradhesion.cli.terminal.wording import did_you_mean
 
 MOST: Final = 20_000_000

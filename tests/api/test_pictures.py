@@ -64,7 +64,7 @@ def test_axes_are_reduced_and_given_their_places(grid: xarray.Dataset) -> None:
         ({"xlim": (0.3, 0.2)}, "xlim 0.3:0.2: the lower limit comes first and is below the upper one; write 0.2:0.3"),
         ({"xlim": 0.3}, "xlim 0.3: not two ends with a colon between them; write xlim=(0.1, 0.5)"),
         ({"inset": (0.2, 0.3)}, "inset 0.2:0.3: an inset goes into a single panel of lines; choose one variable"),
-        ({"band": "std"}, "band std: pull_off_force has no spread in this dataset; add [uncertainty] to its study"),
+        ({"band": "std"}, "band std: pull_off_force has no such spread in this dataset; add [uncertainty]"),
     ],
 )
 def test_wishes_that_cannot_be_met(arguments: dict[str, Any], sentence: str, grid: xarray.Dataset) -> None:
