@@ -62,11 +62,13 @@ def finish(
     entries: Sequence[Artist],
     size: tuple[float, float],
     panels: Iterable[Axes],
+    laid_out: bool = False,
 ) -> None:
     """
     Size a picture, and put the words around its panels: title and caption above, a legend below.
 
-    The size in inches is that which suits its panels; words and sides that are chosen come first.
+    The size in inches is that which suits its panels; words and sides that are chosen come first. Numbers on contours
+    and an inset need it `laid_out`, with everything in its place.
 
     Raises
     ------
@@ -92,6 +94,8 @@ def finish(
     shrunk = min(1.0, width / size[0])
     lines = math.ceil(len(entries) / columns) + (above.count("\n") + 2 if above else 0)
     figure.set_size_inches(width, looks.height or size[1] * shrunk + LINE * lines)
+    if not (laid_out or looks.width or looks.height or looks.inset):
+        return
     with warnings.catch_warnings():
         warnings.filterwarnings("error", "constrained_layout not applied")
         warnings.filterwarnings("ignore", "Glyph .* missing from")

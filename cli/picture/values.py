@@ -102,6 +102,7 @@ def drawn(
             entries=_entries(shown, grid[0, 0].get_legend_handles_labels()[0], plan, part.sizes[plan.x]),
             size=size,
             panels=[axes for panels in parts[: len(names)] for axes in panels.flat],
+            laid_out=bool(contours) and looks.labels,
         )
         for lines, one in contours if looks.labels else ():
             number_contours(lines, one)
