@@ -1,4 +1,4 @@
-"""The Pareto front of two outputs: one against the other, a line for each scene."""
+"""The Pareto front of two outputs: one against the other, points of each scene."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -13,9 +13,10 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import BEST, PARETO_POINT, SI
 from gradhesion.cli.picture.labels import effective, equation, equations
 from gradhesion.cli.picture.looks import Looks
-from gradhesion.cli.picture.panels import DASHES, MARKS
+from gradhesion.cli.picture.panels import MARKS
 from gradhesion.cli.picture.pictured import finish, styled
 from gradhesion.cli.picture.scales import suit
+from gradhesion.cli.picture.tracks import MARKERS
 from gradhesion.cli.terminal.wording import did_you_mean
 from gradhesion.core.problem.inputs import INPUTS
 
@@ -48,11 +49,11 @@ def draw_fronts(
             axes.plot(
                 first[there],
                 second[there],
-                ls=DASHES[i % len(DASHES)],
+                ls="",  # there is nothing in a gap
                 color=looks.colours(0.85 * i / max(1, lines - 1)),
-                marker="." if there.sum() <= MARKS else "",
-                ms=4,
-                lw=1.1,
+                marker=MARKERS[i % len(MARKERS)],
+                ms=3.5 if there.sum() <= MARKS else 2.0,
+                mew=0.0,
                 label=", ".join(own[i] for own in words),
             )
         suit(axes, "x", along, looks.xlim)
@@ -61,7 +62,7 @@ def draw_fronts(
             axis.set_label_text(axis.get_label_text().removeprefix("best "))
         axes.grid(color="0.9", lw=0.5)
         if scenes:
-            axes.legend()
+            axes.legend(markerscale=1.5)
         caption = [equation(name, float(narrow[name])) for name in effective(narrow) if narrow[name].size == 1]
         caption += slope_warnings(narrow)
         finish(figure, looks, dataset=dataset, caption=caption, entries=[], size=(4.2, 3.0), panels=[axes])
