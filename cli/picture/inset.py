@@ -80,6 +80,14 @@ def fit_heights(axes: Axes) -> None:
         axes.set_ylim(*(axes.transAxes - axes.transData).transform([[0.0, end] for end in found])[:, 1])
 
 
+def along(line: Places, step: float) -> Places:
+    """Give points of a line with others between them, at most 500 a piece and some step apart."""
+    pieces = np.diff(line, axis=0)
+    longest = np.nanmax(np.hypot(*pieces.T), initial=0.0)
+    shares = np.linspace(0.0, 1.0, min(500, int(longest / step) + 2))[:-1, None, None]
+    return np.vstack([(line[:-1] + shares * pieces).reshape(-1, 2), line[-1:]])
+
+
 def _points(axes: Axes) -> Places:
     """List points of all that is drawn in a panel, in shares of its sides, so near that no inset falls between."""
     drawn = [
@@ -92,12 +100,7 @@ def _points(axes: Axes) -> Places:
     found = [np.empty((0, 2))]
     for vertices, transform, single in drawn:
         places = (transform - axes.transAxes).transform(vertices)
-        found.append(places)
-        steps = np.diff(places, axis=0)
-        longest = np.nanmax(np.hypot(*steps.T), initial=0.0)
-        if not single and longest > STEP:
-            shares = np.linspace(0.0, 1.0, min(500, int(longest / STEP) + 2))[1:-1, None, None]
-            found.append((places[:-1] + shares * steps).reshape(-1, 2))
+        found.append(places if single else along(places, STEP))
     points = np.vstack(found)
     return points[np.isfinite(points).all(axis=1)]
 

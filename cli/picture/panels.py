@@ -9,6 +9,7 @@ from matplotlib.contour import QuadContourSet
 from numpy.typing import NDArray
 
 from gradhesion.cli.picture.doubts import CROSS, GREY, INK
+from gradhesion.cli.picture.inset import along
 from gradhesion.cli.picture.labels import equations
 from gradhesion.cli.picture.looks import Looks
 from gradhesion.cli.picture.plan import Plan
@@ -37,6 +38,9 @@ ABOVE_GRID: Final = 1.8
 
 ASIDE: Final = 0.4
 """The height within a category over which lines are spread, so that none hides another."""
+
+ROOM: Final = 5.0
+"""The length of a line that has room for a number, in widths of the number."""
 
 CELLS: Final = (60, 34)
 """Hexagons along the sides of a panel of many points."""
@@ -102,28 +106,38 @@ def _draw_contours(
 
 def number_contours(lines: QuadContourSet, shown: Shown) -> None:
     """
-    Put a number on a line of each level, that nearest to the middle where it is whole; the layout must stand.
+    Put a number on a line of each level, that nearest to the middle where it fits; the layout of the figure must stand.
 
-    On a small island it would hide the line, and at the frame it would be cut off.
+    It fits where it is whole and clear of other lines and numbers, and not on a small island, which it would hide.
     """
 
     def is_long(line: Any, width: float) -> bool:
-        return len(line) > 1 and float(np.ptp(line, axis=0).max()) > 2.0 * width
+        return len(line) > 1 and float(np.ptp(line, axis=0).max()) > ROOM * width
 
     lines.print_label = is_long  # type: ignore[method-assign, assignment]
     looks: dict[str, Any] = {"fmt": shown.unit.number, "fontsize": "x-small"}
-    frame = lines.axes.get_window_extent()
+    frame, transform = lines.axes.get_window_extent(), lines.get_transform()
     middle = np.mean(frame.get_points(), axis=0)
-    best: dict[str, tuple[float, Any]] = {}
-    for text in [*lines.clabel(inline=False, **looks)]:
-        box = text.get_window_extent()
-        if frame.contains(box.x0, box.y0) and frame.contains(box.x1, box.y1):
-            found = float(np.hypot(*(np.mean(box.get_points(), axis=0) - middle))), text.get_position()
-            best[text.get_text()] = min(found, best.get(text.get_text(), found))
+    taken = {
+        shown.unit.number(level): np.vstack(
+            [np.empty((0, 2)), *(along(transform.transform(one), 2.0) for one in pieces)]
+        )
+        for level, path in zip(lines.levels, lines.get_paths(), strict=True)
+        if (pieces := path.to_polygons(closed_only=False))
+    }
+    tried = [(text.get_window_extent().padded(2.0), text) for text in lines.clabel(inline=False, **looks)]
+    best: dict[str, tuple[float, float]] = {}
+    for box, text in sorted(tried, key=lambda one: np.hypot(*(np.mean(one[0].get_points(), axis=0) - middle))):
+        words = text.get_text()
+        others = [points for level, points in taken.items() if level != words]
+        whole = frame.contains(box.x0, box.y0) and frame.contains(box.x1, box.y1)
+        if words not in best and whole and not any(box.count_contains(points) for points in others):
+            best[words] = text.get_position()
+            taken[f"number {words}"] = box.corners()
         text.remove()
     lines.labelTexts.clear()
     if best:
-        lines.clabel(manual=[place for _, place in best.values()], inline_spacing=2, **looks)
+        lines.clabel(manual=[*best.values()], inline_spacing=2, **looks)
 
 
 def _lightness(colours: Any) -> Any:
