@@ -74,10 +74,7 @@ def drawn(
     part = narrow.isel(items)
     shown = [shown_of(part, name, plan, selection, looks) for name in names]
     rows, columns = (part.sizes[axis] if axis else 1 for axis in (plan.rows, plan.columns))
-    page = looks.width or np.inf
-    is_flat = looks.height is not None and page > 2.0 * looks.height
-    below_each_other = page < NARROW * len(names) or (columns > 1 and not is_flat)
-    beside = 1 if below_each_other else min(len(names), BESIDE)
+    beside = _beside(len(names), columns, looks)
     below = -(-len(names) // beside)
     width, height = (2.1, 1.8) if columns > 1 else (3.6, 2.9)
     room = 2.2 if any(one.names for one in shown) else 1.2
@@ -85,8 +82,8 @@ def drawn(
         figure = Figure(layout="constrained")
         grid = figure.subplots(rows * below, columns * beside, squeeze=False)
         parts = [half for band in np.split(grid, below) for half in np.split(band, beside, axis=1)]
-        for empty in parts[len(names) :]:
-            empty[0, 0].remove()
+        for axes in [axes for empty in parts[len(names) :] for axes in empty.flat]:
+            axes.remove()
         size = beside * (width * columns + room), below * (height * rows + 0.6)
         share = (looks.height or size[1]) / size[1]
         contours = []
@@ -168,6 +165,14 @@ def _check(looks: Looks, names: Sequence[str], plan: Plan) -> None:
             f"{looks.inset}: an inset goes into a single panel of lines; choose one variable with --variable, and fix "
             "axes with --at"
         )
+
+
+def _beside(count: int, columns: int, looks: Looks) -> int:
+    """Choose how many variables stand in one line: those with several columns of panels do on a flat page alone."""
+    page = looks.width or np.inf
+    is_flat = looks.height is not None and page > 2.0 * looks.height
+    below_each_other = page < NARROW * count or (columns > 1 and not is_flat)
+    return 1 if below_each_other else min(count, BESIDE)
 
 
 def _draw(figure: Figure, panels: Any, shown: Shown, plan: Plan, looks: Looks, height: float) -> list[Any]:
