@@ -6,6 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.contour import QuadContourSet
+from matplotlib.font_manager import FontProperties
+from matplotlib.transforms import Bbox
 from numpy.typing import NDArray
 
 from gradhesion.cli.picture.doubts import CROSS, GREY, INK
@@ -39,8 +41,14 @@ ABOVE_GRID: Final = 1.8
 ASIDE: Final = 0.4
 """The height within a category over which lines are spread, so that none hides another."""
 
-ROOM: Final = 5.0
+ROOM: Final = 3.0
 """The length of a line that has room for a number, in widths of the number."""
+
+SHARES: Final = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9)
+"""Where along a line a number may stand, the best place first."""
+
+WIDE: Final = 0.5
+"""The width of a letter of a number over its size."""
 
 CELLS: Final = (60, 34)
 """Hexagons along the sides of a panel of many points."""
@@ -106,38 +114,32 @@ def _draw_contours(
 
 def number_contours(lines: QuadContourSet, shown: Shown) -> None:
     """
-    Put a number on a line of each level, that nearest to the middle where it fits; the layout of the figure must stand.
+    Put a number on the longest piece of each line where it fits; the layout of the figure must stand.
 
     It fits where it is whole and clear of other lines and numbers, and not on a small island, which it would hide.
     """
-
-    def is_long(line: Any, width: float) -> bool:
-        return len(line) > 1 and float(np.ptp(line, axis=0).max()) > ROOM * width
-
-    lines.print_label = is_long  # type: ignore[method-assign, assignment]
-    looks: dict[str, Any] = {"fmt": shown.unit.number, "fontsize": "x-small"}
     frame, transform = lines.axes.get_window_extent(), lines.get_transform()
-    middle = np.mean(frame.get_points(), axis=0)
-    taken = {
-        shown.unit.number(level): np.vstack(
-            [np.empty((0, 2)), *(along(transform.transform(one), 2.0) for one in pieces)]
-        )
-        for level, path in zip(lines.levels, lines.get_paths(), strict=True)
-        if (pieces := path.to_polygons(closed_only=False))
-    }
-    tried = [(text.get_window_extent().padded(2.0), text) for text in lines.clabel(inline=False, **looks)]
-    best: dict[str, tuple[float, float]] = {}
-    for box, text in sorted(tried, key=lambda one: np.hypot(*(np.mean(one[0].get_points(), axis=0) - middle))):
-        words = text.get_text()
-        others = [points for level, points in taken.items() if level != words]
-        whole = frame.contains(box.x0, box.y0) and frame.contains(box.x1, box.y1)
-        if words not in best and whole and not any(box.count_contains(points) for points in others):
-            best[words] = text.get_position()
-            taken[f"number {words}"] = box.corners()
-        text.remove()
-    lines.labelTexts.clear()
-    if best:
-        lines.clabel(manual=[*best.values()], inline_spacing=2, **looks)
+    letter = FontProperties(size="x-small").get_size_in_points() * lines.axes.get_figure(root=True).dpi / 72 * WIDE  # type: ignore[union-attr]
+    pieces = [
+        [along(transform.transform(one), 2.0) for one in path.to_polygons(closed_only=False)]
+        for path in lines.get_paths()
+    ]
+    taken = [np.vstack([np.empty((0, 2)), *own]) for own in pieces]
+    places = []
+    for item, level in enumerate(lines.levels):
+        side = letter * (len(shown.unit.number(level).replace("$", "")) + 1)
+        others = np.vstack([*taken[:item], *taken[item + 1 :]])
+        long = [
+            piece for piece in sorted(pieces[item], key=len, reverse=True) if np.ptp(piece, axis=0).max() > ROOM * side
+        ]
+        for place in (piece[int(share * (len(piece) - 1))] for piece in long for share in SHARES):
+            box = Bbox([place - 0.5 * side, place + 0.5 * side])
+            if frame.contains(*box.min) and frame.contains(*box.max) and not box.count_contains(others):
+                places.append(transform.inverted().transform(place).tolist())
+                taken.append(box.corners())
+                break
+    if places:
+        lines.clabel(manual=places, fmt=shown.unit.number, fontsize="x-small", inline_spacing=2)
 
 
 def _lightness(colours: Any) -> Any:
