@@ -128,7 +128,7 @@ def number_contours(lines: QuadContourSet, shown: Shown) -> None:
     places = []
     for item, level in enumerate(lines.levels):
         side = letter * (len(shown.unit.number(level).replace("$", "")) + 1)
-        others = np.vstack([*taken[:item], *taken[item + 1 :]])
+        others = np.vstack([np.empty((0, 2)), *taken[:item], *taken[item + 1 :]])
         long = [
             piece for piece in sorted(pieces[item], key=len, reverse=True) if np.ptp(piece, axis=0).max() > ROOM * side
         ]
