@@ -171,7 +171,7 @@ def best_wavelength(best: Axes, slopes: Axes, dataset: xarray.Dataset) -> None:
 def error_bars(axes: Axes, dataset: xarray.Dataset) -> None:
     """Draw the force over the wavelength with the band of the samples, and the linear estimate of the same band."""
     wavelength = dataset["lambda_over_R"]
-    handles = []
+    handles: list[Any] = []
     for value, colour in zip(dataset["k"].values, shades(3)[::2], strict=True):
         one = dataset.sel(k=value)
         force, deviation = one["pull_off_force"], one["pull_off_force_std"]

@@ -26,8 +26,7 @@ def energies(axes: Axes, dataset: xarray.Dataset) -> None:
         for solver, dash, wide in (("envelope", "-", 2.2), ("exact", DASHES[1], 1.0)):  # seen below what is upon it
             if A > 0.0 or solver == "envelope":
                 line = lost.sel(A=A, lambda_over_R=length, solver=solver)
-                light = {"alpha": 0.35} if solver == "envelope" else {}
-                axes.plot(line["k"], line, color=colour, ls=dash, lw=wide, **light)
+                axes.plot(line["k"], line, color=colour, ls=dash, lw=wide, alpha=0.35 if solver == "envelope" else 1.0)
         k, fitted = fitted_curve(dataset, A, length)
         axes.plot(k, fitted, ls="none", clip_on=False, zorder=3, **looks)
         handles.append(key(rf"$A = {A:g}$, $\lambda/R = {length:g}$" if A else "$A = 0$", **looks))
