@@ -10,18 +10,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
-from gradhesion.cli.dataset.read.reader import has_curves
-from gradhesion.cli.dataset.read.selection import selection_of
 from gradhesion.cli.dataset.read.soundness import is_fit, refuse_fit
 from gradhesion.cli.disk import replacement, writing
 from gradhesion.cli.errors import DatasetError, OutputError
 from gradhesion.cli.installation import checked
 from gradhesion.cli.names.scenes import SCENE, SOLVER
-from gradhesion.cli.picture.curves.picture import drawn_curves
-from gradhesion.cli.picture.fits.loops import drawn_fits
 from gradhesion.cli.picture.looks import Looks, looks_of
+from gradhesion.cli.picture.picture import picture_of
 from gradhesion.cli.picture.pictured import styled
-from gradhesion.cli.picture.values.picture import drawn
 from gradhesion.cli.study.text.foreign import as_written
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.datasets import Data, data_of
@@ -84,8 +80,10 @@ def plot(
     colour_map: str | None = None,
     levels: int | Sequence[float] | None = None,
     labels: bool = True,
-    title: bool = True,
+    title: bool | str = True,
     caption: bool = True,
+    xlabel: str | None = None,
+    ylabel: str | None = None,
     style: str | Path | None = None,
     data: str | Path | None = None,
     xlim: Limits | None = None,
@@ -121,8 +119,12 @@ def plot(
         Contour levels: about how many, or which ones, in the unit of the variable.
     labels
         Whether contours have numbers on them.
-    title, caption
-        Whether the title of the study, and the parameters that are not drawn, are written above the panels.
+    title
+        What stands above the panels: the title of the study if True, nothing if False, or words of your own.
+    caption
+        Whether the parameters that are not drawn are written above the panels.
+    xlabel, ylabel
+        What the axes are called, in the place of what is along them.
     style
         A style of matplotlib on top of "gradhesion.style", by name or file; "gradhesion.journal" is one.
     data
@@ -156,7 +158,6 @@ def plot(
     >>> panel.get_xlabel()
     '$\\lambda/R$'
     """
-    names = _listed(variables)
     with as_keywords(), data_of(dataset) as values:
         looks = looks_of(
             kind=kind,
@@ -167,27 +168,27 @@ def plot(
             labels=labels,
             title=title,
             caption=caption,
+            xlabel=xlabel,
+            ylabel=ylabel,
             style=style,
             xlim=xlim,
             ylim=ylim,
             inset=inset,
             band=band,
         )
-        if is_fit(values):
-            choices = {"over": over, "variables": names, "x": x, "y": y, "data": data}
-            chosen = [word for word, value in choices.items() if value]
-            return Panels(drawn_fits(values, looks, chosen, _wishes(at)), looks)
-        _check_dimensions(values)
-        selection = selection_of(values, _wishes(at), _wishes(over), interpolate=interpolate)
-        points = None if data is None else Path(data)
-        if points is not None and not has_curves(values):
-            raise DatasetError(f"--data {points}: measured points go on curves, and this is a map; leave it out")
-        if not has_curves(values):
-            figure = drawn(values, names, selection, x=x, y=y, looks=looks)
-        elif given := [word for word, on in (("over", over), ("interpolate", interpolate)) if on]:
-            raise DatasetError(f"{given[0]}: curves are drawn as they are; choose scenes with at")
-        else:
-            figure = drawn_curves(selection.narrowed(values), names, x=x, y=y, looks=looks, data=points)
+        if not is_fit(values):
+            _check_dimensions(values)
+        figure = picture_of(
+            values,
+            _listed(variables),
+            looks,
+            at=_wishes(at),
+            over=_wishes(over),
+            interpolate=interpolate,
+            x=x,
+            y=y,
+            data=None if data is None else Path(data),
+        )
     return Panels(figure, looks)
 
 

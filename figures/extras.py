@@ -8,21 +8,27 @@ import numpy as np
 import xarray
 from matplotlib.axes import Axes
 from matplotlib.contour import ContourSet
+from matplotlib.patches import Patch
 
 from figures.curves import draw_equilibrium, dress
 from figures.fig4 import draw_lines, ends_of
 from figures.style import AMPLITUDE, DASHES, ENERGY, FORCE, INK, RIM, WAVELENGTH, key, shades
+from gradhesion.core import doubts_about
 from gradhesion.core.answers.spectrum import Spectrum
 
 LABELS = {"A": AMPLITUDE, "lambda_over_R": WAVELENGTH}
 FIXED = {"A": (r"\lambda/R", "lambda_over_R"), "lambda_over_R": ("A", "A")}
 """What does not vary, for each abscissa: its symbol and its name."""
 MAPPED = (0.0, 0.4)
+BOUND = 1e-9
+"""An exponent up to which it is at the lower bound of its range."""
 EXPONENT = "gradient exponent $k$"
 TICKS = (0.05, 0.1, 0.2, 0.4, 0.6)
 NINE_TENTHS = 1.6448536269514722
 """Standard deviations on either side of nine tenths of a normal distribution."""
 LEVELS = (0.05, 0.1, 0.2, 0.3, 0.4, 0.5)
+BAND = Patch(facecolor=INK, alpha=0.2, lw=0, label="90 % of samples")
+OPEN: dict[str, Any] = {"marker": "o", "ms": 2.8, "mfc": "white", "mew": 0.7}
 SHORT = 40
 """Points of a contour that is too short for a label."""
 
@@ -118,10 +124,15 @@ def roughness(force: Axes, energy: Axes, dataset: xarray.Dataset) -> None:
             values = dataset[name].sel(k=k)
             low, high = (values.quantile(share, "realisation") for share in (0.05, 0.95))
             axes.fill_between(slope, low, high, color=colour, alpha=0.2, lw=0)
-            axes.plot(slope, values.mean("realisation"), color=colour, ls=dash, label=f"$k = {k:g}$")
+            mean = values.mean("realisation")
+            axes.plot(slope, mean, color=colour, ls=dash, label=f"$k = {k:g}$")
+            many = (dataset["status"].sel(k=k) & doubts_about(name)).astype(bool).mean("realisation").values > 0.5
+            axes.plot(slope[many], mean.values[many], ls="none", mec=colour, **OPEN)
         axes.set(xlabel=r"rms slope $\sqrt{\langle (df_2/d\xi)^2\rangle}$", ylabel=label, xlim=(0.0, slope.max()))
         axes.set_ylim(bottom=0.0)
-        axes.legend(loc="upper left")
+        handles = [*axes.get_legend_handles_labels()[0], BAND]
+        handles += [] if name == "pull_off_force" else [key("most not one disc", color=INK, ls="none", **OPEN)]
+        axes.legend(handles=handles, loc="upper left")
 
 
 def best_exponent(axes: Axes, dataset: xarray.Dataset) -> None:
@@ -130,6 +141,9 @@ def best_exponent(axes: Axes, dataset: xarray.Dataset) -> None:
     for value, colour, dash in zip(ratios, shades(ratios.size), DASHES, strict=False):
         line = dataset["best_k"].sel(nu=value)
         axes.plot(line["c0_over_R"], line, color=colour, ls=dash, label=rf"$\nu = {value:g}$")
+        ends = line.where(line <= BOUND)
+        axes.plot(ends["c0_over_R"], ends, ls="none", mec=colour, clip_on=False, **OPEN)
+    axes.plot([], [], color=INK, ls="none", label="at the bound $k = 0$", **OPEN)
     axes.set(xscale="log", xlabel="depth of the gradient $c_0/R$", ylabel="best gradient exponent $k$")
     axes.set_ylim(bottom=0.0)
     axes.legend(loc="lower left")
@@ -157,7 +171,7 @@ def best_wavelength(best: Axes, slopes: Axes, dataset: xarray.Dataset) -> None:
 def error_bars(axes: Axes, dataset: xarray.Dataset) -> None:
     """Draw the force over the wavelength with the band of the samples, and the linear estimate of the same band."""
     wavelength = dataset["lambda_over_R"]
-    handles = []
+    handles: list[Any] = []
     for value, colour in zip(dataset["k"].values, shades(3)[::2], strict=True):
         one = dataset.sel(k=value)
         force, deviation = one["pull_off_force"], one["pull_off_force_std"]
@@ -167,7 +181,7 @@ def error_bars(axes: Axes, dataset: xarray.Dataset) -> None:
         for side in (-1.0, 1.0):
             axes.plot(wavelength, force + side * NINE_TENTHS * deviation, color=colour, lw=0.8, ls=DASHES[4])
         handles.append(key(f"$k = {value:g}$", color=colour))
-    handles.append(key("linear", color=INK, lw=0.8, ls=DASHES[4]))
+    handles += [BAND, key("linear", color=INK, lw=0.8, ls=DASHES[4])]
     axes.set(xscale="log", xlabel=WAVELENGTH, ylabel=FORCE, xlim=(float(wavelength.min()), float(wavelength.max())))
     axes.set_xticks(TICKS, [f"{tick:g}" for tick in TICKS])
     axes.minorticks_off()
@@ -178,14 +192,13 @@ def error_bars(axes: Axes, dataset: xarray.Dataset) -> None:
 def front(axes: Axes, dataset: xarray.Dataset) -> None:
     """Draw the best compromises of force and energy, a line for each exponent."""
     exponents = dataset["k"].values
-    for value, colour, dash in zip(exponents, shades(exponents.size), DASHES, strict=False):
+    for value, colour, mark in zip(exponents, shades(exponents.size), "os^D", strict=False):
         one = dataset.sel(k=value)
-        axes.plot(
-            one["best_pull_off_force"], one["best_dissipated_energy"], color=colour, ls=dash, label=f"$k = {value:g}$"
-        )
+        looks = {"ls": "none", "marker": mark, "ms": 1.6, "mew": 0.0, "color": colour}  # there is nothing in a gap
+        axes.plot(one["best_pull_off_force"], one["best_dissipated_energy"], label=f"$k = {value:g}$", **looks)
     axes.set(xlabel=FORCE, ylabel=ENERGY)
     axes.set_ylim(bottom=0.0)
-    axes.legend(loc="upper right")
+    axes.legend(loc="upper right", markerscale=2.0)
 
 
 PICTURES = {

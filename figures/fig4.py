@@ -10,7 +10,8 @@ from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 from figures.style import DASHES, FORCE, INK, WAVELENGTH, key, shades
 from gradhesion.core.problem.status import LOADING_NOT_ONE_DISC
 
-LINES = (0.0, 0.2, 0.4, 0.6, 0.7, 0.8, 0.9)
+GREATEST = r"greatest $F\,/\,1.5\,\pi R\Delta\gamma$ over the wavelength"
+LINES = (0.0, 0.2, 0.4, 0.6, 0.8, 0.9)
 """The exponents of the lines in Fig. 4a; the panel of maxima has all."""
 
 
@@ -63,7 +64,7 @@ def exponents(lines: Axes, others: Axes, maxima: Axes, dataset: xarray.Dataset) 
             said, top, (0, 6) if inside else (-4, 2), textcoords="offset points", ha="center" if inside else "right"
         )
         handles.append(key(rf"$\nu = {nu:g}$", color=colour, ls=dash))
-    maxima.set(xlabel="gradient exponent $k$", ylabel="greatest force over the wavelength", xlim=(0.0, 1.0))
+    maxima.set(xlabel="gradient exponent $k$", ylabel=GREATEST, xlim=(0.0, 1.0))
     maxima.set_ylim(0.0, 1.1 * float(greatest.max()))
     handles.append(key("loading not one disc", color="0.75", lw=2.4))
     handles.append(key("loading one disc", color=shades(3)[0], lw=2.4))

@@ -78,7 +78,8 @@ def loop(axes: Axes, dataset: xarray.Dataset) -> None:
         axes.annotate(name, centre_of(part), ha="center", va="center", fontsize=9, bbox=CLEAR)
     for name, corner, place in corners_of(dataset):
         axes.plot(*corner, "o", ms=2.2, color=INK)
-        axes.annotate(name, (corner[0], corner[1]), place, textcoords="offset points", ha="center", va="center")
+        written = name.replace("'", "\N{PRIME}")
+        axes.annotate(written, (corner[0], corner[1]), place, textcoords="offset points", ha="center", va="center")
     dress(axes, "a")
     axes.margins(x=0.07, y=0.1)  # room for the names of the corners
 

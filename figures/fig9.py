@@ -23,15 +23,15 @@ def energies(axes: Axes, dataset: xarray.Dataset) -> None:
     handles = []
     for (A, length), colour, marker in zip(waves, [INK, *shades(len(waves) - 1)], MARKERS, strict=True):
         looks = {"color": colour, "marker": marker, "ms": 2.6, "mfc": "white", "mew": 0.7}
-        for solver, dash in (("envelope", "-"), ("exact", DASHES[1])):
+        for solver, dash, wide in (("envelope", "-", 2.2), ("exact", DASHES[1], 1.0)):  # seen below what is upon it
             if A > 0.0 or solver == "envelope":
                 line = lost.sel(A=A, lambda_over_R=length, solver=solver)
-                axes.plot(line["k"], line, color=colour, ls=dash)
+                axes.plot(line["k"], line, color=colour, ls=dash, lw=wide, alpha=0.35 if solver == "envelope" else 1.0)
         k, fitted = fitted_curve(dataset, A, length)
         axes.plot(k, fitted, ls="none", clip_on=False, zorder=3, **looks)
         handles.append(key(rf"$A = {A:g}$, $\lambda/R = {length:g}$" if A else "$A = 0$", **looks))
     handles += [
-        key("$C_1 + C_2$, closed form", color=INK),
+        key("$C_1 + C_2$, closed form", color=INK, lw=2.2, alpha=0.35),
         key("exact", color=INK, ls=DASHES[1]),
         key("(5.43), the paper's fits", color=INK, ls="none", marker="o", ms=2.6, mfc="white", mew=0.7),
     ]

@@ -37,7 +37,10 @@ FORMS: Final = ("png", "svg", "pdf")
 @click.option("--ylim", metavar="LOW:HIGH", help="Part of the vertical axis to draw.")
 @click.option("--inset", metavar="LOW:HIGH", help="Part of the horizontal axis to draw once more, enlarged.")
 @click.option("--band", metavar="HOW", help="Spread of uncertain values: quantiles, std or none [what there is].")
-@click.option("--title/--no-title", default=True, help="Print the title of the study [yes].")
+@click.option("--title", metavar="TEXT", help="Title [that of the study].")
+@click.option("--no-title", "title", flag_value="", help="Print no title.")
+@click.option("--xlabel", metavar="TEXT", help="Name of the horizontal axis [that of what is along it].")
+@click.option("--ylabel", metavar="TEXT", help="Name of the vertical axis.")
 @click.option("--caption/--no-caption", default=True, help="Print the fixed parameters [yes].")
 @click.option("--style", metavar="STYLE", help="Matplotlib style to add: a name or a file.")
 @click.option("--data", type=click.Path(path_type=Path), help="Measured points to draw on curves: a table in a file.")
@@ -69,36 +72,16 @@ def plot(
         raise click.UsageError(f"{path}: the name of a picture ends in .png, .svg or .pdf; name another with -o")
     names = [name.strip() for word in variables for name in word.split(",")]
 
-    from gradhesion.cli.dataset.read.reader import has_curves, opened
-    from gradhesion.cli.dataset.read.selection import nearest_values, selection_of
-    from gradhesion.cli.dataset.read.soundness import is_fit
+    from gradhesion.cli.dataset.read.reader import opened
     from gradhesion.cli.disk import replacement, writing
-    from gradhesion.cli.errors import DatasetError
-    from gradhesion.cli.picture.curves.picture import drawn_curves
-    from gradhesion.cli.picture.fits.loops import drawn_fits
     from gradhesion.cli.picture.looks import looks_of
+    from gradhesion.cli.picture.picture import picture_of
     from gradhesion.cli.picture.pictured import save
-    from gradhesion.cli.picture.values.picture import drawn
 
-    chosen = looks_of(**looks)
-    choices = {"--over": over, "--variable": names, "--x": x, "--y": y, "--data": data}
-    given = [word for word, value in choices.items() if value]
+    chosen, notes = looks_of(**looks), list[str]()
+    choices: dict[str, Any] = {"at": at, "over": over, "interpolate": interpolate, "x": x, "y": y, "data": data}
     with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary:
-        if is_fit(dataset):
-            figure, notes = drawn_fits(dataset, chosen, given, at), []
-        else:
-            selection = selection_of(dataset, at, over, interpolate=interpolate)
-            notes = [] if interpolate else nearest_values(dataset, at)
-            if data is not None and not has_curves(dataset):
-                raise DatasetError(f"--data {data}: measured points go on curves, and {file} has a map; leave it out")
-            if not has_curves(dataset):
-                figure = drawn(dataset, names, selection, x=x, y=y, looks=chosen)
-            elif of_maps := [word for word, on in (("--over", over), ("--interpolate", interpolate)) if on]:
-                raise DatasetError(f"{of_maps[0]}: curves are drawn as they are; choose scenes with --at")
-            else:
-                figure = drawn_curves(
-                    selection.narrowed(dataset), names, x=x, y=y, looks=chosen, data=data, notes=notes.append
-                )
+        figure = picture_of(dataset, names, chosen, **choices, notes=notes.append)
         with writing(path):
             save(figure, temporary, form, chosen)
     if not quiet:

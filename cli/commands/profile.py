@@ -31,7 +31,7 @@ def profile(
         raise click.UsageError(f"{path}: the name of a picture ends in .png, .svg or .pdf; name another with -o")
     from gradhesion.cli.disk import replacement, writing
     from gradhesion.cli.errors import StudyError
-    from gradhesion.cli.picture.fits.profile import drawn_profile
+    from gradhesion.cli.picture.fits import drawn_profile
     from gradhesion.cli.picture.pictured import save
     from gradhesion.cli.study.profile_file import exponent_of, fitted, read_profile
     from gradhesion.cli.study.text.quantities import si_value

@@ -12,7 +12,7 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.curves import RAGGED, STATE_CURVES, curve_of
 from gradhesion.cli.names.outputs import PARETO_POINT, SI
 from gradhesion.cli.names.scenes import SCENE
-from gradhesion.cli.picture.curves.axes import wants_si
+from gradhesion.cli.picture.curves import wants_si
 from gradhesion.cli.terminal.wording import did_you_mean
 
 MOST: Final = 20_000_000
@@ -49,7 +49,8 @@ def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[s
         shown = variables or [name for name in known if name + SI not in known]  # curves are drawn in units alone
         wants_si(shown, variables)
     else:
-        shown = variables or sorted(known, key=lambda name: not name.endswith(SI))  # those in units first
+        # those in units first, and last what is there in units too
+        shown = variables or sorted(known, key=lambda name: (name + SI in known, not name.endswith(SI)))
     cut = dataset[[*shown, "status"]]
     cut = selection_of(cut, places).narrowed(cut)
     size = sum(variable.size for variable in cut.data_vars.values())

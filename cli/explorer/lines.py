@@ -10,10 +10,9 @@ from matplotlib.colors import to_hex
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.data import Entry
 from gradhesion.cli.explorer.plain import plain
-from gradhesion.cli.picture.curves.axes import axis_label, in_si, units_of, variables_of, wants_si
-from gradhesion.cli.picture.curves.panels import JUMP, THIN, TRACKS, Dash, Track, faded
-from gradhesion.cli.picture.curves.picture import PLANES
-from gradhesion.cli.picture.labels import Unit
+from gradhesion.cli.picture.curves import PLANES, wants_si
+from gradhesion.cli.picture.labels import Unit, label, unit_for
+from gradhesion.cli.picture.tracks import JUMP, QUANTITIES, THIN, TRACKS, Dash, Track, faded, tracks_in
 
 _WIDTH: Final = 1.5
 """Pixels for a point of a picture: lines are seen from farther away."""
@@ -45,26 +44,33 @@ def lines_of(dataset: xarray.Dataset) -> Lines:
         No curve has two variables that could be drawn over each other.
     """
     names = [str(name) for name in dataset.data_vars]
-    known = [in_si(track) for track in TRACKS] if wants_si(names, ()) else TRACKS
-    there = [track for track in known if sum(name in names for name in variables_of(track).values()) > 1]
+    there = tracks_in(names, TRACKS, si=wants_si(names, ()))
     if not there:
         raise DatasetError(
             "a page of curves needs two of contact radius, indentation and load of one curve, and this dataset has "
             'not; name whole curves in the outputs of the study, as in outputs = ["path"]'
         )
-    own = {name for track in there for name in variables_of(track).values() if name in names}
-    units = units_of(there, [{name: np.asarray(dataset[name].values, dtype=float) for name in own}])
+    labels: dict[str, str] = {}
+    units: dict[str, Unit] = {}
+    for quantity in QUANTITIES:
+        own = [track.variables[quantity] for track in there]
+        values = [dataset[name].values.ravel() for name in own if name in dataset]
+        unit = unit_for(own[0], np.concatenate([np.empty(0), *values]))
+        labels[quantity] = plain(label(own[0], unit))
+        units |= dict.fromkeys(own, unit)
     return Lines(
-        planes=[(x, y) for x, y in PLANES if any({getattr(one, x), getattr(one, y)} <= own for one in there)],
-        labels={quantity: plain(axis_label(quantity, unit)) for quantity, unit in units.items()},
-        units={name: units[quantity] for track in there for quantity, name in variables_of(track).items()},
+        planes=[
+            plane for plane in PLANES if any({track.variables[one] for one in plane} <= {*names} for track in there)
+        ],
+        labels=labels,
+        units=units,
         tracks=[_line(track) for track in there],
     )
 
 
 def _line(track: Track) -> Entry:
     """Describe a line for the script."""
-    return variables_of(track) | {
+    return {**track.variables} | {
         "curve": track.curve,
         "label": track.label,
         "colour": to_hex(track.colour),

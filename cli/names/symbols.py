@@ -4,7 +4,7 @@ from typing import Final
 
 from gradhesion.cli.names.outputs import BEST, OF_PHYSICAL, ON_BOUND, SI, SPREADABLE
 from gradhesion.core.problem.inputs import INPUTS
-from gradhesion.core.problem.outputs import OUTPUTS
+from gradhesion.core.problem.outputs import OUTPUTS, VARIABLES, Output
 
 SYMBOLS: Final[dict[str, str]] = {
     **{name: one.symbol for name, one in (INPUTS | OUTPUTS).items()},
@@ -44,3 +44,27 @@ def _spread_symbols() -> dict[str, str]:
 SYMBOLS.update(_spread_symbols())
 SYMBOLS.update({BEST + name: f"best {symbol}" for name, symbol in SYMBOLS.items()})
 SYMBOLS[ON_BOUND] = "at a bound"
+
+_QUANTITIES: Final = {
+    "contact_radius": ("contact radius $a$", "m"),
+    "indentation": (r"depth $\delta$", "m"),
+    "load": ("load $P$", "N"),
+    "radius": ("distance $r$", "m"),
+    "displacement": ("surface $u_z$", "m"),
+}
+"""What a picture of curves has along its axes, by the end of the names of its variables: symbols and units in SI."""
+
+
+def _curve_symbols() -> dict[str, str]:
+    """Name the variables of curves that a picture has along its axes."""
+    found = {"pressure": r"pressure $pR/\Delta\gamma$", "pressure" + SI: "pressure $p$"}
+    for name in VARIABLES:
+        own = next((one for end, one in _QUANTITIES.items() if name.endswith(end)), None)
+        if own:
+            quantity = Output(name, "", own[0], "", own[1])
+            found |= {name: quantity.symbol, name + SI: quantity.symbol_in_si}
+    return found
+
+
+CURVE_SYMBOLS: Final = _curve_symbols()
+"""Every variable of a curve that is drawn over another, as a picture names it."""

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read import doubtful
 from gradhesion.cli.dataset.read.doubtful import doubts_of
-from gradhesion.cli.dataset.read.model_range import LIMITS
+from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by
+from gradhesion.cli.dataset.read.reader import is_turned
 from gradhesion.cli.names.outputs import BEST, ON_BOUND
 from gradhesion.core.answers.flags import FLAG_WORDS, FLAGS
 
@@ -23,12 +24,14 @@ GREY: Final = "0.8"
 CROSS: Final = "0.6"
 """The colours of scenes that have no value, in a map and as crosses."""
 
+GAP: Final = "no finite value"
+"""What a legend says of scenes without a value."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Doubt:
-    """A flag that makes a value doubtful, with its looks."""
+    """What makes a value doubtful, with its looks."""
 
-    bit: int
     words: str
     hatch: str
     """Its pattern in a map."""
@@ -36,56 +39,63 @@ class Doubt:
     """Its open marker in a line or among points."""
     size: float
     """That of the marker: all can be seen one in the other."""
-
-    def marks(self, status: NDArray[Any]) -> NDArray[np.bool_]:
-        """Report which scenes have the flag."""
-        flags: NDArray[np.bool_] = (status.astype(np.int16) & self.bit) != 0
-        return flags
+    bit: int = 0
+    """Its flag, if it is one."""
 
 
-def _doubts() -> tuple[Doubt, ...]:
-    """Give each flag that makes values doubtful a look of its own."""
-    flags = [(name, bit) for name, bit in FLAGS.items() if bit & doubtful.DOUBTS]
-    looks = (("////", "o", 3.5), ("\\\\\\\\", "s", 5.5), ("xxxx", "D", 7.0), ("----", "v", 8.0), ("||||", "p", 8.0))
-    return tuple(
-        Doubt(bit=bit, words=FLAG_WORDS[name], hatch=hatch, mark=mark, size=size)
-        for (name, bit), (hatch, mark, size) in zip(flags, looks, strict=True)
+_LOOKS: Final = (("////", "o", 3.5), ("\\\\\\\\", "s", 5.5), ("xxxx", "D", 7.0), ("----", "v", 8.0), ("||||", "p", 8.0))
+
+DOUBTS: Final = tuple(
+    Doubt(words=FLAG_WORDS[name], hatch=hatch, mark=mark, size=size, bit=FLAGS[name])
+    for name, (hatch, mark, size) in zip(
+        (name for name, bit in FLAGS.items() if bit & doubtful.DOUBTS), _LOOKS, strict=True
     )
-
-
-DOUBTS: Final = _doubts()
+)
 """Every flag that makes values doubtful."""
 
-
-def doubts_in(status: NDArray[Any], variable: str, *, turned: bool = False) -> list[Doubt]:
-    """List the doubts that some scenes cast on a variable; none on `status` itself."""
-    if variable == "status":
-        return []
-    return [doubt for doubt in DOUBTS if doubt.bit & doubts_of(variable, turned=turned) and doubt.marks(status).any()]
-
-
-END: Final = Doubt(bit=0, words="extreme at an end of its axis: it may lie beyond", hatch="....", mark="^", size=4.5)
-"""How the place of an extreme is shown that is no extreme of a wider axis, perhaps."""
-
 BEYOND: Final = {
-    name: Doubt(bit=0, words=limit.words, hatch=hatch, mark=mark, size=6.0)
+    name: Doubt(words=limit.words, hatch=hatch, mark=mark, size=6.0)
     for (name, limit), (hatch, mark) in zip(
         LIMITS.items(), (("oo", "P"), ("OO", "X"), ("++", "*"), ("..", "h"), ("**", "8")), strict=True
     )
 }
 """How scenes are shown that leave the range of the model, by the validity number that says so."""
 
-BOUND: Final = Doubt(bit=0, words="optimum at a bound of its range", hatch="//..", mark=">", size=6.0)
+BOUND: Final = Doubt(words="optimum at a bound of its range", hatch="//..", mark=">", size=6.0)
 """How an optimum is shown that would be better beyond a bound of what was searched, perhaps."""
 
-BAND_WORDS: Final = {"quantiles": "5 % to 95 % of samples", "std": "a standard deviation on each side"}
-"""What a legend says of a band."""
+END: Final = Doubt(words="extreme at an end of its axis: it may lie beyond", hatch="....", mark="^", size=4.5)
+"""How the place of an extreme is shown that is no extreme of a wider axis, perhaps."""
 
-GAP: Final = "no finite value"
-"""What a legend says of scenes without a value."""
+Marks = list[tuple[Doubt, xarray.DataArray]]
+"""Doubts, each with the scenes that have it."""
 
-ORDER: Final = (*(doubt.words for doubt in (*DOUBTS, *BEYOND.values(), END, BOUND)), GAP, *BAND_WORDS.values())
-"""The order of the entries of a legend."""
+
+def doubts_in(status: NDArray[Any], variable: str, *, turned: bool = False) -> list[Doubt]:
+    """List the flags of some scenes that cast doubt on a variable; none on `status` itself."""
+    there = 0 if variable == "status" else np.bitwise_or.reduce(np.ravel(status).astype(np.int16), initial=0)
+    return [doubt for doubt in DOUBTS if doubt.bit & doubts_of(variable, turned=turned) & there]
+
+
+def marks_of(dataset: xarray.Dataset, values: xarray.DataArray, status: xarray.DataArray, name: str) -> Marks:
+    """
+    Mark the scenes of what is drawn of a variable that are in doubt, or beyond the range of the model, or at a bound.
+
+    A validity number shows its own limit alone. What is taken over an axis is marked if any scene on it is; what has no
+    value is not.
+    """
+    there = doubts_in(status.where(values.notnull(), 0).values, name, turned=is_turned(dataset))
+    found: list[tuple[Doubt, xarray.DataArray | None]] = [(doubt, (status & doubt.bit) != 0) for doubt in there]
+    numbers = [number for number in BEYOND if name not in BEYOND or number == name]
+    found += [(BEYOND[number], beyond_by(number, dataset)) for number in numbers]
+    found += [(BOUND, at_bound(dataset, name))]
+    return [(doubt, own) for doubt, flags in found if flags is not None and bool((own := among(flags, values)).any())]
+
+
+def among(flags: xarray.DataArray, values: xarray.DataArray) -> xarray.DataArray:
+    """Give flags over the axes of what is drawn, where it has values."""
+    flags = flags.any([axis for axis in flags.dims if axis not in values.dims])
+    return (flags.drop_vars([*flags.coords]) & values.notnull()).transpose(*values.dims)
 
 
 def at_bound(dataset: xarray.Dataset, name: str) -> xarray.DataArray | None:
@@ -109,11 +119,9 @@ def entries(doubts: Sequence[Doubt], *, in_map: bool, gaps: bool) -> list[Patch 
         if in_map:
             made.append(Patch(facecolor="none", edgecolor=INK, lw=0.0, hatch=doubt.hatch, label=doubt.words))
         else:
-            made.append(
-                Line2D([], [], ls="", marker=doubt.mark, ms=doubt.size, mfc="white", mec=INK, label=doubt.words)
-            )
-    if gaps and in_map:
-        made.append(Patch(facecolor=GREY, label=GAP))
-    elif gaps:
-        made.append(Line2D([], [], ls="", marker="x", ms=4, mec=CROSS, label=GAP))
+            looks: dict[str, Any] = {"marker": doubt.mark, "ms": doubt.size, "mfc": "white", "mec": INK}
+            made.append(Line2D([], [], ls="", **looks, label=doubt.words))
+    if gaps:
+        cross = Line2D([], [], ls="", marker="x", ms=4, mec=CROSS, label=GAP)
+        made.append(Patch(facecolor=GREY, label=GAP) if in_map else cross)
     return made

@@ -1,27 +1,28 @@
 """Numbers, parameters and variables as a picture writes them, with the prefix of a unit that suits the values."""
 
 import math
+import re
 from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
+from matplotlib.ticker import EngFormatter
 
 from gradhesion.cli.names.scenes import IDLE
-from gradhesion.cli.names.symbols import SYMBOLS
+from gradhesion.cli.names.symbols import CURVE_SYMBOLS, SYMBOLS
 from gradhesion.cli.names.units import unit_of
 from gradhesion.core.problem.inputs import INPUTS
 
-UNIT_SYMBOLS: Final = {"m": "m", "Pa": "Pa", "J/m^2": "J/m$^2$", "N": "N", "J": "J", "N/m": "N/m"}
-"""Units as a picture writes them."""
+MOST: Final = 15
+"""Digits of a number: all that a double has."""
 
-PREFIXES: Final = {-18: "a", -15: "f", -12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
-"""The prefixes of units by their power of ten."""
+SHORT: Final = 1e-9
+"""A value this short of a power of ten, in decades, counts as the power: 10^-6 m is 1 µm."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Unit:
-    """How the values of a variable are written."""
+    """How the values of a variable are written; what is drawn stays in SI."""
 
     symbol: str = ""
     """Its unit with its prefix; "" if it has none."""
@@ -41,11 +42,10 @@ class Unit:
         """
         listed = np.asarray(values, dtype=float)
         different = np.unique(listed[np.isfinite(listed)])
-        apart = SHARE * float(np.min(np.diff(different), initial=np.inf))
-        digits = next(
-            (few for few in range(4, MOST) if all(abs(float(f"{one:.{few}g}") - one) <= apart for one in different)),
-            MOST,
-        )
+        near = 0.005 * float(np.min(np.diff(different), initial=np.inf))
+        digits = 4
+        while digits < MOST and any(abs(float(f"{value:.{digits}g}") - value) > near for value in different):
+            digits += 1
         return [self.number(value, digits) for value in listed]
 
 
@@ -56,28 +56,23 @@ def unit_for(name: str, values: Any, *, log: bool = False) -> Unit:
     >>> unit_for("R", [5e-9, 5e-6]), unit_for("R", [5e-9, 5e-6], log=True), unit_for("A", [0.1])
     (Unit(symbol='µm', power=-6), Unit(symbol='nm', power=-9), Unit(symbol='', power=0))
     """
-    symbol = UNIT_SYMBOLS.get(unit_of(name), "")
-    sizes: NDArray[np.float64] = np.abs(np.asarray(values, dtype=float)) if symbol else np.empty(0)
-    greatest = max(sizes[np.isfinite(sizes)], default=0.0)
-    if not greatest:
+    symbol = _symbol(unit_of(name))
+    sizes = np.abs(np.asarray(values, dtype=float))
+    sizes = sizes[np.isfinite(sizes) & (sizes > 0.0)]
+    if not symbol or not sizes.size:
         return Unit(symbol=symbol)
-    power = 3 * math.floor((math.log10(greatest) + SHORT) / 3)
+    least, most = np.log10([sizes.min(), sizes.max()])
+    power = 3 * math.floor((most + SHORT) / 3)
     if log:
-        least, most = (math.log10(one) for one in (min(sizes[np.isfinite(sizes) & (sizes > 0.0)]), greatest))
         power = min(range(power, power - 9, -3), key=lambda one: max(0.0, one - least) + max(0.0, most - one - 3))
-    power = min(max(power, min(PREFIXES)), max(PREFIXES))
-    return Unit(symbol=PREFIXES[power] + symbol, power=power)
+    prefixes = EngFormatter.ENG_PREFIXES
+    power = min(max(power, min(prefixes)), max(prefixes))
+    return Unit(symbol=prefixes[power] + symbol, power=power)
 
 
-SHORT: Final = 1e-9
-"""A value this short of a power of ten, in decades, counts as the power: 10^-6 m is 1 µm."""
-
-
-SHARE: Final = 0.005
-"""How far a number may be from its value, over the least distance of two values."""
-
-MOST: Final = 15
-"""Digits of a number: all that a double has."""
+def _symbol(unit: str) -> str:
+    """Write a unit of UDUNITS with its powers raised."""
+    return "" if unit == "1" else re.sub(r"\^(\d)", r"$^\1$", unit)
 
 
 def number(value: float, digits: int = 4) -> str:
@@ -89,55 +84,43 @@ def number(value: float, digits: int = 4) -> str:
     """
     if np.isinf(value):
         return r"$\infty$"
-    if np.isnan(value):
-        return "nan"
-    text = f"{value:.{max(digits, 5) if abs(value) >= 1e4 else digits}g}"
-    if value and not 1e-3 <= abs(value) < 1e5:
+    if value and not np.isnan(value) and not 1e-4 <= abs(value) < 1e5:
         front, exponent = f"{value:.{digits - 1}e}".split("e")
         front = front.rstrip("0").rstrip(".") if "." in front else front
-        text = f"$10^{{{int(exponent)}}}$" if front == "1" else rf"${front}\times10^{{{int(exponent)}}}$"
-    return text.replace("-", "\N{MINUS SIGN}") if "$" not in text else text
-
-
-def equation(name: str, value: float | str, digits: int = 4) -> str:
-    r"""
-    Say in a picture which value a parameter has, to some digits.
-
-    >>> equation("A", 0.02), equation("c0", 1e-8), equation("solver", "exact")
-    ('$A$ = 0.02', '$c_0$ = 10 nm', 'exact')
-    """
-    if isinstance(value, str):
-        return value
-    unit = unit_for(name, value)
-    written = f"{SYMBOLS[name]} = {unit.number(value, digits)}"
-    return written + (f" {unit.symbol}" if unit.symbol and np.isfinite(value) else "")
+        return f"$10^{{{int(exponent)}}}$" if front == "1" else rf"${front}\times10^{{{int(exponent)}}}$"
+    return f"{value:.{max(digits, 5) if abs(value) >= 1e4 else digits}g}".replace("-", "\N{MINUS SIGN}")
 
 
 def equations(name: str, values: Any) -> list[str]:
     r"""
     Say of each of some values that a parameter has it, with so many digits that all differ.
 
-    >>> equations("A", [0.02, 0.020001])
-    ['$A$ = 0.02', '$A$ = 0.020001']
+    >>> equations("A", [0.02, 0.020001]), equations("c0", [1e-8]), equations("solver", ["exact"])
+    (['$A$ = 0.02', '$A$ = 0.020001'], ['$c_0$ = 10 nm'], ['exact'])
     """
-    listed = np.asarray(values).tolist()
-    found: list[str] = []
-    for digits in range(4, MOST + 3):
-        found = [equation(name, value, digits) for value in listed]
-        if len({*found}) == len({*listed}):
-            break
-    return found
+    listed = np.asarray(values)
+    if listed.dtype.kind not in "fiub":
+        return [str(value) for value in listed]
+    unit = unit_for(name, listed, log=True)
+    symbol = f" {unit.symbol}" if unit.symbol else ""
+    written = zip(unit.numbers(listed), listed, strict=True)
+    return [f"{SYMBOLS[name]} = {one}{symbol if np.isfinite(value) else ''}" for one, value in written]
+
+
+def equation(name: str, value: Any) -> str:
+    """Say which value a parameter has."""
+    return equations(name, [value])[0]
 
 
 def label(name: str, unit: Unit | None = None) -> str:
     """
     Name a variable at an axis of a picture.
 
-    >>> label("A"), label("R"), label("R", Unit(symbol="nm", power=-9))
-    ('$A$', '$R$ (m)', '$R$ (nm)')
+    >>> label("A"), label("R"), label("path_contact_radius_si", Unit(symbol="nm", power=-9))
+    ('$A$', '$R$ (m)', 'contact radius $a$ (nm)')
     """
-    symbol = unit.symbol if unit else UNIT_SYMBOLS.get(unit_of(name), "")
-    return SYMBOLS[name] + (f" ({symbol})" if symbol else "")
+    symbol = unit.symbol if unit else _symbol(unit_of(name))
+    return (SYMBOLS.get(name) or CURVE_SYMBOLS[name]) + (f" ({symbol})" if symbol else "")
 
 
 def effective(dataset: Any) -> list[str]:

@@ -18,8 +18,7 @@ from gradhesion.cli.terminal.wording import did_you_mean, nearest
 VIRIDIS: Final = "viridis"
 """The usual colour map: perceptual, and rising in lightness, so that it survives a grey print."""
 
-COLUMN: Final = 90 / 25.4
-PAGE: Final = 190 / 25.4
+WIDTHS: Final = {"column": 90 / 25.4, "page": 190 / 25.4}
 """The widths of a column and of a page of a journal, in inches: 90 mm and 190 mm."""
 
 LEAST: Final = 1.0
@@ -57,10 +56,13 @@ class Looks:
     """Contour levels of a map: about how many, or which."""
     labels: bool = True
     """Whether contours have numbers on them."""
-    title: bool = True
-    """Whether the title of the study stands above the panels, with its profile and control."""
+    title: str | None = None
+    """What stands above the panels in the place of title, profile and control of the study; "" for nothing."""
     caption: bool = True
     """Whether the parameters that are not drawn stand above the panels."""
+    xlabel: str | None = None
+    ylabel: str | None = None
+    """What the axes are called."""
     style: str | None = None
     """A style of matplotlib, by name or file, on top of that of the project."""
     xlim: Span = ALL
@@ -94,22 +96,21 @@ PLAIN: Final = Looks()
 
 def looks_of(
     *,
-    kind: str | None = None,
+    kind: Any = None,
     width: float | str | None = None,
     height: float | str | None = None,
     colour_map: str | None = None,
     levels: Any = None,
-    labels: bool = True,
-    title: bool = True,
-    caption: bool = True,
     style: str | Path | None = None,
+    title: str | bool | None = None,
     xlim: Any = None,
     ylim: Any = None,
     inset: Any = None,
-    band: str | None = None,
+    band: Any = None,
+    **words: Any,
 ) -> Looks:
     """
-    Check what a user has chosen.
+    Check what a user has chosen; `words` are the fields of `Looks` that may be anything.
 
     Raises
     ------
@@ -121,25 +122,24 @@ def looks_of(
     """
     if kind not in (None, "lines", "map"):
         raise DatasetError(f'kind = "{kind}": not a kind of picture; {did_you_mean(str(kind), ["lines", "map"])}')
+    if band not in (None, *BANDS):
+        raise DatasetError(f"--band {band}: not a band; {did_you_mean(str(band), list(BANDS))}")
     name = VIRIDIS if colour_map is None else str(colour_map)
     if name not in colormaps:
         raise DatasetError(f"--colour-map {name}: not a colour map of matplotlib; {_near(name, [*colormaps], VIRIDIS)}")
-    if band not in (None, *BANDS):
-        raise DatasetError(f"--band {band}: not a band; {did_you_mean(str(band), list(BANDS))}")
     return Looks(
-        kind=kind,  # type: ignore[arg-type]
+        kind=kind,
         width=_side("width", width),
         height=_side("height", height),
         colour_map=name,
         levels=_levels(levels),
-        labels=labels,
-        title=title,
-        caption=caption,
         style=_style(style),
+        title={True: None, False: ""}[title] if isinstance(title, bool) else title,
         xlim=span_of("xlim", xlim),
         ylim=span_of("ylim", ylim),
         inset=span_of("inset", inset),
-        band=band,  # type: ignore[arg-type]
+        band=band,
+        **words,
     )
 
 
@@ -147,19 +147,16 @@ def _side(name: str, value: float | str | None) -> float | None:
     """Read a side of a picture: a number of inches, a length in cm or mm, or a width by its name."""
     if value is None:
         return None
-    words = {"column": COLUMN, "page": PAGE} if name == "width" else {}
+    words = WIDTHS if name == "width" else {}
     text = str(value).strip().lower()
     if text in words:
         return words[text]
-    parts = re.fullmatch(r"([+-]?[\d.]+(?:e[+-]?\d+)?)\s*([a-z]*)", text)
-    try:
-        inches = float(parts[1]) * UNITS[parts[2]] if parts else math.nan
-    except (ValueError, KeyError):
-        inches = math.nan
-    if math.isnan(inches):
+    parts = re.fullmatch(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*([a-z]*)", text)
+    if not parts or parts[2] not in UNITS:
         near = nearest(text, list(words))
         meant = f'did you mean "{near}"?' if near else f'write for example 3.5, "9 cm"{" or column" if words else ""}'
         raise DatasetError(f"--{name} {value}: not a size; {meant}")
+    inches = float(parts[1]) * UNITS[parts[2]]
     if not LEAST <= inches <= MOST:
         raise DatasetError(
             f"--{name} {value}: a picture of {inches:.3g} inches; choose one of {LEAST:g} to {MOST:g} inches"
@@ -193,15 +190,12 @@ def _style(value: str | Path | None) -> str | None:
     """Find a style."""
     if value is None:
         return None
-    name = str(value)
     try:
-        with matplotlib.style.context(name):
-            return name
+        with matplotlib.style.context(str(value)):
+            return str(value)
     except OSError:
-        known = list(matplotlib.style.available)
-        raise DatasetError(
-            f"--style {name}: neither a style of matplotlib nor the file of a style; {_near(name, known, 'grayscale')}"
-        ) from None
+        near = _near(str(value), [*matplotlib.style.available], "grayscale")
+        raise DatasetError(f"--style {value}: neither a style of matplotlib nor the file of a style; {near}") from None
 
 
 def _near(word: str, known: list[str], usual: str) -> str:

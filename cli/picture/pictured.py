@@ -1,8 +1,9 @@
-"""What the pictures of all datasets have in common: their style, their heading, and how they are saved."""
+"""What the pictures of all datasets have in common: style, size, what is written around the panels, and saving."""
 
+import math
 import re
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Final
@@ -10,6 +11,8 @@ from typing import Final
 import matplotlib.style
 import numpy as np
 import xarray
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.mathtext import MathTextParser
 from numpy.typing import ArrayLike, NDArray
@@ -20,11 +23,12 @@ from gradhesion.cli.study.shape_words import shape_in_words
 from gradhesion.cli.terminal.printable import printable
 from gradhesion.core import Profile
 
-CAPTION: Final = "small"
-"""The size of a caption, over that of the style."""
+ENTRY: Final = 0.7
+LETTER: Final = 0.05
+"""The width of an entry of a legend without its words, and of a letter of them, in inches."""
 
-LETTER: Final = 0.058
-"""The mean width of a letter of a caption, in inches."""
+LINE: Final = 0.17
+"""The height of a line of words above or below the panels, in inches."""
 
 LONGEST: Final = 110
 """Letters of a profile that a heading has room for."""
@@ -43,15 +47,55 @@ def save(figure: Figure, file: Path, form: str, looks: Looks = PLAIN) -> None:
         figure.savefig(file, format=form, metadata=undated.get(form))
 
 
-def lay_out(figure: Figure) -> None:
+def finite(values: ArrayLike) -> NDArray[np.float64]:
+    """Take values as numbers, NaN where they have no place on an axis: they leave a gap."""
+    numbers = np.asarray(values, dtype=float)
+    return np.where(np.isfinite(numbers), numbers, np.nan)
+
+
+def finish(
+    figure: Figure,
+    looks: Looks,
+    *,
+    dataset: xarray.Dataset,
+    caption: Iterable[str],
+    entries: Sequence[Artist],
+    size: tuple[float, float],
+    panels: Iterable[Axes],
+    laid_out: bool = False,
+) -> None:
     """
-    Find the place of everything in a picture.
+    Size a picture, and put the words around its panels: title and caption above, a legend below.
+
+    The size in inches is that which suits its panels; words and sides that are chosen come first. Numbers on contours
+    and an inset need it `laid_out`, with everything in its place.
 
     Raises
     ------
     DatasetError
-        The sides that were chosen leave no room for its panels.
+        The panels have several axes and one label is chosen, or the sides that are chosen leave no room for them.
     """
+    for side, words in (("x", looks.xlabel), ("y", looks.ylabel)):
+        named = [axis for axes in panels if (axis := getattr(axes, f"{side}axis")).get_label_text()]
+        if words is not None and len({axis.get_label_text() for axis in named}) > 1:
+            raise DatasetError(f"--{side}label: the panels have different axes; choose one variable, or one plane")
+        for axis in named if words is not None else ():
+            axis.set_label_text(_drawable(str(words)))
+    width = looks.width or size[0]
+    longest = max((len(re.sub(r"[$\\{}]", "", str(entry.get_label()))) for entry in entries), default=0)
+    columns = max(1, min(len(entries), int(width / (ENTRY + LETTER * longest))))
+    if entries:
+        figure.legend(handles=entries, loc="outside lower center", ncols=columns)
+    words_above = [heading(dataset)] if looks.title is None else [_drawable(looks.title)] * bool(looks.title)
+    words_above += [", ".join(map(_unbroken, caption))] if looks.caption else []
+    above = "\n".join(filter(None, words_above))
+    if above:
+        figure.suptitle(above, fontsize="medium", wrap=True)
+    shrunk = min(1.0, width / size[0])
+    lines = math.ceil(len(entries) / columns) + (above.count("\n") + 2 if above else 0)
+    figure.set_size_inches(width, looks.height or size[1] * shrunk + LINE * lines)
+    if not (laid_out or looks.width or looks.height or looks.inset):
+        return
     with warnings.catch_warnings():
         warnings.filterwarnings("error", "constrained_layout not applied")
         warnings.filterwarnings("ignore", "Glyph .* missing from")
@@ -65,22 +109,16 @@ def lay_out(figure: Figure) -> None:
             ) from None
 
 
-def finite(values: ArrayLike) -> NDArray[np.float64]:
-    """Take values as numbers, NaN where they have no place on an axis: they leave a gap."""
-    numbers = np.asarray(values, dtype=float)
-    return np.where(np.isfinite(numbers), numbers, np.nan)
-
-
 def heading(dataset: xarray.Dataset) -> str:
     """Report the title of a dataset, and shape and control where they are not those of the paper."""
-    written = []
+    written = [str(dataset.attrs["title"])]
     profile = str(dataset.attrs.get("profile", ""))
     if profile not in ("", shape_in_words(Profile())):
         written.append(f"profile {profile if len(profile) <= LONGEST else profile[:LONGEST] + ' ...'}")
     control = str(dataset.attrs.get("control", "displacement"))
     if control != "displacement":
         written.append({"load": "under controlled load", "machine": "through a machine of finite stiffness"}[control])
-    return "\n".join(map(_drawable, [str(dataset.attrs["title"]), *written]))
+    return "\n".join(map(_drawable, written))
 
 
 def _drawable(text: str) -> str:
@@ -93,30 +131,14 @@ def _drawable(text: str) -> str:
     return text
 
 
-def letters_of(text: str) -> int:
+def _unbroken(words: str) -> str:
     r"""
-    Count the letters of a text as it is drawn, about: a command of TeX is one of them.
+    Keep an equation of a caption in one line, wherever matplotlib wraps the others.
 
-    >>> letters_of(r"$\lambda/R$ = 0.1")
-    10
+    >>> _unbroken(r"$\pi R$ = 10 nm") == "$\\pi{}R$\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}10\N{NO-BREAK SPACE}nm"
+    True
     """
-    return len(re.sub(r"\\[a-zA-Z]+|[${}^_]", "x", text).replace("x" * 2, "x"))
-
-
-def in_lines(parts: Sequence[str], width: float) -> str:
-    r"""
-    Put the parts of a caption into lines of a width in inches.
-
-    >>> in_lines([r"$\lambda/R$ = 0.1", "$A$ = 0.02", "$k$ = 0.3"], 1.4)
-    '$\\lambda/R$ = 0.1,  $A$ = 0.02,\n$k$ = 0.3'
-    """
-    lines: list[list[str]] = []
-    room = 0.0
-    for part in parts:
-        letters = letters_of(part) + 2
-        if not lines or letters * LETTER > room:
-            lines.append([])
-            room = width
-        lines[-1].append(part)
-        room -= letters * LETTER
-    return ",\n".join(",  ".join(line) for line in lines)
+    if "=" not in words:
+        return words
+    pieces = words.split("$")
+    return "$".join(piece.replace(" ", "{}" if i % 2 else "\N{NO-BREAK SPACE}") for i, piece in enumerate(pieces))

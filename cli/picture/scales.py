@@ -1,4 +1,4 @@
-"""Axes of a dataset as axes of a picture: their order, their spacing, a place for infinity, and numbers at ticks."""
+"""Axes of a dataset as axes of a picture: their spacing, a place for infinity, and numbers at ticks."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -6,99 +6,14 @@ from typing import Any, Literal
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.axis import Axis
-from matplotlib.ticker import Formatter, LogLocator, MaxNLocator, NullLocator
+from matplotlib.ticker import Formatter, Locator, LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read.selection import is_log
-from gradhesion.cli.picture.labels import Unit, number, unit_for
+from gradhesion.cli.picture.labels import Unit, label, number, unit_for
 from gradhesion.cli.picture.spans import ALL, Span
 
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Scale:
-    """Where the values of an axis go in a picture."""
-
-    order: NDArray[np.intp]
-    """The items of the axis in rising order."""
-    positions: NDArray[np.float64]
-    """The place of each, in that order; inf stands one step beyond the greatest finite value."""
-    log: bool
-    infinite: bool
-    """Whether the last place is that of inf."""
-    unit: Unit
-    """How its values are written."""
-    limits: tuple[float, float] = (-np.inf, np.inf)
-    """Between which values it is drawn; all of them where they are infinite."""
-
-    def edges(self) -> NDArray[np.float64]:
-        """Give the edges of cells around the places, halfway between them."""
-        places = np.log(self.positions) if self.log else self.positions
-        middles = 0.5 * (places[1:] + places[:-1])
-        edges = np.concatenate([2.0 * places[:1] - middles[:1], middles, 2.0 * places[-1:] - middles[-1:]])
-        return np.exp(edges) if self.log else edges
-
-    def dress(self, axes: Axes, which: Literal["x", "y"]) -> None:
-        """Give an axis of a picture this scale and its limits, with ticks at plain numbers."""
-        finite = self.positions[:-1] if self.infinite else self.positions
-        low, high = self.limits
-        first, last = max(low, float(finite[0])), min(high, float(finite[-1]))
-        axis = axes.xaxis if which == "x" else axes.yaxis
-        (axes.set_xscale if which == "x" else axes.set_yscale)("log" if self.log else "linear")
-        if self.log:
-            subs = (1.0, 2.0, 5.0) if last < 200 * first else (1.0,)
-            places = LogLocator(subs=subs, numticks=20).tick_values(first, last)
-        else:
-            places = MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]).tick_values(first, last)
-        slack = 1e-9 * max(abs(first), abs(last))
-        kept = [float(place) for place in places if first - slack <= place <= last + slack]
-        labels = self.unit.numbers(kept)
-        if self.infinite and np.isinf(high):
-            kept.append(float(self.positions[-1]))
-            labels.append(number(np.inf))
-        axis.set_minor_locator(NullLocator())
-        axis.set_ticks(kept, labels)
-        limit(axes, which, self.limits)
-
-
-def limit(axes: Axes, which: Literal["x", "y"], limits: tuple[float, float]) -> None:
-    """Give an axis of a picture limits; an infinite one stays to suit the values."""
-    if np.isfinite(limits).any():
-        low, high = ((end if np.isfinite(end) else None) for end in limits)
-        axes.set(**{f"{which}lim": (low, high)})
-
-
-def scale(values: NDArray[np.float64], name: str = "", span: Span = ALL) -> Scale:
-    """
-    Choose the scale of an axis of a name: logarithmic where its values are nearer to that than to an even spacing.
-
-    Of a span of it, ticks and the unit suit what is seen.
-
-    >>> scale(np.array([1.0, np.inf, 10.0, 100.0])).positions
-    array([   1.,   10.,  100., 1000.])
-    """
-    order = np.argsort(values, kind="stable")
-    places = values[order]
-    finite = np.unique(places[np.isfinite(places)])
-    log = is_log(finite)
-    infinite = np.isinf(places)
-    if infinite.any():
-        steps = max(1, finite.size - 1)
-        if log:
-            beyond = finite[-1] * (finite[-1] / finite[0]) ** (1 / steps)
-        else:
-            beyond = finite[-1] + ((finite[-1] - finite[0]) / steps or finite[-1])
-        places = np.where(infinite, beyond, places)
-    low, high = span.limits(name, log=log)
-    seen = np.clip(finite, low, high)
-    return Scale(
-        order=order,
-        positions=places,
-        log=log,
-        infinite=bool(infinite.any()),
-        unit=unit_for(name, seen, log=log),
-        limits=(low, high),
-    )
+Side = Literal["x", "y"]
 
 
 class Numbers(Formatter):
@@ -116,12 +31,97 @@ class Numbers(Formatter):
         return self.unit.numbers(values)
 
 
-def few_ticks(axis: Axis, unit: Unit, count: int = 3) -> None:
-    """Put about so many ticks at round numbers between the limits of an axis, whatever its scale."""
-    low, high = sorted(axis.get_view_interval())
-    slack = 1e-9 * (high - low)  # an end that is a round number is one of them
-    found = MaxNLocator(count, steps=[1, 2, 5, 10]).tick_values(low, high)
-    places = [float(place) for place in found if low - slack <= place <= high + slack]
+def locator(low: float, high: float, *, log: bool) -> Locator:
+    """Choose what finds ticks at round numbers between two ends: of a logarithmic axis some in each decade."""
+    if log and high > 6.0 * low:
+        steps = (1.0, 2.0, 5.0) if high < 50.0 * low else (1.0, 3.0) if high < 1000.0 * low else (1.0,)
+        return LogLocator(subs=steps, numticks=20)
+    return MaxNLocator("auto", steps=[1, 2, 2.5, 5, 10])
+
+
+def dress(axes: Axes, side: Side, unit: Unit, ends: tuple[float, float], *, log: bool = False) -> None:
+    """Give an axis of a picture its scale, with plain numbers in a unit at some ticks between two ends."""
+    axes.set(**{f"{side}scale": "log" if log else "linear"})
+    axis = axes.xaxis if side == "x" else axes.yaxis
+    axis.set_major_locator(locator(*ends, log=log))
+    axis.set_major_formatter(Numbers(unit))
     axis.set_minor_locator(NullLocator())
-    axis.set_ticks(places, unit.numbers(places))
-    axis.set_view_interval(low, high, ignore=True)
+
+
+def limit(axes: Axes, side: Side, limits: tuple[float, float]) -> None:
+    """Give an axis of a picture limits; an infinite one stays to suit the values."""
+    if np.isfinite(limits).any():
+        axes.set(**{f"{side}lim": tuple(end if np.isfinite(end) else None for end in limits)})
+
+
+def suit(axes: Axes, side: Side, name: str, span: Span = ALL) -> None:
+    """Name an axis of a picture after a variable, and let its unit suit the limits: those chosen, if some are."""
+    ends = axes.get_xlim if side == "x" else axes.get_ylim
+    low, high = sorted(ends())
+    limit(axes, side, span.limits(name, low, high))
+    low, high = sorted(ends())
+    unit = unit_for(name, (low, high))
+    dress(axes, side, unit, (low, high))
+    axes.set(**{f"{side}label": label(name, unit)})
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Scale:
+    """Where the values of an axis go in a picture."""
+
+    positions: NDArray[np.float64]
+    """The place of each; inf stands one step beyond the greatest finite value."""
+    log: bool
+    infinite: bool
+    """Whether the last place is that of inf."""
+    unit: Unit
+    """How its values are written."""
+    limits: tuple[float, float] = (-np.inf, np.inf)
+    """Between which values it is drawn; all of them where they are infinite."""
+
+    def edges(self) -> NDArray[np.float64]:
+        """Give the edges of cells around the places, halfway between them."""
+        places = np.log(self.positions) if self.log else self.positions
+        middles = 0.5 * (places[1:] + places[:-1])
+        edges = np.concatenate([2.0 * places[:1] - middles[:1], middles, 2.0 * places[-1:] - middles[-1:]])
+        return np.exp(edges) if self.log else edges
+
+    def dress(self, axes: Axes, side: Side) -> None:
+        """Give an axis of a picture this scale and its limits, with ticks at plain numbers."""
+        finite = self.positions[:-1] if self.infinite else self.positions
+        first, last = np.clip((finite[0], finite[-1]), *self.limits).tolist()
+        dress(axes, side, self.unit, (first, last), log=self.log)
+        if self.infinite and np.isinf(self.limits[1]):
+            places = locator(first, last, log=self.log).tick_values(first, last)
+            kept = [float(place) for place in places if first <= place <= last]
+            axis = axes.xaxis if side == "x" else axes.yaxis
+            axis.set_ticks([*kept, float(self.positions[-1])], [*self.unit.numbers(kept), number(np.inf)])
+        limit(axes, side, self.limits)
+
+
+def scale(values: NDArray[np.float64], name: str = "", span: Span = ALL) -> Scale:
+    """
+    Choose the scale of an axis of a name: logarithmic where its values are nearer to that than to an even spacing.
+
+    Its values rise. Of a span of it, ticks and the unit suit what is seen.
+
+    >>> scale(np.array([1.0, 10.0, 100.0, np.inf])).positions
+    array([   1.,   10.,  100., 1000.])
+    """
+    finite = np.unique(values[np.isfinite(values)])
+    log, infinite = is_log(finite), np.isinf(values)
+    beyond = 0.0
+    if infinite.any():
+        steps = max(1, finite.size - 1)
+        step = finite[-1] - finite[0]
+        beyond = (
+            finite[-1] * (finite[-1] / finite[0]) ** (1 / steps) if log else finite[-1] + (step / steps or finite[-1])
+        )
+    low, high = span.limits(name, log=log)
+    return Scale(
+        positions=np.where(infinite, beyond, values),
+        log=log,
+        infinite=bool(infinite.any()),
+        unit=unit_for(name, np.clip(finite, low, high), log=log),
+        limits=(low, high),
+    )

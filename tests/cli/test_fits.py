@@ -15,7 +15,7 @@ from click.testing import Result
 import gradhesion as gr
 from gradhesion.cli.dataset.fits import rows as fit_rows
 from gradhesion.cli.dataset.fits.rows import side_by_side
-from gradhesion.cli.picture.fits.loops import drawn_fits
+from gradhesion.cli.picture.fits import drawn_fits
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, NO_VALUE, POOR_FIT
 from tests.cli.ball import BALL, WORK
 

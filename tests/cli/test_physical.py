@@ -21,7 +21,7 @@ from gradhesion.cli.names.curves import CURVES
 from gradhesion.cli.names.outputs import OUTPUTS, SI
 from gradhesion.cli.names.symbols import SYMBOLS
 from gradhesion.cli.names.units import UNITS
-from gradhesion.cli.picture.curves.picture import drawn_curves
+from gradhesion.cli.picture.curves import drawn_curves
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.core import SENSITIVITIES, VALIDITY
 from gradhesion.core.problem.names import CONTACT_SLOPE, RATE
@@ -209,7 +209,7 @@ def test_curves_in_units_are_drawn_in_units(curves_in_units: xarray.Dataset) -> 
     ]
     path = drawn_curves(curves_in_units.isel(k=0), ["path_load_si"]).axes[0]
     shown = np.concatenate([line.get_ydata() for line in path.get_lines() if len(line.get_xdata()) > 2])
-    expected = curves_in_units["path_load_si"].isel(k=0) / 1e-6
+    expected = curves_in_units["path_load_si"].isel(k=0)
     assert (np.nanmin(shown), np.nanmax(shown)) == (float(expected.min()), float(expected.max()))
     reduced = drawn_curves(curves_in_units, ["path_load"])
     assert reduced.axes[0].get_xlabel() == r"depth $\delta/R$"

@@ -10,7 +10,7 @@ import pytest
 from click.testing import Result
 
 import gradhesion as gr
-from gradhesion.cli.picture.curves.measured import read_points
+from gradhesion.cli.picture.measured import read_points
 from tests.cli.ball import BALL, COLUMNS
 
 Call = Callable[..., Result]
@@ -88,7 +88,7 @@ OWN: dict[str, tuple[str, str, str]] = {
     "profile: no unit": ("profile", "r [um],height [V]\n1,2\n", "the unit of height [V] is not a length"),
     "profile: no rows": ("profile", "r [um],height [nm]\n1,\n,2\n", "no row has two numbers; name a file with r and height in each row"),
     "profile: one column": ("profile", "r [um]\n1\n", 'there is no column "height", and a profile has r and height'),
-    "data: no unit": ("data", "depth [nm],load\n1,2\n", "the column load has no unit, and the curves have; write it after the name"),
+    "data: no unit": ("data", "depth [nm],load\n1,2\n", "write it after the name in brackets, as load [nN]"),
     "data: one column": ("data", "depth [nm]\n1\n", "the file has depth alone; name them in the header"),
     "data: other names": ("data", "depht;laod\n1,5;2\n", 'the file has none of them; rename "depht" to "depth"'),
     "data: no rows": ("data", "depth [nm],load [nN]\n1,\n,2\n", "no row has numbers in all of depth, load; add some"),
@@ -100,7 +100,7 @@ def told(reader: str, folder: Path, gradhesion: Call) -> str:
     """Say what a reader says to the wrong table in a folder."""
     if reader == "data":
         with pytest.raises(gr.DatasetError) as caught:
-            read_points(folder / "table.csv", si=True)
+            read_points(folder / "table.csv", [("indentation", "load")], si=True)
         (sentence,) = caught.value.mistakes
         beginning = f"--data {folder / 'table.csv'}: "
     else:

@@ -1,235 +1,251 @@
-"""Doubtful scenes are hatched in maps and have open markers in lines; those that have failed are grey."""
+"""Doubtful scenes are hatched in maps and have open markers in lines; failed ones are grey; spreads are bands or bars."""
 
 from collections.abc import Callable
-from pathlib import Path as File
 from typing import Any
 
 import numpy as np
 import pytest
 import xarray
 from matplotlib.axes import Axes
-from matplotlib.collections import QuadMesh
+from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import to_rgb
 from matplotlib.contour import QuadContourSet
-from matplotlib.figure import Figure
 from matplotlib.path import Path
 
-from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.picture.curves.picture import drawn_curves
-from gradhesion.cli.picture.doubts import BEYOND, CROSS, DOUBTS, GAP, GREY, Doubt, doubts_in
-from gradhesion.cli.picture.pictured import save
-from gradhesion.cli.picture.values.picture import drawn
-from gradhesion.cli.study.reading import study_from
-from gradhesion.core import CURVES, DOUBTFUL, FLAGS, OUTPUTS, REPORTS, solve
+import gradhesion as gr
+from gradhesion.cli.dataset.read.model_range import LIMITS
+from gradhesion.core import DOUBTFUL, FLAGS
 from gradhesion.core.answers.flags import FLAG_WORDS
-from gradhesion.core.answers.flags import FLAGS as ALL_FLAGS
-from gradhesion.core.problem.status import OF_FITS
 
-LOADING, UNLOADING, TOLERANCE, *OF_ANSWERS = DOUBTS
-
-
-def _legend(figure: Figure) -> list[str]:
-    return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
-
-
-def _open_marks(axes: Axes, doubt: Doubt) -> list[Any]:
-    return [line for line in axes.get_lines() if line.get_marker() == doubt.mark and line.get_mfc() == "white"]
+LOADING, TOLERANCE, GONE = (FLAGS[name] for name in ("loading_contact_not_one_disc", "tolerance_not_met", "no_value"))
+HATCHES = {LOADING: "////", TOLERANCE: "xxxx"}
+MARKS = {LOADING: "o", TOLERANCE: "D"}
+PUNCH: dict[str, Any] = {"k": 0.2, "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.013, "A": 0.05, "a_max_over_R": 1.0}
+WAVES = {"start": 0.1, "stop": 0.5, "num": 12}
+SEVEN = {"k": {"start": 0.0, "stop": 0.9, "num": 7}}
 
 
-def _hatched(axes: Axes, doubt: Doubt | None) -> list[Path]:
-    """List the outlines of what is filled with the hatch of a doubt, or without any."""
-    hatch = None if doubt is None else doubt.hatch
+def words_of(bit: int) -> str:
+    """A flag in words."""
+    return FLAG_WORDS[next(name for name, own in FLAGS.items() if own == bit)]
+
+
+def legend(panels: Any) -> list[str]:
+    return [text.get_text() for one in panels.figure.legends for text in one.get_texts()]
+
+
+def open_marks(axes: Axes, bit: int) -> list[Any]:
+    lines = [line for line in axes.get_lines() if line.get_marker() == MARKS[bit] and line.get_mfc() == "white"]
+    return [line for line in lines if len(line.get_xdata())]
+
+
+def hatched(axes: Axes, hatch: str | None) -> list[Path]:
+    """List the outlines of what is filled with a hatch, or without any."""
     filled = [one for one in axes.collections if isinstance(one, QuadContourSet) and one.filled]
     return [path for one in filled if one.hatches[0] == hatch for path in one.get_paths() if path.vertices.size]
 
 
+def inside(paths: list[Path], dataset: xarray.Dataset, y: str) -> np.ndarray:
+    """Report which scenes are within outlines."""
+    return np.array([[any(path.contains_point((u, v)) for path in paths) for u in dataset["lambda_over_R"].values] for v in dataset[y].values])  # fmt: skip
+
+
 @pytest.fixture
-def make(data: dict[str, Any]) -> Callable[..., xarray.Dataset]:
+def make() -> Callable[..., xarray.Dataset]:
     """Compute a small study whose status is what a test makes of it."""
 
-    def compute_it(
-        status: Any = 0, outputs: Any = ("pull_off_force", "dissipated_energy"), **parameters: Any
-    ) -> xarray.Dataset:
-        fixed = {"k": 0.2, "A": 0.05, "a_max_over_R": 1.0, "lambda_over_R": {"start": 0.1, "stop": 0.5, "num": 12}}
-        study = data | {"outputs": [*outputs], "parameters": data["parameters"] | fixed | parameters}
-        dataset = compute(study_from(study), threads=1)
-        dataset["status"][...] = status
+    def computed(outputs: Any = ("pull_off_force", "dissipated_energy"), **parameters: Any) -> xarray.Dataset:
+        dataset = gr.run({"outputs": [*outputs], "parameters": PUNCH | {"lambda_over_R": WAVES} | parameters})
+        dataset["status"][...] = 0
         return dataset
 
-    return compute_it
+    return computed
 
 
-MAP = {"k": {"start": 0.0, "stop": 0.9, "num": 7}}
-
-
-def test_every_flag_has_words_and_every_doubt_looks_of_its_own() -> None:
-    assert list(FLAG_WORDS) == [*ALL_FLAGS, *OF_FITS]
-    assert sum(doubt.bit for doubt in (LOADING, UNLOADING, TOLERANCE)) == DOUBTFUL
-    assert {doubt.bit for doubt in OF_ANSWERS} <= {*ALL_FLAGS.values()} - {*FLAGS.values()}
-    for looks in ([doubt.hatch for doubt in DOUBTS], [doubt.mark for doubt in DOUBTS]):
-        assert len(set(looks)) == len(DOUBTS)
-    sizes = [doubt.size for doubt in DOUBTS]
-    assert sizes == sorted(sizes), "the larger ones are drawn first"
-
-
-def test_loading_casts_no_doubt_on_what_follows_full_contact() -> None:
-    status = np.array([0, *FLAGS.values()])
-    doubtful = {name for name in (*OUTPUTS, *REPORTS, *CURVES) if LOADING in doubts_in(status, name)}
-    assert doubtful == {
-        "dissipated_energy", "loading_energy", "energy_gain", "loading_jumps", "delta_max", "path", "jumps"
-    }  # fmt: skip
-    for name in OUTPUTS:
-        assert {UNLOADING, TOLERANCE} <= {*doubts_in(status, name)}
-    assert (
-        doubts_in(np.array([FLAGS["pull_off_at_rim"], FLAGS["jump_in_to_rim"], FLAGS["close_to_a_jump"]]), "delta_max")
-        == []
-    )
-    assert doubts_in(status, "status") == []
-
-
-def test_a_map_hatches_doubtful_scenes_and_shows_their_values(
-    make: Callable[..., xarray.Dataset], tmp_path: File
-) -> None:
-    dataset = make(**MAP)
-    plain = drawn(dataset, ["dissipated_energy"])
-    dataset["status"][2:4, 5:9] = LOADING.bit
+def test_a_map_hatches_doubtful_scenes_and_shows_their_values(make: Callable[..., xarray.Dataset]) -> None:
+    dataset = make(**SEVEN)
+    plain = gr.plot(dataset, "dissipated_energy")
+    dataset["status"][2:4, 5:9] = LOADING
     dataset["status"][5:, :3] = FLAGS["close_to_a_jump"]
-    hatched = drawn(dataset, ["dissipated_energy"])
-    assert _legend(plain) == []
-    assert _legend(hatched) == [LOADING.words]
-    assert _hatched(plain.axes[0], LOADING) == []
-    paths = _hatched(hatched.axes[0], LOADING)
-    x, y = dataset["lambda_over_R"].values, dataset["k"].values
-    inside = np.array([[any(path.contains_point((u, v)) for path in paths) for u in x] for v in y])
-    np.testing.assert_array_equal(inside, dataset["status"] == LOADING.bit)
-    np.testing.assert_array_equal(hatched.axes[0].collections[0].get_array(), plain.axes[0].collections[0].get_array())
-    save(hatched, tmp_path / "x.svg", "svg")
-    assert _legend(drawn(dataset, ["pull_off_force"])) == [], "the force does not depend on loading"
-    assert _legend(drawn(dataset, ["status"])) == []
+    shown = gr.plot(dataset, "dissipated_energy")
+    assert (legend(plain), legend(shown)) == ([], [words_of(LOADING)])
+    assert hatched(plain[0], HATCHES[LOADING]) == []
+    np.testing.assert_array_equal(
+        inside(hatched(shown[0], HATCHES[LOADING]), dataset, "k"), dataset["status"] == LOADING
+    )
+    np.testing.assert_array_equal(shown[0].collections[0].get_array(), plain[0].collections[0].get_array())
+    assert legend(gr.plot(dataset, "pull_off_force")) == [], "the force does not depend on loading"
+    assert legend(gr.plot(dataset, "status")) == []
 
 
-def test_a_map_hatches_what_leaves_the_range_of_the_model(make: Callable[..., xarray.Dataset], tmp_path: File) -> None:
-    grid = {"lambda_over_R": np.geomspace(0.05, 1.0, 12).tolist(), "A": np.geomspace(1e-3, 0.2, 10).tolist(), "k": 0.3}
-    dataset = make(outputs=("pull_off_force", "wave_slope", "johnson_alpha"), **grid)
-    force = drawn(dataset, ["pull_off_force"])
-    steep, several = (BEYOND[name] for name in ("wave_slope", "johnson_alpha"))
-    assert _legend(force) == [steep.words, several.words]
-    x, y = dataset["lambda_over_R"].values, dataset["A"].values
+def test_a_map_hatches_what_leaves_the_range_of_the_model(make: Callable[..., xarray.Dataset]) -> None:
+    amplitudes, waves = np.geomspace(1e-3, 0.2, 10).tolist(), np.geomspace(0.05, 1.0, 12).tolist()
+    dataset = make(("pull_off_force", "wave_slope", "johnson_alpha"), k=0.3, A=amplitudes, lambda_over_R=waves)
+    steep, several = (LIMITS[name].words for name in ("wave_slope", "johnson_alpha"))
+    force = gr.plot(dataset, "pull_off_force")
+    assert legend(force) == [steep, several]
     beyond = (dataset["wave_slope"] > 0.5).transpose("A", "lambda_over_R").values
-    paths = _hatched(force.axes[0], steep)
-    inside = np.array([[any(path.contains_point((u, v)) for path in paths) for u in x] for v in y])
-    np.testing.assert_array_equal(inside[1:-1, 1:-1], beyond[1:-1, 1:-1])
-    assert _legend(drawn(dataset, ["johnson_alpha"])) == [several.words], "a number shows its own limit alone"
-    assert _legend(drawn(dataset.isel(A=slice(0, 2)), ["pull_off_force"])) == []
-    save(force, tmp_path / "x.svg", "svg")
+    np.testing.assert_array_equal(inside(hatched(force[0], "++"), dataset, "A")[1:-1, 1:-1], beyond[1:-1, 1:-1])
+    assert legend(gr.plot(dataset, "johnson_alpha")) == [several], "a number shows its own limit alone"
+    assert legend(gr.plot(dataset.isel(A=slice(0, 2)), "pull_off_force", x="lambda_over_R")) == [
+        "$A$ = 0.001",
+        "$A$ = 0.001802",
+    ]
 
 
-def test_a_map_may_have_every_doubt_and_failures_at_once(make: Callable[..., xarray.Dataset], tmp_path: File) -> None:
-    dataset = make(**MAP, a_max_over_R=[0.4, 1.0])
+def test_a_map_may_have_every_doubt_and_failures_at_once(make: Callable[..., xarray.Dataset]) -> None:
+    dataset = make(**SEVEN, a_max_over_R=[0.4, 1.0])
     dataset["status"][...] = DOUBTFUL
-    dataset["status"][1:3, 2:5] = FLAGS["no_value"] | LOADING.bit
+    dataset["status"][1:3, 2:5] = GONE | LOADING
     dataset["dissipated_energy"][1:3, 2:5] = np.nan
-    figure = drawn(dataset, [])
-    assert _legend(figure) == [*(doubt.words for doubt in (LOADING, UNLOADING, TOLERANCE)), GAP], "once for all panels"
-    save(figure, tmp_path / "x.png", "png")
-    for axes in figure.subfigs[0].subfigs[1].axes[:2]:
-        assert axes.patch.get_facecolor()[:3] == to_rgb(GREY)
-        failed = dataset["lambda_over_R"].values[3], dataset["k"].values[1]
-        for doubt in (None, LOADING, UNLOADING, TOLERANCE):
-            paths = _hatched(axes, doubt)
+    panels = gr.plot(dataset)
+    found = [words_of(bit) for bit in FLAGS.values() if bit & DOUBTFUL]
+    assert {*legend(panels)} == {*found, "no finite value"}
+    assert len(legend(panels)) == len(found) + 1, "once for all panels"
+    failed = dataset["lambda_over_R"].values[3], dataset["k"].values[1]
+    for axes in panels[2:]:
+        assert axes.patch.get_facecolor()[:3] == to_rgb("0.8")
+        for hatch in (None, *HATCHES.values()):
+            paths = hatched(axes, hatch)
             assert paths
             assert not any(path.contains_point(failed) for path in paths), "the grey shows through"
 
 
-def test_lines_have_open_markers_where_they_are_doubtful(make: Callable[..., xarray.Dataset], tmp_path: File) -> None:
+def test_lines_have_open_markers_where_they_are_doubtful(make: Callable[..., xarray.Dataset]) -> None:
     dataset = make(k=[0.0, 0.3])
-    dataset["status"][1, 4:7] = LOADING.bit
-    dataset["status"][1, 6] |= TOLERANCE.bit
+    dataset["status"][1, 4:7] = LOADING
+    dataset["status"][1, 6] |= TOLERANCE
     dataset["dissipated_energy"][0, 2:4] = np.nan
-    dataset["status"][0, 2:4] = FLAGS["no_value"]
-    figure = drawn(dataset, [])
-    save(figure, tmp_path / "x.png", "png")
-    assert _legend(figure) == [LOADING.words, TOLERANCE.words, GAP]
-    force, energy = (part.axes[0] for part in figure.subfigs[0].subfigs)
+    dataset["status"][0, 2:4] = GONE
+    panels = gr.plot(dataset)
+    assert {words_of(LOADING), words_of(TOLERANCE), "no finite value"} <= {*legend(panels)}
+    force, energy = panels
     x = dataset["lambda_over_R"].values
-    for doubt, axes, marked in (
-        (LOADING, energy, slice(4, 7)),
-        (TOLERANCE, energy, slice(6, 7)),
-        (TOLERANCE, force, slice(6, 7)),
+    for bit, axes, name, marked in (
+        (LOADING, energy, "dissipated_energy", slice(4, 7)),
+        (TOLERANCE, energy, "dissipated_energy", slice(6, 7)),
+        (TOLERANCE, force, "pull_off_force", slice(6, 7)),
     ):
-        (line,) = [line for line in _open_marks(axes, doubt) if len(line.get_xdata())]
+        (line,) = open_marks(axes, bit)
         np.testing.assert_array_equal(line.get_xdata(), x[marked])
-        name = "dissipated_energy" if axes is energy else "pull_off_force"
         np.testing.assert_array_equal(line.get_ydata(), dataset[name][1, marked])
-    assert not any(len(line.get_xdata()) for line in _open_marks(force, LOADING))
+    assert not open_marks(force, LOADING)
     (crosses,) = [line for line in energy.get_lines() if line.get_marker() == "x"]
-    assert crosses.get_color() == CROSS
     np.testing.assert_array_equal(crosses.get_xdata(), x[2:4])
 
 
 def test_long_lines_have_some_of_their_markers_and_the_ends_of_each_run(make: Callable[..., xarray.Dataset]) -> None:
-    dataset = make(lambda_over_R={"start": 0.1, "stop": 0.5, "num": 400})
-    dataset["status"][17:321] = LOADING.bit
-    dataset["status"][333] = LOADING.bit
-    (axes,) = drawn(dataset, ["dissipated_energy"]).axes
-    (line,) = _open_marks(axes, LOADING)
+    dataset = make(lambda_over_R=WAVES | {"num": 400})
+    dataset["status"][17:321] = LOADING
+    dataset["status"][333] = LOADING
+    (line,) = open_marks(gr.plot(dataset, "dissipated_energy")[0], LOADING)
     places = np.searchsorted(dataset["lambda_over_R"].values, line.get_xdata())
     assert {17, 320, 333} <= {*places.tolist()}
-    assert (dataset["status"].values[places] == LOADING.bit).all()
+    assert (dataset["status"].values[places] == LOADING).all()
     assert 20 < places.size < 50
 
 
-def test_points_have_open_markers(make: Callable[..., xarray.Dataset], data: dict[str, Any], tmp_path: File) -> None:
-    data["layout"] = "points"
-    dataset = make(lambda_over_R=[0.3, 0.1, 0.2, 0.4])
-    dataset["status"][0:2] = LOADING.bit
-    dataset["dissipated_energy"][3] = np.nan
-    figure = drawn(dataset, ["dissipated_energy"])
-    save(figure, tmp_path / "x.png", "png")
-    assert _legend(figure) == [LOADING.words, GAP]
-    (axes,) = figure.axes
-    (line,) = _open_marks(axes, LOADING)[-1:]
-    assert line.get_xdata().tolist() == [0.1, 0.3]
+def test_points_have_open_markers() -> None:
+    points = gr.run(
+        {
+            "layout": "points",
+            "outputs": ["dissipated_energy"],
+            "parameters": PUNCH | {"lambda_over_R": [0.3, 0.1, 0.2, 0.4]},
+        }
+    )
+    points["status"][...] = [LOADING, LOADING, 0, 0]
+    points["dissipated_energy"][3] = np.nan
+    panels = gr.plot(points)
+    assert legend(panels) == [words_of(LOADING), "no finite value"]
+    assert open_marks(panels[0], LOADING)[-1].get_xdata().tolist() == [0.1, 0.3]
 
 
-def test_a_doubtful_path_has_open_markers_on_loading(data: dict[str, Any], tmp_path: File) -> None:
-    parameters = {"k": 0.2, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.1, "lambda_over_R": 0.12, "a_max_over_R": 0.6}
-    parameters["A"] = [0.0, 0.15]
-    assert [*solve(parameters)["status"]] == [0, LOADING.bit], "the scenes are what they are meant to be"
-    dataset = compute(study_from(data | {"kind": "curve", "outputs": ["path", "smooth"], "parameters": parameters}))
-    for figure in (drawn_curves(dataset, []), drawn_curves(dataset.isel(A=1), [])):
-        save(figure, tmp_path / "x.png", "png")
-        assert _legend(figure)[-1] == LOADING.words
-        for axes in figure.axes:
-            (line,) = _open_marks(axes, LOADING)
-            loading = dataset["path_unloading"].isel(A=1).values == 0
-            assert len(line.get_xdata()) == loading.sum()
-    for figure in (drawn_curves(dataset.isel(A=0), []), drawn_curves(dataset, ["smooth"])):
-        assert LOADING.words not in _legend(figure)
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [("best_A", [0.0, 0.6]), ("best_lambda_over_R", [0.4, 0.6]), ("best_pull_off_force", [0.0, 0.4, 0.6])],
+)
+def test_an_optimum_at_a_bound_is_marked_where_its_flag_is(name: str, expected: list[float]) -> None:
+    own = {"k": [0.0, 0.2, 0.4, 0.6], "A": {"start": 0.001, "stop": 0.02}, "lambda_over_R": {"start": 0.1, "stop": 1.0}}
+    search = {"maximise": "pull_off_force", "over": ["A", "lambda_over_R"], "resolution": 12}
+    optima = gr.run({"kind": "optimum", "optimum": search, "parameters": PUNCH | own})
+    meanings = optima["on_bound"].attrs["flag_meanings"].split()
+    upper, lower = (1 << meanings.index(word) for word in ("A_at_its_upper_bound", "lambda_over_R_at_its_lower_bound"))
+    optima["on_bound"][...] = [upper, 0, lower, upper | lower]
+    panels = gr.plot(optima, name)
+    (marks,) = [line for line in panels[0].get_lines() if line.get_marker() == ">"]
+    np.testing.assert_array_equal(marks.get_xdata(), expected)
+    assert len(legend(panels)) == 1
+    optima["on_bound"][...] = 0
+    assert not legend(gr.plot(optima, name))
 
 
-def test_a_scene_without_curves_is_grey_in_the_legend(data: dict[str, Any]) -> None:
-    parameters = data["parameters"] | {"k": 0.2, "A": 0.1, "a_max_over_R": 0.4, "lambda_over_R": [1e-9, 0.2]}
-    dataset = compute(study_from(data | {"kind": "curve", "outputs": ["path"], "parameters": parameters}))
-    figure = drawn_curves(dataset, [])
-    first, second = figure.legends[0].get_texts()[:2]
-    assert first.get_text().endswith("(no value)")
-    assert not second.get_text().endswith("(no value)")
-    assert to_rgb(figure.legends[0].get_lines()[0].get_color()) == to_rgb(CROSS)
+@pytest.fixture(scope="module")
+def sampled() -> xarray.Dataset:
+    """A force with standard deviations and quantiles."""
+    uncertainty = {"modulus": "5 %", "A": "10 %", "samples": 16}
+    parameters = PUNCH | {"k": [0.0, 0.4], "A": 0.01, "a_max_over_R": 0.5, "lambda_over_R": WAVES | {"num": 24}}
+    study = {"outputs": ["pull_off_force", "loading_jumps"], "parameters": parameters, "uncertainty": uncertainty}
+    return gr.run(study)
 
 
-def test_a_map_of_the_status_has_a_colour_for_each_set_of_flags(
-    make: Callable[..., xarray.Dataset], tmp_path: File
-) -> None:
-    dataset = make(**MAP)
-    codes = [0, FLAGS["pull_off_at_rim"], LOADING.bit | FLAGS["jump_in_to_rim"]]
-    dataset["status"][...] = np.array(codes)[np.arange(12) // 4]
-    figure = drawn(dataset, ["status"])
-    save(figure, tmp_path / "x.png", "png")
-    axes, bar = figure.axes
-    (mesh,) = [one for one in axes.collections if isinstance(one, QuadMesh)]
-    np.testing.assert_array_equal(np.array(codes)[mesh.get_array().astype(int)], dataset["status"])
-    words = [tick.get_text() for tick in bar.get_yticklabels()]
-    assert words == ["nothing to report", "pull off at rim", "loading contact not one disc\n+ jump in to rim"]
-    shades = mesh.cmap(mesh.norm(np.arange(3))) @ [0.299, 0.587, 0.114, 0.0]
-    assert (np.diff(shades) > 0.2).all(), "they differ in a grey print"
+def edges(axes: Axes) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Read the least and the greatest height of each band at its places."""
+    found = []
+    for path in (band.get_paths()[0] for band in axes.collections if isinstance(band, PolyCollection)):
+        if len(path.vertices) > 4:
+            rows = [path.vertices[path.vertices[:, 0] == place, 1] for place in np.unique(path.vertices[:, 0])]
+            found.append((np.array([row.min() for row in rows]), np.array([row.max() for row in rows])))
+    return found
+
+
+def test_a_band_goes_from_edge_to_edge(sampled: xarray.Dataset) -> None:
+    panels = gr.plot(sampled, "pull_off_force")
+    quantiles = [sampled[f"pull_off_force_{end}"].values for end in ("p05", "p95")]
+    for found, low, high in zip(edges(panels[0]), *quantiles, strict=True):
+        np.testing.assert_array_equal(found, [low, high])
+    assert "5 % to 95 % of samples" in legend(panels)
+    low, high = panels[0].get_ylim()
+    assert low < quantiles[0].min() < quantiles[1].max() < high
+    ((low, high),) = edges(gr.plot(sampled.isel(k=0), "pull_off_force", band="std")[0])
+    value, deviation = (sampled[name].values[0] for name in ("pull_off_force", "pull_off_force_std"))
+    np.testing.assert_array_equal([low, high], [value - deviation, value + deviation])
+    linear = sampled.drop_vars([name for name in sampled if str(name)[-4:] in ("_p05", "_p95")])
+    assert len(edges(gr.plot(linear, "pull_off_force")[0])) == 2, "without samples it is what there is"
+    assert len(edges(gr.plot(sampled, "pull_off_force_p50")[0])) == 2
+    for name, choices in (
+        ("pull_off_force", {"band": "none"}),
+        ("pull_off_force_std", {}),
+        ("loading_jumps", {}),
+        ("pull_off_force", {"over": {"k": "max"}}),
+    ):
+        assert not edges(gr.plot(sampled, name, **choices)[0])
+
+
+def test_few_values_have_bars_above_the_grid_and_below_the_values(sampled: xarray.Dataset) -> None:
+    few = sampled.isel(lambda_over_R=slice(0, 24, 4))
+    (axes,) = gr.plot(few, "pull_off_force")
+    bars = [one for one in axes.collections if isinstance(one, LineCollection)]
+    ends = np.array([path.vertices[:, 1] for path in bars[1].get_paths()]).T
+    np.testing.assert_allclose(ends, [few[f"pull_off_force_{end}"].values[1] for end in ("p05", "p95")], rtol=1e-15)
+    values = [line for line in axes.get_lines() if line.get_linestyle() != "None"]
+    orders = [one.get_zorder() for one in bars]
+    assert axes.xaxis.get_zorder() < min(orders) <= max(orders) < min(one.get_zorder() for one in values)
+    points = (
+        few.isel(k=0).rename(lambda_over_R="scene").assign_coords(lambda_over_R=("scene", few["lambda_over_R"].values))
+    )
+    (axes,) = gr.plot(points.drop_vars("scene"), "pull_off_force")
+    assert [len(one.get_paths()) for one in axes.collections if isinstance(one, LineCollection)] == [6]
+
+
+def test_a_band_that_is_not_there_is_refused(sampled: xarray.Dataset) -> None:
+    for name, choices in (
+        ("loading_jumps", {"band": "std"}),
+        ("pull_off_force_std", {"band": "std"}),
+        ("pull_off_force", {"band": "std", "kind": "map"}),
+        ("pull_off_force", {"band": "stdd"}),
+        ("pull_off_force", {"band": "std", "over": {"k": "max"}}),
+    ):
+        with pytest.raises(gr.DatasetError, match="band"):
+            gr.plot(sampled, name, **choices)
+    with pytest.raises(gr.DatasetError, match="quantiles"):
+        gr.plot(sampled.drop_vars("pull_off_force_p05"), "pull_off_force", band="quantiles")

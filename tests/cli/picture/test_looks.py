@@ -1,4 +1,4 @@
-"""Size, colours, levels and words of a picture are what a user chooses; what does not exist is refused in a sentence."""
+"""Size, colours, levels, limits, insets and words of a picture are what a user chooses; what does not exist is refused."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -13,260 +13,270 @@ from click.testing import Result
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 from matplotlib.contour import QuadContourSet
-from matplotlib.figure import Figure
-from matplotlib.path import Path as Outline
 
-from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.picture.curves.picture import drawn_curves
-from gradhesion.cli.picture.looks import STYLE, looks_of
-from gradhesion.cli.picture.values.picture import drawn
-from gradhesion.cli.picture.values.points import DENSE
-from gradhesion.cli.study.reading import study_from
+import gradhesion as gr
 
 Call = Callable[..., Result]
 
 
 @pytest.fixture(scope="module")
 def grid() -> xarray.Dataset:
-    """A force that is a saddle of known contours, in the form of a dataset of maps."""
-    parameters = {
-        "k": {"start": 0.0, "stop": 0.9, "num": 10},
-        "nu": 0.27,
-        "modulus": 430.0,
-        "c0_over_R": 0.013,
-        "lambda_over_R": {"start": 0.1, "stop": 1.0, "num": 40},
-        "A": [0.0, 0.02],
-        "a_max_over_R": 0.7,
+    """A force in newtons that is a saddle of known contours, over exponents and wavelengths from 50 nm to 1 um."""
+    units = {"R": "2 um", "E_star": "1 GPa", "work_of_adhesion": "20 mJ/m^2", "c0": "10 nm", "a_max": "0.5 um"}
+    waves = {"start": "50 nm", "stop": "1 um", "num": 40}
+    study = {
+        "title": "A small study",
+        "outputs": ["pull_off_force", "dissipated_energy"],
+        "parameters": {"k": {"start": 0.0, "stop": 0.9, "num": 10}, "nu": 0.3, "A": 0.01},
+        "physical": units | {"wavelength": waves},
     }
-    study = {"title": "A small study", "outputs": ["pull_off_force", "dissipated_energy"], "parameters": parameters}
-    dataset = compute(study_from(study), threads=1)
-    force = 1.0 + dataset["k"] + dataset["lambda_over_R"] + 0.0 * dataset["pull_off_force"]
-    dataset["pull_off_force"] = force.transpose(*dataset["pull_off_force"].dims).assign_attrs(
-        dataset["pull_off_force"].attrs
-    )
-    return dataset
+    found = gr.run(study)
+    found["pull_off_force"][...] = 1.0 + found["k"] + 1e6 * found["wavelength"]
+    found["pull_off_force_si"][...] = 1e-7 * found["pull_off_force"]
+    return found
 
 
-def _contours(axes: Axes) -> QuadContourSet:
+@pytest.fixture(scope="module")
+def bend(grid: xarray.Dataset) -> xarray.Dataset:
+    """Two lines that fall and rise: all that is above their middle is free."""
+    two = grid.isel(k=[0, 4]).copy(deep=True)
+    two["pull_off_force"][...] = 1.0 + (2e6 * two["wavelength"] - 1.1) ** 2 + 0.1 * two["k"]
+    return two
+
+
+def contours(axes: Axes) -> QuadContourSet:
     """Give the lines of a map."""
     return next(one for one in axes.collections if isinstance(one, QuadContourSet) and not one.filled)
 
 
-def _size(figure: Figure) -> list[float]:
-    return [float(side) for side in figure.get_size_inches()]
-
-
 @pytest.mark.parametrize(
-    ("words", "inches"),
+    ("width", "inches"),
     [("column", 90 / 25.4), ("page", 190 / 25.4), (5, 5.0), ("8 cm", 8 / 2.54), ("90mm", 90 / 25.4)],
 )
-def test_a_width_is_that_of_the_figure(words: Any, inches: float, grid: xarray.Dataset) -> None:
-    figure = drawn(grid.isel(A=1), ["pull_off_force"], looks=looks_of(width=words))
-    assert _size(figure)[0] == pytest.approx(inches, rel=1e-15)
-    assert _size(drawn(grid.isel(A=1), [], looks=looks_of(width=words, height=3)))[1] == 3.0
-
-
-def test_variables_stand_below_each_other_in_a_column(grid: xarray.Dataset) -> None:
-    for width, below in (("column", True), ("page", False)):
-        first, second = drawn(grid.isel(A=1), [], looks=looks_of(width=width)).subfigs[0].subfigs
-        assert (first.bbox.y0 > second.bbox.y0) == below
-
-
-def test_lines_and_maps_are_as_asked_for(grid: xarray.Dataset) -> None:
-    one = grid.isel(A=1)
-    (axes, _) = drawn(one, ["pull_off_force"]).axes
-    assert _contours(axes)
-    figure = drawn(one, ["pull_off_force"], looks=looks_of(kind="lines"))
-    lines = figure.axes[0].get_lines()
-    assert [line.get_label() for line in lines] == [f"$k$ = {value:g}" for value in (0.0, 0.2, 0.4, 0.5, 0.7, 0.9)]
-    assert len({str(line.get_linestyle()) + str(line._dash_pattern) for line in lines}) == 6, (
-        "a grey print keeps them apart"
-    )
-    assert "6 of 10 values of" in figure.get_suptitle()
-    few = one.isel(k=[0, 4])
-    assert len(drawn(few, ["pull_off_force"]).axes) == 1
-    assert _contours(drawn(few, ["pull_off_force"], looks=looks_of(kind="map")).axes[0])
+def test_sides_are_those_of_the_figure(width: Any, inches: float, grid: xarray.Dataset) -> None:
+    panels = gr.plot(grid, width=width, height=3)
+    assert panels.figure.get_size_inches() == pytest.approx([inches, 3.0], rel=1e-15)
+    first, second = (axes.get_position() for axes in panels)
+    assert (first.x0 == second.x0) == (inches < 4.8), "variables stand below each other in a column"
 
 
 @pytest.mark.parametrize(("levels", "expected"), [("1.5,2.0", [1.5, 2.0]), ([1.25], [1.25]), ([1.3, 9.0], [1.3])])
 def test_levels_are_those_listed(levels: Any, expected: list[float], grid: xarray.Dataset) -> None:
-    (axes, bar) = drawn(grid.isel(A=1), ["pull_off_force"], looks=looks_of(levels=levels)).axes
-    lines = _contours(axes)
-    drawn_ones = [level for level, path in zip(lines.levels, lines.get_paths(), strict=True) if path.vertices.size]
-    assert drawn_ones == expected
-    for level, path in zip(lines.levels, lines.get_paths(), strict=True):  # the saddle: 1 + k + lambda/R
-        np.testing.assert_allclose(1.0 + path.vertices.sum(axis=1), level, rtol=0, atol=1e-12)
-    assert {*expected} <= {*bar.get_yticks()}
+    axes, bar = gr.plot(grid, "pull_off_force", levels=levels).figure.axes
+    lines = contours(axes)
+    shown = {level: path for level, path in zip(lines.levels, lines.get_paths(), strict=True) if path.vertices.size}
+    assert [*shown] == expected
+    for level, path in shown.items():  # the saddle: 1 + k + wavelength/um
+        np.testing.assert_allclose(1.0 + path.vertices @ [1e6, 1.0], level, rtol=0, atol=1e-12)
+    ends = [float(end) for end in (grid["pull_off_force"].min(), grid["pull_off_force"].max())]
+    assert {*expected, *ends} <= {*bar.get_yticks()}
+    filled = axes.collections[0]
+    mesh = next(one for one in bar.collections if one.get_array() is not None)
+    colours = mesh.to_rgba(np.asarray(mesh.get_array()).ravel())
+    np.testing.assert_allclose(
+        colours, filled.to_rgba(filled.get_array()), err_msg="the bar has the colours of the map"
+    )
 
 
 def test_a_number_of_levels_is_about_theirs(grid: xarray.Dataset) -> None:
-    few, many = (
-        len(drawn(grid.isel(A=1), ["pull_off_force"], looks=looks_of(levels=n)).axes[0].collections[0].levels)  # type: ignore[attr-defined]
-        for n in (4, 40)
-    )
+    few, many = (len(gr.plot(grid, "pull_off_force", levels=n)[0].collections[0].levels) for n in (4, 40))  # type: ignore[attr-defined]
     assert 3 <= few <= 6
     assert 20 <= many <= 42
 
 
 def test_a_colour_map_is_that_of_maps_and_lines(grid: xarray.Dataset) -> None:
-    looks = looks_of(colour_map="plasma", kind="lines")
-    lines = drawn(grid.isel(A=1), ["pull_off_force"], looks=looks).axes[0].get_lines()
-    assert to_rgb(lines[0].get_color()) == to_rgb(mpl.colormaps["plasma"](0.0))
-    (axes, _) = drawn(grid.isel(A=1), ["pull_off_force"], looks=looks_of(colour_map="plasma")).axes
-    assert axes.collections[0].get_cmap().name == "plasma"
+    (lines,) = gr.plot(grid, "pull_off_force", colour_map="plasma", kind="lines")
+    assert to_rgb(lines.get_lines()[0].get_color()) == to_rgb(mpl.colormaps["plasma"](0.0))
+    assert gr.plot(grid, "pull_off_force", colour_map="plasma")[0].collections[0].get_cmap().name == "plasma"
 
 
-def test_title_caption_and_numbers_can_be_left_out(grid: xarray.Dataset) -> None:
-    one = grid.isel(A=1)
-    whole = drawn(one, ["pull_off_force"])
-    assert whole.get_suptitle().splitlines()[0] == "A small study"
-    assert r"$\nu$ = 0.27" in whole.get_suptitle()
-    assert _contours(whole.axes[0]).labelTexts
-    assert drawn(one, ["pull_off_force"], looks=looks_of(title=False, caption=False)).get_suptitle() == ""
-    assert drawn(one, ["pull_off_force"], looks=looks_of(caption=False)).get_suptitle() == "A small study"
-    assert not _contours(drawn(one, ["pull_off_force"], looks=looks_of(labels=False)).axes[0]).labelTexts
+def test_words_are_left_out_or_replaced(grid: xarray.Dataset) -> None:
+    whole = gr.plot(grid, "pull_off_force")
+    title, *caption = whole.figure.get_suptitle().splitlines()
+    assert title == "A small study"
+    assert r"$\nu$" in caption[0]
+    assert contours(whole[0]).labelTexts
+    assert gr.plot(grid, "pull_off_force", title=False, caption=False).figure.get_suptitle() == ""
+    bare = gr.plot(grid, "pull_off_force", title="My $k$", caption=False, labels=False, xlabel="waves", ylabel="depth")
+    assert bare.figure.get_suptitle() == "My $k$"
+    assert (bare[0].get_xlabel(), bare[0].get_ylabel()) == ("waves", "depth")
+    assert not contours(bare[0]).labelTexts
+    assert [axes.get_xlabel() for axes in gr.plot(grid, kind="lines", xlabel="waves")] == ["waves", "waves"]
+    with pytest.raises(gr.DatasetError, match="ylabel"):
+        gr.plot(grid, kind="lines", ylabel="force")
 
 
 @pytest.mark.parametrize("width", [3.0, 6.0])
-def test_numbers_on_contours_are_whole_and_clear_of_each_other_and_of_other_lines(
-    width: float, grid: xarray.Dataset
-) -> None:
-    figure = drawn(grid.isel(A=1), ["pull_off_force"], looks=looks_of(width=width, levels=12))
-    figure.draw_without_rendering()
-    axes = figure.axes[0]
-    lines = _contours(axes)
-    frame = axes.get_window_extent()
-    assert lines.labelTexts
-    boxes = [text.get_window_extent() for text in lines.labelTexts]
-    for box in boxes:
+def test_numbers_on_contours_are_whole_and_on_their_lines(width: float, grid: xarray.Dataset) -> None:
+    (axes,) = gr.plot(grid, "pull_off_force", width=width, levels=12)
+    axes.figure.draw_without_rendering()
+    frame, texts = axes.get_window_extent(), contours(axes).labelTexts
+    assert texts
+    assert len({text.get_text() for text in texts}) == len(texts)
+    for text in texts:
+        box = text.get_window_extent()
         assert frame.x0 <= box.x0 < box.x1 <= frame.x1
         assert frame.y0 <= box.y0 < box.y1 <= frame.y1
-    middles = np.array([[0.5 * (box.x0 + box.x1), 0.5 * (box.y0 + box.y1)] for box in boxes])
-    apart = np.hypot(*(middles[:, None] - middles).T) + 1e9 * np.eye(len(middles))
-    assert apart.min() > min(box.height for box in boxes) / 2
-    for text, level in zip(lines.labelTexts, [float(text.get_text()) for text in lines.labelTexts], strict=True):
-        at = axes.transData.inverted().transform(axes.transData.transform(text.get_position()))
-        assert 1.0 + at.sum() == pytest.approx(level, abs=0.02), "a number is on its line"
-    assert all(isinstance(path, Outline) for path in lines.get_paths())
+        x, y = text.get_position()
+        assert 1.0 + 1e6 * x + y == pytest.approx(float(text.get_text()), abs=0.02)
 
 
-def test_a_map_too_small_for_numbers_has_none(grid: xarray.Dataset) -> None:
-    looks = looks_of(width=1.4, height=0.8 + 0.2, levels=40, title=False, caption=False)
-    assert not _contours(drawn(grid.isel(A=1), ["pull_off_force"], looks=looks).axes[0]).labelTexts
-    with pytest.raises(DatasetError, match="a picture of 1 by 1 inches has no room for its panels"):
-        drawn(grid.isel(A=1), [], looks=looks_of(width=1, height=1))
+def test_panels_without_room_are_refused(grid: xarray.Dataset) -> None:
+    with pytest.raises(gr.DatasetError, match="1 by 1 inches"):
+        gr.plot(grid, width=1, height=1)
 
 
-def test_status_is_drawn_as_categories(grid: xarray.Dataset) -> None:
-    dataset = grid.isel(A=1, k=slice(0, 2)).copy()
-    dataset["status"][...] = 0
-    dataset["status"][..., 3:] = 1
-    axes = drawn(dataset, ["status"]).axes[0]
-    assert [text.get_text() for text in axes.get_yticklabels()] == ["nothing to report", "loading contact not one disc"]
-    first = axes.get_lines()[0].get_ydata()
-    assert np.round(first).tolist() == [0.0] * 3 + [1.0] * 37
-    points = dataset.isel(k=0).rename_dims(lambda_over_R="scene").reset_index("lambda_over_R")
-    axes = drawn(points, ["status"]).axes[0]
-    assert [text.get_text() for text in axes.get_yticklabels()] == ["nothing to report", "loading contact not one disc"]
+@pytest.mark.parametrize(
+    ("xlim", "expected"),
+    [
+        ("0.1 um:400 nm", (1e-7, 4e-7)),
+        ("1e-7:4e-7", (1e-7, 4e-7)),
+        ((1e-7, None), (1e-7, 1e-6)),
+        (":400nm", (5e-8, 4e-7)),
+    ],
+)
+@pytest.mark.parametrize("kind", ["lines", "map"])
+def test_limits_are_in_si_or_have_units(kind: Any, xlim: Any, expected: Any, grid: xarray.Dataset) -> None:
+    (axes,) = gr.plot(grid, "pull_off_force_si", xlim=xlim, kind=kind)
+    assert axes.get_xlim() == pytest.approx(expected, rel=0.2)
+    for given, end in zip(expected, axes.get_xlim(), strict=True):
+        assert given in (5e-8, 1e-6) or end == pytest.approx(given, rel=1e-12)
+    assert axes.get_xlabel() == (r"$\lambda$ (µm)" if xlim == (1e-7, None) else r"$\lambda$ (nm)")
 
 
-def test_many_points_are_drawn_as_their_number(grid: xarray.Dataset) -> None:
-    rng = np.random.default_rng(7)
-    count = DENSE + 500
-    k = rng.uniform(0.0, 0.9, count)
-    points = xarray.Dataset(
-        {"pull_off_force": ("scene", 1.0 + k), "status": ("scene", np.zeros(count, "i4"))},
-        coords={"k": ("scene", k), "nu": ("scene", np.full(count, 0.3))},
-        attrs=grid.attrs,
-    )
-    points["pull_off_force"][:40] = np.nan
-    points["status"][100:110] = 1 << 5
-    figure = drawn(points, ["pull_off_force"])
-    (cells,) = figure.axes[0].collections
-    counts = cells.get_array()
-    assert counts is not None
-    assert float(np.sum(counts)) == count - 40, "every scene with a value is counted once"
-    assert figure.axes[1].get_ylabel() == "scenes in a cell"
-    assert "40 scenes without a value" in figure.get_suptitle()
-    few = drawn(points.isel(scene=slice(0, 100)), ["pull_off_force"])
-    assert not few.axes[0].collections
+def test_what_is_seen_sets_the_other_axis(grid: xarray.Dataset) -> None:
+    seen = grid["pull_off_force_si"].sel(wavelength=slice(1.9e-7, 4.1e-7), method=None)
+    (axes,) = gr.plot(grid, "pull_off_force_si", xlim=("200 nm", "400 nm"), kind="lines")
+    low, high = axes.get_ylim()
+    assert low < float(seen.min())
+    assert float(seen.max()) < high
+    assert high - low < float(np.ptp(grid["pull_off_force_si"].values))
+    (axes,) = gr.plot(grid, "pull_off_force_si", ylim="0.15 uN:0.2 uN", kind="lines")
+    assert axes.get_ylim() == pytest.approx((1.5e-7, 2e-7), rel=1e-12)
+    for axes in gr.plot(grid, xlim=(1e-7, 4e-7), ylim=(0.15, 0.4), kind="map"):
+        assert axes.get_xlim() == pytest.approx((1e-7, 4e-7), rel=1e-12)
+        assert axes.get_ylim() == pytest.approx((0.15, 0.4), rel=1e-12)
+    between = gr.plot(grid, "pull_off_force_si", at={"k": 0.25}, interpolate=True, xlim=(1e-7, 4e-7))
+    assert between[0].get_xlim() == pytest.approx((1e-7, 4e-7), rel=1e-12)
 
 
-def test_one_plane_of_curves_is_drawn(data: dict[str, Any]) -> None:
-    fixed = {"k": 0.3, "lambda_over_R": 0.17, "A": 0.03, "a_max_over_R": 0.4}
-    curves = compute(
-        study_from(data | {"kind": "curve", "outputs": ["path"], "parameters": data["parameters"] | fixed}), threads=1
-    )
-    for choice, planes in (
-        ({"x": "indentation", "y": "load"}, [("depth", "load")]),
-        ({"x": "contact_radius"}, [("contact radius", "depth"), ("contact radius", "load")]),
-        ({"y": "contact_radius"}, [("depth", "contact radius"), ("load", "contact radius")]),
-        ({"x": "load", "y": "indentation"}, [("load", "depth")]),
-    ):
-        figure = drawn_curves(curves, [], **choice)
-        assert [(a.get_xlabel().split(" $")[0], a.get_ylabel().split(" $")[0]) for a in figure.axes] == planes
-    figure = drawn_curves(curves, [], looks=looks_of(width="column", title=False, caption=False))
-    assert figure.get_suptitle() == ""
-    assert len({axes.bbox.x0 for axes in figure.axes}) == 1, "panels stand below each other"
-    without = curves.drop_vars([name for name in curves if "load" in str(name) and name != "path_unloading"])
-    with pytest.raises(DatasetError, match="--y load: path of this dataset has no such plane"):
-        drawn_curves(without, [], y="load")
-    with pytest.raises(DatasetError, match="--map: curves are drawn as lines"):
-        drawn_curves(curves, [], looks=looks_of(kind="map"))
-    with pytest.raises(DatasetError, match="--levels: contour levels are for a map"):
-        drawn_curves(curves, [], looks=looks_of(levels=5))
+@pytest.mark.parametrize(("width", "inset"), [(4.0, "500 nm:600 nm"), (6.0, "100 nm:200 nm"), (5.0, ":300 nm")])
+def test_an_inset_shows_a_part_and_hides_nothing(width: float, inset: str, bend: xarray.Dataset) -> None:
+    (axes,) = gr.plot(bend, "pull_off_force", width=width, inset=tuple(inset.split(":")))
+    axes.figure.draw_without_rendering()
+    (part,) = axes.child_axes
+    assert part.get_xlim()[1] == pytest.approx(float(inset.split(":")[1].split(maxsplit=1)[0]) * 1e-9, rel=1e-12)
+    for own, shown in zip(axes.get_lines(), part.get_lines(), strict=True):
+        np.testing.assert_array_equal(own.get_xydata(), shown.get_xydata())
+        assert own.get_color() == shown.get_color()
+    assert part.get_xlabel() == part.get_ylabel() == ""
+    box, frame = part.get_tightbbox(), axes.get_window_extent()
+    assert frame.x0 <= box.x0 < box.x1 <= frame.x1
+    assert frame.y0 <= box.y0 < box.y1 <= frame.y1
+    for line in axes.get_lines():
+        fine = np.column_stack([np.interp(np.linspace(0, 39, 5000), np.arange(40), row) for row in line.get_xydata().T])
+        points = axes.transData.transform(fine)
+        assert not ((points > [box.x0, box.y0]) & (points < [box.x1, box.y1])).all(axis=1).any()
 
 
-WRONG = [
-    (["--width", "colum"], '--width colum: not a size; did you mean "column"?'),
-    (["--width", "wide"], '--width wide: not a size; write for example 3.5, "9 cm" or column'),
-    (["--height", "0.1"], "--height 0.1: a picture of 0.1 inches; choose one of 1 to 100 inches"),
-    (["--width", "-3"], "--width -3: a picture of -3 inches; choose one of 1 to 100 inches"),
-    (["--width", "9 m"], "--width 9 m: not a size"),
-    (["--width", "1.2.3"], "--width 1.2.3: not a size"),
-    (["--height", "column"], "--height column: not a size"),
-    (["--width", "nan"], "--width nan: not a size"),
-    (["--colour-map", "virids"], '--colour-map virids: not a colour map of matplotlib; did you mean "viridis"?'),
-    (["--color-map", "?"], '--colour-map ?: not a colour map of matplotlib; choose one of its own, as "viridis"'),
-    (["--levels", "many"], "--levels many: neither a number of levels nor a list of levels; write 8 or 0.5,1,2"),
-    (["--levels", "0"], "--levels 0: choose 1 to 100 levels; a single level is written with its point, as 0.0"),
-    (["--levels", "1e9,2e9"], "--levels 1e+09,2e+09: none is among the values, which are"),
-    (["--levels", "8", "--lines"], "--levels: contour levels are for a map, and this picture has none"),
-    (["--map", "--at", "k=0"], "--map: a map needs two axes that vary, and here lambda_over_R alone does; use --lines"),
-    (["--style", "seaborm-v0_8"], '--style seaborm-v0_8: neither a style of matplotlib nor the file of a style; did you mean "seaborn-v0_8"?'),
-    (["--at", "k=0", "--at", "lambda_over_R=0.5"], "nothing varies, so there is nothing to draw it over; fix or reduce fewer axes"),
-]  # fmt: skip
+WRONG: list[tuple[str, dict[str, Any]]] = [
+    ("width colum", {"width": "colum"}),
+    ("width 9 m", {"width": "9 m"}),
+    ("width -3", {"width": -3}),
+    ("width nan", {"width": "nan"}),
+    ("height column", {"height": "column"}),
+    ("height 0.1", {"height": 0.1}),
+    ("colour_map virids", {"colour_map": "virids"}),
+    ("levels many", {"levels": "many"}),
+    ("levels 0", {"levels": 0}),
+    ("levels 1e+09", {"levels": [1e9, 2e9]}),
+    ("levels", {"levels": 8, "kind": "lines"}),
+    ("levels", {"levels": [1.5, 2.0], "variables": None}),
+    ('kind="map"', {"kind": "map", "at": {"k": 0.0}}),
+    ("style seaborm-v0_8", {"style": "seaborm-v0_8"}),
+    ("xlim 2e-7:1e-7", {"xlim": "2e-7:1e-7"}),
+    ("ylim 1:1", {"ylim": (1, 1), "kind": "lines"}),
+    ("xlim 0.1", {"xlim": "0.1"}),
+    ("xlim :", {"xlim": ":"}),
+    ("xlim a:b", {"xlim": "a:b"}),
+    ("xlim nan:1", {"xlim": "nan:1"}),
+    ("xlim 50 nN:1 um", {"xlim": "50 nN:1 um"}),
+    ("ylim 0 nN:1", {"ylim": "0 nN:1", "kind": "lines"}),
+    ("xlim 2 um:3 um", {"xlim": "2 um:3 um"}),
+    ("ylim 7:8", {"ylim": "7:8", "kind": "lines"}),
+    ("ylim 0:1", {"ylim": "0:1", "kind": "lines", "variables": None}),
+    ("inset 9e-7:2e-6", {"inset": "9e-7:2e-6", "kind": "lines"}),
+    ("inset 2:3", {"inset": "2:3", "kind": "lines"}),
+    ("inset 5e-7:6e-7", {"inset": "5e-7:6e-7", "kind": "lines", "width": 1.6}),
+    ("inset 5e-7:6e-7", {"inset": "5e-7:6e-7", "kind": "lines", "ylim": "2.7:2.8"}),
+    ("inset 5e-7:6e-7", {"inset": "5e-7:6e-7", "kind": "lines", "variables": None}),
+    ("inset 5e-7:6e-7", {"inset": "5e-7:6e-7", "kind": "map"}),
+    ("x lamda", {"x": "lamda"}),
+    ("x k", {"x": "k", "y": "k"}),
+    ("x k", {"x": "k", "at": {"k": 0.0}}),
+    ("y k", {"y": "k", "over": {"k": "max"}}),
+    ("x nu", {"x": "nu"}),
+    ("variable energy", {"variables": ["pull_off_force", "energy"]}),
+    ("at k=1.5", {"at": {"k": 1.5}}),
+    ("over k=sum", {"over": {"k": "sum"}}),
+    ("nothing varies", {"at": {"k": 0.0, "wavelength": 1e-7}}),
+]
 
 
-def test_what_does_not_exist_is_said(grid: xarray.Dataset, tmp_path: Path, gradhesion: Call) -> None:
-    path = tmp_path / "x.nc"
-    grid.isel(A=1).to_netcdf(path)
-    for options, message in WRONG:
+@pytest.mark.parametrize(("key", "choices"), WRONG)
+def test_what_does_not_exist_is_said(key: str, choices: dict[str, Any], grid: xarray.Dataset) -> None:
+    with pytest.raises(gr.DatasetError) as refused:
+        gr.plot(grid, **({"variables": "pull_off_force"} | choices))
+    (sentence,) = refused.value.mistakes
+    assert key in sentence
+    assert "--" not in sentence, "keywords of Python"
+    assert "\n" not in sentence
+
+
+def test_a_logarithmic_axis_has_no_limit_at_zero(grid: xarray.Dataset) -> None:
+    wide = grid.assign_coords(wavelength=np.geomspace(5e-8, 1e-6, 40))
+    with pytest.raises(gr.DatasetError, match="logarithmic"):
+        gr.plot(wide, xlim=(0, 1e-7))
+
+
+def test_the_command_says_a_mistake_in_a_line_and_keeps_what_is_there(
+    grid: xarray.Dataset, tmp_path: Path, gradhesion: Call
+) -> None:
+    path, picture = tmp_path / "x.nc", tmp_path / "x.png"
+    grid.to_netcdf(path)
+    for options in (["--xlim", "1 um:50 nm"], ["--variable", "energy"], ["-o", tmp_path / "x.bmp"], ["--levels", "?"]):
         result = gradhesion("plot", path, *options)
-        assert result.exit_code == 2, options
-        assert message in result.stderr
-        assert len(result.stderr.splitlines()) == 1
-        assert not path.with_suffix(".png").exists()
+        assert (result.exit_code, "Traceback" in result.stderr) == (2, False), options
+        assert str(options[1]) in result.stderr
+        assert not picture.exists()
+    picture.write_text("precious")
+    assert gradhesion("plot", path).exit_code == 4
+    assert picture.read_text() == "precious"
+    path.with_name("other.nc").write_bytes(b"CDF")
+    assert gradhesion("plot", path.with_name("other.nc")).exit_code == 2
 
 
-def test_the_style_can_be_named_and_overlaid(grid: xarray.Dataset, tmp_path: Path, gradhesion: Call) -> None:
-    with matplotlib.style.context([STYLE, "gradhesion.journal"]):
-        assert mpl.rcParams["font.family"] == ["STIXGeneral"]
-        assert mpl.rcParams["savefig.dpi"] == 300
-    grid.isel(A=1).to_netcdf(tmp_path / "x.nc")
+@pytest.mark.parametrize(("form", "start"), [("svg", b"<?xml"), ("PDF", b"%PDF"), ("png", b"\x89PNG")])
+def test_the_command_draws_in_the_form_of_the_name(
+    form: str, start: bytes, grid: xarray.Dataset, tmp_path: Path, gradhesion: Call
+) -> None:
+    grid.to_netcdf(tmp_path / "x.nc")
     own = tmp_path / "own.mplstyle"
     own.write_text("savefig.dpi: 50\n")
-    options = ["--variable", "pull_off_force", "--width", "4", "--height", "3", "--style", own]
-    assert gradhesion("plot", tmp_path / "x.nc", *options).exit_code == 0
-    sides = np.frombuffer((tmp_path / "x.png").read_bytes()[16:24], ">u4")
-    assert sides.tolist() == [200, 150]
+    choices = ["--no-title", "--xlabel", "waves", "--title", "Mine", "--style", own, "--width", "4", "--height", "3"]
+    pictures = [tmp_path / f"{name}.{form}" for name in ("one", "two")]
+    for picture, more in zip(pictures, ({}, {"font.size": 30, "axes.facecolor": "red"}), strict=True):
+        with mpl.rc_context(more):
+            assert gradhesion("plot", tmp_path / "x.nc", "-o", picture, *choices).exit_code == 0
+    assert pictures[0].read_bytes().startswith(start)
+    assert pictures[0].read_bytes() == pictures[1].read_bytes(), "whatever style the user has"
+    if form == "png":
+        assert np.frombuffer(pictures[0].read_bytes()[16:24], ">u4").tolist() == [200, 150]
+    if form == "svg":
+        assert "waves" in pictures[0].read_text()
 
 
-def test_a_parameter_without_effect_is_not_in_the_caption(data: dict[str, Any]) -> None:
-    fixed = {key: value for key, value in data["parameters"].items() if key != "c0_over_R"}
-    dataset = compute(study_from(data | {"parameters": fixed | {"k": 0.0, "A": 0.1, "a_max_over_R": 1.0}}), threads=1)
-    assert "c0_over_R" in dataset.coords
-    words = drawn(dataset, ["pull_off_force"]).get_suptitle()
-    assert "$k$ = 0" in words
-    assert "c_0" not in words
+def test_the_styles_have_names() -> None:
+    with matplotlib.style.context(["gradhesion.style", "gradhesion.journal"]):
+        assert mpl.rcParams["font.family"] == ["STIXGeneral"]
+        assert mpl.rcParams["savefig.dpi"] == 300

@@ -9,7 +9,7 @@ import xarray
 
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.picture.curves.picture import drawn_curves
+from gradhesion.cli.picture.curves import drawn_curves
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.words.words import described
@@ -74,7 +74,7 @@ def test_words_and_picture(tmp_path: Path) -> None:
     figure = drawn_curves(dataset, ["pressure", "surface"])
     assert [axes.get_ylabel() for axes in figure.axes] == [r"pressure $pR/\Delta\gamma$", "surface $u_z/R$"]
     assert [text.get_text() for text in figure.legends[0].get_texts()] == ["turning point", "pull off", "jump out"]
-    with pytest.raises(DatasetError, match="needs pressure_radius"):
+    with pytest.raises(DatasetError, match="pressure: this dataset lacks the radius"):
         drawn_curves(compute(study(["pressure"])).drop_vars("pressure_radius"), [])
     with pytest.raises(DatasetError, match="no value in any state"):
         drawn_curves(dataset[["pressure", "pressure_radius", "status"]] * np.nan, ["pressure"])

@@ -13,7 +13,7 @@ import gradhesion as gr
 from gradhesion.cli.dataset.fits.fit import dataset_of, write_fit
 from gradhesion.cli.dataset.read.reader import opened
 from gradhesion.cli.names.fits import FIT_MORE
-from gradhesion.cli.picture.fits.fit import drawn_fit
+from gradhesion.cli.picture.fits import drawn_fits
 from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.words.fit_words import fits_described
 from gradhesion.cli.work.solve.fitting import Fit
@@ -101,7 +101,7 @@ def test_a_file_of_version_0_2_is_read(study: FitStudy, tmp_path: Path) -> None:
     old.to_netcdf(path)
     with opened(path) as dataset:
         told = "\n".join(fits_described(dataset, path))
-        drawn_fit(dataset)
+        drawn_fits(dataset)
     assert "noise: 0.25 nm and 7 nN, given" in told
     assert "reduced 2.25" in told
 

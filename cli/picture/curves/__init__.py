@@ -1,1 +1,0 @@
-"""Pictures of the curves of scenes and of the states of contact, with measured points."""

@@ -1,0 +1,253 @@
+"""Pictures of fits: of one loop, of several, and of a measured profile."""
+
+import math
+from collections.abc import Sequence
+from typing import Any, Final
+
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from gradhesion.cli.dataset.read.loop_choice import one_loop
+from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.names.fits import LOOP
+from gradhesion.cli.names.outputs import PARAMETER
+from gradhesion.cli.names.symbols import SYMBOLS
+from gradhesion.cli.picture.labels import Unit, number, unit_for
+from gradhesion.cli.picture.looks import PLAIN, Looks
+from gradhesion.cli.picture.pictured import finish, styled
+from gradhesion.cli.picture.scales import suit
+from gradhesion.cli.terminal.amounts import counted
+from gradhesion.cli.terminal.printable import printable
+from gradhesion.core.answers.profile_fit import FittedProfile
+from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
+
+Values = NDArray[np.float64]
+
+COLOURS: Final = ("C0", "C3")
+"""Of loading and of unloading; of fits, and of those in doubt."""
+
+DOTS: Final[dict[str, Any]] = {"ls": "", "marker": ".", "ms": 2.5, "mew": 0.0, "rasterized": True}
+"""How measured points look."""
+
+ALONG, UP = "path_indentation_si", "path_load_si"
+"""The curves that have the units of depth and load."""
+
+DIGITS: Final = 8
+"""Decimals of a value that has no power of ten."""
+
+FEW: Final = 24
+"""Loops that are drawn one by one, with their intervals; of more a histogram is."""
+
+LISTED: Final = 12
+"""Loops that have room for the names of their files."""
+
+ACROSS: Final = 3
+"""Panels beside each other."""
+
+WIDE: Final = 20.0
+"""Greatest over least value from which on an axis is logarithmic."""
+
+
+def drawn_fits(
+    dataset: xarray.Dataset, looks: Looks = PLAIN, choices: Sequence[str] = (), at: Sequence[str] = ()
+) -> Figure:
+    """
+    Draw a fit, or of several loops a panel for each parameter: values with intervals, or a histogram of many.
+
+    Parameters
+    ----------
+    dataset
+        That of a fit, or of fits of several loops.
+    looks
+        Sizes, style, words and, of one loop, limits; all else is for maps.
+    choices
+        What else was chosen of axes and variables, by the names of the options.
+    at
+        Which one of several loops is drawn alone: `loop=FILE` or `loop=NUMBER`.
+
+    Raises
+    ------
+    DatasetError
+        Something was chosen that fits do not have, or there is no such loop.
+    """
+    several = LOOP in dataset.dims
+    why = f"fits are drawn as a whole, or one with --at {LOOP}=0" if several else "a fit is drawn as a whole"
+    if refused := [*choices, *(["--at"] if at and not several else [])]:
+        raise DatasetError(f"{refused[0]}: {why}; leave it out")
+    looks.refuse(["inset", "band", "levels"], why)
+    if several and not at:
+        looks.refuse(["xlim", "ylim"], why)
+        return _draw_loops(dataset, looks)
+    return _draw_fit(one_loop(dataset, at) if at else dataset, looks)
+
+
+def _draw_fit(dataset: xarray.Dataset, looks: Looks) -> Figure:
+    """Draw load over depth with the path through the points, and below it the residuals over depth."""
+    depth, load = (dataset[f"measured_{name}"].values for name in ("indentation", "load"))
+    along, up = (dataset[f"fitted_{name}"].values for name in ("indentation", "load"))
+    back, ways = dataset["measured_unloading"].values > 0, dataset["fitted_unloading"].values > 0
+    turn = int(np.count_nonzero(~ways))
+    with styled(looks):
+        figure = Figure(layout="constrained")
+        top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=[3, 1])
+        for way, words in enumerate(("loading", "unloading")):
+            own, part = back == bool(way), slice(0, turn) if way == 0 else slice(turn - 1, None)
+            top.plot(along[part], up[part], color=COLOURS[way], lw=0.7, zorder=1.9, label=f"fit, {words}")
+            if own.any():
+                top.plot(depth[own], load[own], color=COLOURS[way], **DOTS, label=f"measured, {words}")
+                bottom.plot(depth[own], dataset["residual"].values[own], color=COLOURS[way], **DOTS)
+        margin = 0.08 * float(np.ptp(depth))
+        top.set_xlim(float(depth.min()) - margin, float(depth.max()) + margin)
+        suit(top, "x", ALONG, looks.xlim)
+        suit(top, "y", UP, looks.ylim)
+        machine = dataset.attrs.get("control") == "machine"
+        bottom.set_xlabel(
+            top.get_xlabel().replace(r"depth $\delta$", "displacement of the machine" if machine else "depth")
+        )
+        top.set(xlabel="", ylabel=top.get_ylabel().replace(" $P$", ""))
+        top.legend()
+        bottom.axhline(0.0, color="0.3", lw=0.6)
+        bottom.set_ylabel("residual (sd)")
+        caption = _found(dataset)
+        finish(figure, looks, dataset=dataset, caption=caption, entries=[], size=(4.8, 4.4), panels=[top, bottom])
+    return figure
+
+
+def _found(dataset: xarray.Dataset) -> list[str]:
+    """Write the values with their intervals, in units that suit them."""
+    columns = [dataset[name].values for name in ("value", "low", "high")]
+    written = [
+        in_words(str(name), *map(float, row)) for name, *row in zip(dataset[PARAMETER].values, *columns, strict=True)
+    ]
+    reduced = float(dataset["chi_square"]) / int(dataset["degrees_of_freedom"])
+    return [*written, "in brackets 95 % intervals", rf"reduced $\chi^2$ = {reduced:.3g}"]
+
+
+def named(name: str, values: Any) -> tuple[str, Unit]:
+    """
+    Name what is fitted, with a unit that suits its values.
+
+    >>> named("load_slope", [2e-3]), named("exponent", [0.5])
+    (('tilt of the load', Unit(symbol='mN/m', power=-3)), ('exponent', Unit(symbol='', power=0)))
+    """
+    words, quantity = {
+        "indentation_offset": ("offset of the depth", ALONG),
+        "load_offset": ("offset of the load", UP),
+        "load_slope": ("tilt of the load", "spring_constant"),
+    }.get(name, (SYMBOLS.get(name, name), name))
+    return words, unit_for(quantity, values)
+
+
+def in_words(name: str, value: float, low: float, high: float) -> str:
+    r"""
+    Write a fitted value and its interval to two digits of the half of that.
+
+    >>> in_words("wavelength", 4.99918e-7, 4.99733e-7, 5.00107e-7), in_words("A", 0.0120055, 0.011965, 0.012046)
+    ('$\\lambda$ = 499.92 (499.73 to 500.11) nm', '$A$ = 0.012006 (0.011965 to 0.012046)')
+    >>> in_words("load_offset", 8.894e-9, 6.5e-9, 1.13e-8), in_words("work_of_adhesion", 0.03, 0.03, 0.03)
+    ('offset of the load = 8.9 (6.5 to 11.3) nN', '$\\Delta\\gamma$ = 30 (30 to 30) mJ/m$^2$')
+    """
+    words, unit = named(name, value)
+    value, low, high = (one / 10.0**unit.power for one in (value, low, high))
+    half = 0.5 * (high - low)
+    decimals = 1 - math.floor(math.log10(half)) if 1e-9 * abs(value) < half < math.inf else DIGITS + 1
+    ends = [number(one) if decimals > DIGITS else f"{one:.{max(0, decimals)}f}" for one in (value, low, high)]
+    written = "{} ({} to {})".format(*ends).replace("-", "\N{MINUS SIGN}")
+    return f"{words} = {written} {unit.symbol}".strip()
+
+
+def _draw_loops(dataset: xarray.Dataset, looks: Looks) -> Figure:
+    """Draw a panel for each parameter."""
+    names = list(map(str, dataset[PARAMETER].values))
+    sound = np.flatnonzero(dataset["value"].notnull().all(PARAMETER).values)
+    across = 2 if len(names) == 4 else min(ACROSS, len(names))
+    down = math.ceil(len(names) / across)
+    few = dataset.sizes[LOOP] <= FEW
+    doubts = doubtful(dataset)[sound]
+    with styled(looks):
+        figure = Figure(layout="constrained")
+        grid = figure.subplots(down, across, squeeze=False, sharey=few)
+        for place, (axes, name) in enumerate(zip(grid.flat, names, strict=False)):
+            value, low, high = (dataset[one].values[sound, place] for one in ("value", "low", "high"))
+            words, unit = named(name, value)
+            value, low, high = (one / 10.0**unit.power for one in (value, low, high))
+            axes.set_xlabel(f"{words} ({unit.symbol})" if unit.symbol else words)
+            if value.min() > 0.0 and value.max() > WIDE * value.min():
+                axes.set_xscale("log")
+            if few:
+                _draw_each(axes, sound, value, np.maximum([value - low, high - value], 0.0), doubts)
+            else:
+                _draw_many(axes, value, doubts)
+        for axes in grid.flat[len(names) :]:
+            axes.remove()
+        files = list(map(str, dataset["file"].values))
+        for axes in grid[:, 0]:
+            axes.set_ylabel("loops" if not few else "loop" if len(files) > LISTED else "")
+            if few and len(files) <= LISTED:
+                axes.set_yticks(range(len(files)), files, fontsize="x-small")
+        if few:
+            grid[0, 0].set_ylim(len(files) - 0.5, -0.5)  # the first on top
+        missing, poor = dataset.sizes[LOOP] - sound.size, int(doubts.sum())
+        caption = [counted(sound.size, "loop"), "bars: 95 % intervals" if few else "dashed: median"]
+        caption += [f"red: {counted(poor, 'fit')} in doubt"] if poor else []
+        caption += [f"{counted(missing, 'loop')} without a fit"] if missing else []
+        size = (2.6 * across + 1.0, 2.2 * down)
+        finish(figure, looks, dataset=dataset, caption=caption, entries=[], size=size, panels=grid.flat[: len(names)])
+    return figure
+
+
+def doubtful(dataset: xarray.Dataset) -> NDArray[np.bool_]:
+    """Say of each loop whether its fit is not to be trusted."""
+    flagged = (dataset["status"].values & (POOR_FIT | ANOTHER_MINIMUM)) != 0
+    return np.asarray(flagged | (dataset["on_bound"].values > 0).any(axis=1) | (dataset["converged"].values == 0))
+
+
+def _draw_each(axes: Axes, loops: NDArray[np.intp], value: Values, ends: Values, doubts: NDArray[np.bool_]) -> None:
+    """Draw each value with its interval."""
+    for which, colour in ((~doubts, COLOURS[0]), (doubts, COLOURS[1])):
+        looks: dict[str, Any] = {"ls": "", "marker": "o", "ms": 3.0, "lw": 0.9, "color": colour}
+        axes.errorbar(value[which], loops[which], xerr=ends[:, which], **looks)
+
+
+def _draw_many(axes: Axes, value: Values, doubts: NDArray[np.bool_]) -> None:
+    """Draw how many values lie where, those in doubt on top, and the median of those that are not."""
+    log = axes.get_xscale() == "log"
+    bins = max(8, min(40, round(1.5 * math.sqrt(value.size))))
+    edges: Any = np.histogram_bin_edges(np.log(value) if log else value, bins)
+    axes.hist([value[~doubts], value[doubts]], bins=np.exp(edges) if log else edges, stacked=True, color=list(COLOURS))
+    axes.axvline(float(np.median(value[~doubts] if not doubts.all() else value)), color="0.2", lw=0.8, ls="--")
+
+
+def drawn_profile(fit: FittedProfile, name: str) -> Figure:
+    """Draw a fitted profile over the distance from the centre: heights, what the power leaves of them, the residual."""
+    measured, fitted = "0.55", "C3"
+
+    def power(distance: Values) -> Any:
+        return distance**fit.exponent / (fit.exponent * fit.radius ** (fit.exponent - 1.0))
+
+    rho = fit.distance
+    fine = np.linspace(0.0, rho[-1], 2000)
+    heights, model = fit.heights(rho) + fit.residual, fit.heights(fine)
+    with styled():
+        figure = Figure(figsize=(4.6, 5.2), layout="constrained")
+        top, middle, bottom = figure.subplots(3, 1, sharex=True, height_ratios=[2, 2, 1])
+        dots = DOTS | {"color": measured}
+        top.plot(1e6 * rho, 1e6 * heights, **dots, label="measured")
+        top.plot(1e6 * fine, 1e6 * model, color=fitted, lw=0.9, label="fit")
+        middle.plot(1e6 * rho, 1e9 * (heights - power(rho)), **dots)
+        middle.plot(1e6 * fine, 1e9 * (model - power(fine)), color=fitted, lw=0.9)
+        bottom.plot(1e6 * rho, 1e9 * fit.residual, **dots)
+        bottom.axhline(0.0, color=fitted, lw=0.6)
+        top.set_ylabel("height (µm)")
+        top.legend()
+        middle.set_ylabel("without the power (nm)")
+        bottom.set(xlabel="distance from the centre (µm)", ylabel="residual (nm)")
+        words = (
+            rf"$m$ = {fit.exponent:.4g}, $R$ = {1e6 * fit.radius:.4g} µm, "
+            rf"$\lambda$ = {1e6 * fit.wavelength:.4g} µm, residual {1e9 * fit.residual_rms:.3g} nm rms"
+        )
+        figure.suptitle(printable(name).replace("$", r"\$") + f"\n{words}")
+    return figure

@@ -1,1 +1,0 @@
-"""Pictures of fits: of one loop, of several, and of a measured profile."""

@@ -1,1 +1,0 @@
-"""Pictures of values over scenes: maps, lines, points and Pareto fronts."""

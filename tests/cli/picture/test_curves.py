@@ -1,0 +1,279 @@
+"""Curves of scenes and of states, with measured points: what is drawn, in which planes and units, and what is refused."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray
+from click.testing import Result
+from matplotlib.axes import Axes
+from matplotlib.colors import to_rgb
+
+import gradhesion as gr
+from gradhesion.core.answers.flags import FLAG_WORDS
+
+Call = Callable[..., Result]
+PUNCH: dict[str, Any] = {
+    "k": 0.3,
+    "nu": 0.27,
+    "modulus": 430.0,
+    "c0_over_R": 0.013,
+    "lambda_over_R": 0.17,
+    "a_max_over_R": 0.4,
+}
+PROBE: dict[str, Any] = {"k": 0.0, "nu": 0.3, "A": 0.01, "R": "5 um", "E_star": "10 MPa", "work_of_adhesion": "30 mJ/m^2", "wavelength": "0.5 um", "a_max": "1.5 um"}  # fmt: skip
+EVERYTHING = ["equilibrium", "path", "asymptotic", "envelope", "effective", "smooth"]
+
+
+@pytest.fixture(scope="module")
+def curves() -> xarray.Dataset:
+    """Every curve of some scenes, without units."""
+    return gr.curves(PUNCH, EVERYTHING, k=[0.1, 0.3], A=[0.0, 0.023, 0.07])
+
+
+@pytest.fixture(scope="module")
+def probe() -> xarray.Dataset:
+    """Curves with units."""
+    return gr.curves(PROBE, ["path", "equilibrium"])
+
+
+def legend(panels: Any) -> list[str]:
+    return [text.get_text() for one in panels.figure.legends for text in one.get_texts()]
+
+
+def test_three_panels_tell_their_scenes(curves: xarray.Dataset) -> None:
+    panels = gr.plot(curves, "path")
+    planes = [(axes.get_xlabel().split(" $")[0], axes.get_ylabel().split(" $")[0]) for axes in panels]
+    assert planes == [("depth", "load"), ("contact radius", "depth"), ("contact radius", "load")]
+    assert legend(panels) == ["$A$ = 0", "$A$ = 0.023", "$A$ = 0.07", "path", "jump"]
+    assert "of\N{NO-BREAK SPACE}2)" in panels.figure.get_suptitle(), "the first of 2"
+    drawn = np.concatenate([line.get_xdata() for line in panels[0].get_lines() if len(line.get_xdata()) > 2])
+    first = curves["path_indentation"].isel(k=0)
+    assert (np.nanmin(drawn), np.nanmax(drawn)) == (float(first.min()), float(first.max()))
+    assert all({"o", "s", "D"} <= {line.get_marker() for line in axes.get_lines()} for axes in panels), (
+        "in a grey print"
+    )
+    assert legend(gr.plot(curves, "path", at={"A": 0.02}))[:2] == ["$k$ = 0.1", "$k$ = 0.3"]
+    assert legend(gr.plot(curves.isel(k=0, A=2), "equilibrium")) == ["equilibrium, stable", "equilibrium, unstable"]
+    assert len(legend(gr.plot(curves.isel(k=0, A=2)))) == 10, "every line of one scene"
+    assert len({axes.get_position().x0 for axes in gr.plot(curves, width="column")}) == 1, "below each other"
+    many = gr.curves(PUNCH, "path", A=np.linspace(0.0, 0.1, 9))
+    assert legend(gr.plot(many))[:5] == [f"$A$ = {value:g}" for value in (0, 0.025, 0.05, 0.075, 0.1)]
+    assert "5 of 9 scenes" in gr.plot(many).figure.get_suptitle()
+
+
+@pytest.mark.parametrize("control", ["displacement", "load", "machine"])
+def test_arrows_go_along_the_path(control: str) -> None:
+    machine = {"machine_stiffness": 2.0} if control == "machine" else {}
+    path = gr.curves(PUNCH | {"A": 0.07} | machine, "path", control=control)
+    panels = gr.plot(path)
+    panels.figure.draw_without_rendering()
+    axes = panels[1]  # depth over contact radius: on loading the radius grows, on unloading it shrinks
+    limits = np.array([axes.get_xlim(), axes.get_ylim()])
+    points = np.column_stack([path["path_contact_radius"], path["path_indentation"]])
+    points = (points - limits[:, 0]) / np.diff(limits).T
+    arrows = [(np.array(text.xyann), np.array(text.xy)) for text in axes.texts]
+    assert len(arrows) > int(path["path_jump"].sum()) / 2
+    fine = np.linspace(0.0, len(points) - 1.0, 50 * len(points))
+    line = np.array([np.interp(fine, np.arange(len(points)), row) for row in points.T]).T
+    for ends in arrows:
+        tail, head = [np.flatnonzero(np.hypot(*(line - place).T) < 0.01) for place in ends]
+        assert tail.size
+        assert head.size, "an arrow lies on the path"
+        assert tail[0] < head[-1], "and goes along it"
+
+
+def test_planes_and_limits_are_chosen(curves: xarray.Dataset, probe: xarray.Dataset) -> None:
+    for choice, planes in (
+        ({"x": "indentation", "y": "load"}, [("depth", "load")]),
+        ({"x": "contact_radius"}, [("contact radius", "depth"), ("contact radius", "load")]),
+        ({"y": "contact_radius"}, [("depth", "contact radius"), ("load", "contact radius")]),
+        ({"x": "load", "y": "indentation"}, [("load", "depth")]),
+    ):
+        panels = gr.plot(curves, **choice)
+        assert [(axes.get_xlabel().split(" $")[0], axes.get_ylabel().split(" $")[0]) for axes in panels] == planes
+    (axes,) = gr.plot(probe, x="indentation", y="load", xlim="-50 nm:5 nm")
+    assert (axes.get_xlabel(), axes.get_ylabel()) == (r"depth $\delta$ (nm)", "load $P$ (nN)")
+    assert axes.get_xlim() == pytest.approx((-5e-8, 5e-9), rel=1e-12)
+    depth, load = (probe[f"path_{name}_si"].values for name in ("indentation", "load"))
+    seen = load[(depth >= -5e-8) & (depth <= 5e-9)]
+    assert axes.get_ylim()[0] < seen.min() < seen.max() < axes.get_ylim()[1]
+    for axes in gr.plot(probe, x="contact_radius", xlim=(None, "1 um")):
+        assert axes.get_xlim()[1] == pytest.approx(1e-6, rel=1e-12)
+    (axes,) = gr.plot(probe, x="indentation", y="load", ylim="-300 nN:100 nN")
+    assert axes.get_ylim() == pytest.approx((-3e-7, 1e-7), rel=1e-12)
+    (axes,) = gr.plot(probe, x="indentation", y="load", inset="-50 nm:0", width=6, height=5)
+    (inset,) = axes.child_axes
+    assert inset.get_xlim() == pytest.approx((-5e-8, 0.0), rel=1e-12)
+    assert not inset.texts, "arrows stay where the whole path is"
+
+
+def test_units_are_those_asked_for(probe: xarray.Dataset) -> None:
+    (panel, *_) = gr.plot(probe, "path_load_si")
+    shown = np.concatenate([line.get_ydata() for line in panel.get_lines() if len(line.get_xdata()) > 2])
+    assert np.nanmin(shown) == float(probe["path_load_si"].min())
+    assert gr.plot(probe, "path_load")[0].get_xlabel() == r"depth $\delta/R$"
+
+
+WRONG: list[tuple[str, dict[str, Any]]] = [
+    ("variable pth", {"variables": "pth"}),
+    ("path_indentation_si", {"variables": ["path_load", "path_indentation_si"]}),
+    ("x k", {"x": "k"}),
+    ("x load", {"x": "load", "y": "load"}),
+    ("over", {"over": {"A": "max"}}),
+    ("xlim 0:1", {"xlim": "0:1"}),
+    ("ylim 0:1", {"ylim": "0:1"}),
+    ("inset 0:1", {"inset": "0:1"}),
+    ("xlabel", {"xlabel": "depth"}),
+    ('kind="map"', {"kind": "map"}),
+    ("levels", {"levels": 5}),
+    ("band", {"band": "std"}),
+]
+
+
+@pytest.mark.parametrize(("key", "choices"), WRONG)
+def test_what_curves_do_not_have_is_refused(key: str, choices: dict[str, Any], probe: xarray.Dataset) -> None:
+    with pytest.raises(gr.DatasetError) as refused:
+        gr.plot(probe, **choices)
+    assert key in str(refused.value)
+    assert "--" not in str(refused.value)
+
+
+def test_a_plane_without_its_variables_is_refused(curves: xarray.Dataset) -> None:
+    without = curves.drop_vars([name for name in curves if "load" in str(name) and name != "path_unloading"])
+    with pytest.raises(gr.DatasetError, match="y load"):
+        gr.plot(without, y="load")
+    assert len(gr.plot(without)) == 1
+    with pytest.raises(gr.DatasetError, match="equilibrium"):
+        gr.plot(curves[["status", "load"]])
+    with pytest.raises(gr.DatasetError, match="jumps"):
+        gr.plot(gr.curves(PUNCH | {"A": 0.02}, "jumps"))
+
+
+def test_a_doubtful_path_has_open_markers_on_loading() -> None:
+    punch = {"k": 0.2, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.1, "lambda_over_R": 0.12, "a_max_over_R": 0.6}
+    paths = gr.curves(punch, ["path", "smooth"], A=[0.0, 0.15])
+    assert [*paths["status"]] == [0, 1], "the scenes are what they are meant to be"
+    doubt = FLAG_WORDS["loading_contact_not_one_disc"]
+    for panels in (gr.plot(paths), gr.plot(paths.isel(A=1))):
+        assert legend(panels)[-1] == doubt
+        for axes in panels:
+            (line,) = [one for one in axes.get_lines() if one.get_marker() == "o" and one.get_mfc() == "white"]
+            assert len(line.get_xdata()) == (paths["path_unloading"].isel(A=1).values == 0).sum()
+    for panels in (gr.plot(paths.isel(A=0)), gr.plot(paths, "smooth")):
+        assert doubt not in legend(panels)
+    paths["path_load"][0] = paths["path_indentation"][0] = paths["path_contact_radius"][0] = np.nan
+    panels = gr.plot(paths.drop_vars([name for name in paths if "smooth" in str(name)]))
+    assert legend(panels)[0].endswith("(no value)")
+    assert to_rgb(panels.figure.legends[0].get_lines()[0].get_color()) == to_rgb("0.6")
+
+
+def test_states_are_drawn_over_the_distance() -> None:
+    states = gr.curves(PUNCH | {"A": 0.02}, ["pressure", "surface", "path"])
+    assert len(gr.plot(states)) == 3, "the path"
+    panels = gr.plot(states, ["pressure", "surface"])
+    assert [axes.get_ylabel() for axes in panels] == [r"pressure $pR/\Delta\gamma$", "surface $u_z/R$"]
+    assert legend(panels) == ["turning point", "pull off", "jump out"]
+    np.testing.assert_array_equal(panels[0].get_lines()[0].get_ydata(), states["pressure"][0])
+    units = gr.curves(PROBE, "pressure", contact_radius_over_R=[0.1])
+    assert "Pa" in gr.plot(units)[0].get_ylabel()
+    for dataset, choices in (
+        (states, {"variables": ["pressure", "path"]}),
+        (states, {"variables": "pressure", "x": "load"}),
+        (states, {"variables": "pressure", "xlim": (0, 1)}),
+        (states.drop_vars("pressure_radius"), {"variables": "pressure"}),
+        (states.where(states["status"] < 0).assign(status=states["status"]), {"variables": "pressure"}),
+    ):
+        with pytest.raises(gr.DatasetError):
+            gr.plot(dataset, **choices)
+
+
+def written(folder: Path, text: str) -> Path:
+    path = folder / "loop.csv"
+    path.write_text(text)
+    return path
+
+
+def measured(axes: Axes) -> list[Any]:
+    """The points in a panel."""
+    return [line for line in axes.lines if line.get_label() == "measured"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "indentation [nm],load [nN]\n20,-740\n260,3280\n",
+        "time,branch,depth [um],force [uN]\n0,loading,0.02,-0.74\n1,unloading,0.26,3.28\n2,lost,nan,1\n",
+        "P (N);delta (mm)\n-7.4e-7;2e-5\n3.28e-6;2.6e-4\n",
+    ],
+)
+def test_points_stand_where_they_were_measured_whatever_their_units(
+    text: str, probe: xarray.Dataset, tmp_path: Path
+) -> None:
+    panels = gr.plot(probe, data=written(tmp_path, text))
+    (points,) = measured(panels[0])
+    np.testing.assert_allclose(points.get_xydata(), [[2e-8, -7.4e-7], [2.6e-7, 3.28e-6]], rtol=1e-13)
+    assert not measured(panels[1])
+    assert not measured(panels[2])
+    assert "measured" in legend(panels)
+
+
+def test_many_points_hide_no_line(probe: xarray.Dataset, tmp_path: Path) -> None:
+    rows = "".join(f"{depth},{10 * depth}\n" for depth in range(100))
+    for text, below in (("depth [nm],load [nN]\n1,2\n", False), ("depth [nm],load [nN]\n" + rows, True)):
+        (axes,) = gr.plot(probe, data=written(tmp_path, text), x="indentation", y="load")
+        (points,) = measured(axes)
+        lines = [line for line in axes.lines if line.get_zorder() > 0 and line is not points]
+        assert (points.get_zorder() < min(line.get_zorder() for line in lines)) == below
+
+
+def test_ratios_have_no_units_and_a_table_may_be_in_netcdf(
+    curves: xarray.Dataset, probe: xarray.Dataset, tmp_path: Path
+) -> None:
+    path = written(tmp_path, "a,load\n0.1,-0.5\n0.3,1.2\n")
+    (panel,) = gr.plot(curves, data=path, x="contact_radius", y="load")
+    np.testing.assert_array_equal(measured(panel)[0].get_xydata(), [[0.1, -0.5], [0.3, 1.2]])
+    columns = {"depth": ("i", [1e-8, 2e-8], {"units": "m"}), "load": ("i", [1e-7, np.nan], {"units": "N"})}
+    xarray.Dataset(columns).to_netcdf(tmp_path / "loop.nc")
+    panels = gr.plot(probe, data=tmp_path / "loop.nc")
+    np.testing.assert_allclose(measured(panels[0])[0].get_xydata(), [[1e-8, 1e-7]], rtol=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("text", "key"),
+    [
+        ("", "0 bytes"),
+        ("depth,force [nN]\n1,2\n", "depth [nm]"),
+        ("depth [nm],force [nm]\n1,2\n", "force [nN]"),
+        ("depth [N],force [nN]\n1,2\n", "depth [nm]"),
+        ("depth [nm],forse [nN]\n1,2\n", '"forse" to "force"'),
+        ("x,y\n1,2\n", "header"),
+        ("depth [nm],force [nN]\nnan,2\n1,nan\n", "depth, force"),
+        ("depth [nm],force [nN]\n1,x\n", "line 2"),
+        ("depth [nm],force [nN]\n1\n", "line 2"),
+    ],
+)
+def test_tables_that_cannot_be_drawn_are_refused(text: str, key: str, probe: xarray.Dataset, tmp_path: Path) -> None:
+    with pytest.raises(gr.DatasetError) as caught:
+        gr.plot(probe, data=written(tmp_path, text))
+    assert key in str(caught.value)
+    assert str(caught.value).startswith(f"data {tmp_path / 'loop.csv'}: ")
+
+
+def test_pictures_without_a_place_for_points_refuse_them(
+    gradhesion: Call, curves: xarray.Dataset, probe: xarray.Dataset, tmp_path: Path
+) -> None:
+    path = written(tmp_path, "depth [nm],force [nN]\n1,2\nnan,1\n")
+    states = gr.curves(PUNCH | {"A": 0.02}, "pressure")
+    maps = gr.solve(PUNCH | {"A": [0.0, 0.1]}, "pull_off_force")
+    for dataset, choices in ((probe, {"x": "contact_radius"}), (maps, {}), (states, {}), (curves, {})):
+        with pytest.raises(gr.DatasetError, match="data"):
+            gr.plot(dataset, data=path, **choices)
+    probe.to_netcdf(tmp_path / "c.nc")
+    result = gradhesion("plot", tmp_path / "c.nc", "--data", path)
+    assert result.exit_code == 0, result.stderr
+    assert f"{path}: 1 row left out" in result.stderr
+    assert gradhesion("plot", tmp_path / "c.nc", "--data", "absent.csv", "-o", tmp_path / "d.png").exit_code == 2
+    assert not (tmp_path / "d.png").exists()
