@@ -127,7 +127,7 @@ WRONG: list[tuple[str, dict[str, Any]]] = [
     ("ylim 0:1", {"ylim": "0:1"}),
     ("inset 0:1", {"inset": "0:1"}),
     ("xlabel", {"xlabel": "depth"}),
-    ('kind="map"', {"kind": "map"}),
+    ("map: ", {"kind": "map"}),
     ("levels", {"levels": 5}),
     ("band", {"band": "std"}),
 ]
