@@ -481,7 +481,7 @@ def put_force(lowest: Lowest, reduced: Floats, i: int, out: Floats) -> None:
     out[STATUS, i] = put_pull_off(lowest, reduced[RIM_Y, i], reduced, i, out) if lowest.known else SHORT
 
 
-@kernel
+@leaf
 def solve_patterned_forces(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Solve the pull-off alone of the scenes `first` to `last` - 1 with a pattern: no farther than it can be."""
     rooms = task.rooms
