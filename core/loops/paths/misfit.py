@@ -73,7 +73,7 @@ class Misfit:
             self._kept = Nearest(vector.tobytes(), [], self.model.path(vector))
             if (drawn := self._kept.drawn) is not None:
                 chain, tangents = drawn.places / self.scale, drawn.tangents / self.scale
-                up, down = slice(0, drawn.turn + 1), slice(drawn.turn, None)
+                up, down = slice(0, drawn.turn + 1), slice(drawn.turn, len(chain))
                 for own, piece in ((~self.data.back, up), (self.data.back, down)):
                     near = feet(self.points[own], chain[piece], tangents[piece], drawn.curved[piece])
                     self._kept.branches.append((own, piece, near))
@@ -93,7 +93,9 @@ class Misfit:
             return self._differences(vector)
         found, (_, branches, drawn) = np.zeros((self.weights.size, vector.size)), self.nearest(vector)
         if drawn is not None:
-            moved = moving(self.model, vector, drawn, self.low, self.high) / self.scale[:, None]
+            near = [piece.start + feet.piece for _, piece, feet in branches]
+            used = np.unique(np.concatenate([place + more for place in near for more in (0, 1)]))
+            moved = moving(self.model, vector, drawn, self.low, self.high, used) / self.scale[:, None]
             for own, piece, near in branches:
                 found[own] = near.slopes(moved[piece], drawn.tangents[piece] / self.scale)
         turn = (2.0 * np.eye(vector.size) / (self.high - self.low))[self.turn]

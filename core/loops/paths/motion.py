@@ -21,16 +21,22 @@ _STEP: Final = 1e-5
 """Step of the differences, of logarithms and ratios: their error is of its square, or of 1e-16 over it."""
 
 
-def moving(model: LoopModel, vector: Floats, drawn: LoopPath, low: Floats, high: Floats) -> Floats:
-    """Return how the vertices of a path move with each number that is searched, between the ends of its range.
+def moving(
+    model: LoopModel, vector: Floats, drawn: LoopPath, low: Floats, high: Floats, used: Integers
+) -> Floats:
+    """Return how vertices `used` of a path move with each number that is searched, between the ends of its range.
 
     Returns
     -------
-    Of shape (vertices, 2, numbers). Out of contact vertices move with the offsets alone.
+    Of shape (vertices, 2, numbers), for others than those that are used without a meaning. Out of contact vertices move
+    with the offsets alone.
     """
     names, tilt = model.names, model.shift(vector)[2]
     moved = np.zeros((drawn.radius.size, 2, len(names)))
-    if (within := np.flatnonzero(drawn.radius > 0.0)).size:
+    wanted = np.zeros(drawn.radius.size + 1, bool)
+    wanted[[*used, drawn.turn, drawn.turn + 1]] = True
+    wanted[np.flatnonzero(drawn.jump & wanted[:-1]) - 1] = True  # a landing moves with the end of its jump
+    if (within := np.flatnonzero(wanted[:-1] & (drawn.radius > 0.0))).size:
         _move(model, vector, drawn, within, moved, low, high)
     for axis, name in enumerate((DEPTH_ZERO, LOAD_ZERO)):
         if name in names:
@@ -81,7 +87,7 @@ def _move(
         if ahead > 0.0:
             ends = 1 if drawn.pressed is not None else 2  # at the rim the edge is pinned
             moved[turn : turn + ends] -= along[turn : turn + ends, :, None] * away / ahead
-    for landing in np.flatnonzero(drawn.jump & (drawn.radius > 0.0)):
+    for landing in within[drawn.jump[within]]:
         if landing != turn + 1 and along[landing, model.driven] != 0.0:
             behind = moved[landing - 1, model.driven] - moved[landing, model.driven]
             moved[landing] += along[landing, :, None] * behind / along[landing, model.driven]
