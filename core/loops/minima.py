@@ -1,7 +1,6 @@
 """The minima of the misfit of a loop: several starts refined, and which of them the noise allows."""
 
 import math
-from collections.abc import Sequence
 from operator import attrgetter
 from typing import Any, Final
 
@@ -32,10 +31,6 @@ _BETTER: Final = 1e-6
 _APART: Final = 9.0, 4.0
 """Another minimum is further away, in squared standard deviations, than the first, and than the second times the rise
 of chi square; two places in one valley are not."""
-_NOISE: Final = 0.533, 0.518
-"""Mean and standard deviation of the robust size of a point whose distance is its noise: of ln(1 + z^2), z normal."""
-_CLEAR: Final = 4.0
-"""Standard deviations of the robust size of a loop within which a misfit is noise."""
 
 
 def minima(misfit: Misfit, begun: list[Floats]) -> list[Any]:
@@ -47,8 +42,8 @@ def minima(misfit: Misfit, begun: list[Floats]) -> list[Any]:
     few = misfit.thinned(_FEW)
 
     def best(vectors: list[Floats], count: int) -> list[Any]:
-        rough = sorted((robust(few, vector) for vector in vectors), key=_COST)
-        if rough and is_noise(few, rough[0].x):
+        rough = sorted((few.refined(vector, most=30, tolerance=1e-6) for vector in vectors), key=_COST)
+        if rough and few.is_noise(rough[0].cost):
             rough = [done for done in rough if done.cost < rough[0].cost + _HOPELESS]
         return [misfit.refined(vector, most=100) for vector in distinct([done.x for done in rough], misfit)[:count]]
 
@@ -59,19 +54,6 @@ def minima(misfit: Misfit, begun: list[Floats]) -> list[Any]:
         if not whole[0].cost < least:
             break
     return whole
-
-
-def robust(few: Misfit, start: Floats, held: Sequence[int] = ()) -> Any:
-    """Refine a start by some of the points, first with a loss that outliers hardly move, unless only noise is left."""
-    if not is_noise(few, start):
-        start = few.refined(start, loss="soft_l1", most=40, held=held, tolerance=1e-6).x
-    return few.refined(start, most=30, held=held, tolerance=1e-6)
-
-
-def is_noise(few: Misfit, vector: Floats) -> bool:
-    """Say whether a vector leaves no more than noise at some of the points."""
-    count = few.weights.size
-    return few.size(vector) <= _NOISE[0] * count + _CLEAR * _NOISE[1] * math.sqrt(count)
 
 
 def distinct(vectors: list[Floats], misfit: Misfit, near: float = 1e-3) -> list[Floats]:

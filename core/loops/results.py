@@ -110,11 +110,12 @@ def covariance_of(misfit: Misfit, vector: Floats) -> Floats:
         )
     unit = lengths / widths
     # how corners move along the curve is known roughly: they would hide what is locked together
-    inside = np.append(misfit.inside(vector), np.ones(len(misfit.turn), bool))
-    _, singular, rows = np.linalg.svd(jacobian[inside] / unit, full_matrices=False)
-    if singular.size == unit.size and singular[-1] < _SINGULAR * singular[0]:
+    inside = np.append(misfit.inside(vector), np.zeros(len(misfit.turn), bool))
+    searched = np.delete(np.arange(unit.size), misfit.turn)
+    _, singular, rows = np.linalg.svd((jacobian / unit)[np.ix_(inside, searched)], full_matrices=False)
+    if singular.size == searched.size and singular[-1] < _SINGULAR * singular[0]:
         weights = np.abs(rows[-1])
-        raise CannotTellApartError([name for name, weight in zip(names, weights, strict=True) if weight > _PART])
+        raise CannotTellApartError([names[i] for i, weight in zip(searched, weights, strict=True) if weight > _PART])
     return np.linalg.inv(jacobian.T @ jacobian / np.outer(unit, unit)) / np.outer(unit, unit)
 
 

@@ -9,18 +9,20 @@ than noise.
 import itertools
 import math
 from collections.abc import Mapping
+from operator import attrgetter
 from typing import Any, Final
 
 import numpy as np
 
 from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
-from gradhesion.core.loops.minima import distinct, is_noise, minima, robust
+from gradhesion.core.loops.minima import distinct, minima
 from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.model import AMPLITUDES, SPEEDS, TURN, WAVELENGTHS, WAVES
 from gradhesion.core.loops.paths.offsets import DEPTH_ZERO, LOAD_ZERO
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.types import Floats
 
+_COST: Final = attrgetter("cost")
 _FEW: Final = 140
 """Points that starts are compared with."""
 _WORK: Final = "work_of_adhesion"
@@ -41,11 +43,12 @@ _PER_WAVE: Final = 3.0
 """Wavelengths tried, over the number of waves by which the shortest and the longest differ within the contact."""
 _LEAST, _MOST = 8, 14
 """How many they are at least and at most."""
+_HELD, _ROUGH = 6, 15
+"""Steps in which starts are refined with the waves held, and the best of these with them."""
 _SPEEDS: Final = 4
 """Speeds that are tried."""
-_WORSE, _CLOSE = 0.5, 0.2
-"""Robust size of a misfit for each point: a refined start worse than the best by more is left out, by the second where
-the best leaves only noise."""
+_WORSE: Final = 4.0
+"""Half the sum of squares over that of the best start, above which another is left out."""
 
 
 def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: int) -> list[Floats]:
@@ -68,7 +71,8 @@ def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: i
     smooth = few.without(WAVES, A=0.0)
     first = _smooth(smooth, load_zero, contact, seed)[0]
     held = put(smooth, first, {DEPTH_ZERO: contact, LOAD_ZERO: load_zero})
-    again = robust(smooth, matched(smooth, held, load_zero), held=smooth.model.places_of((DEPTH_ZERO, LOAD_ZERO)))
+    places = smooth.model.places_of((DEPTH_ZERO, LOAD_ZERO))
+    again = smooth.refined(matched(smooth, held, load_zero), held=places, tolerance=1e-6)
     return _wavy(few, smooth, distinct([first, again.x], smooth, 0.05), count)
 
 
@@ -87,11 +91,10 @@ def shares_of(misfit: Misfit, number: int, count: int) -> Floats:
     return np.asarray(misfit.low[number] + shares * (misfit.high[number] - misfit.low[number]))
 
 
-def _best(misfit: Misfit, vectors: list[Floats], count: int, worse: float = math.inf) -> list[Floats]:
-    """Return the best of some vectors, in order, that are worse than the first by no more than this for each point."""
-    sizes = np.array([misfit.size(vector) for vector in vectors])
-    order = np.argsort(sizes, kind="stable")[:count]
-    return [vectors[i] for i in order if sizes[i] <= sizes[order[0]] + worse * misfit.weights.size]
+def _kept(found: list[Any], few: Misfit, count: int) -> list[Floats]:
+    """Return the best of some refined starts that differ, in order, without those that are far worse."""
+    best = sorted(found, key=_COST)
+    return distinct([done.x for done in best if done.cost <= _WORSE * best[0].cost], few)[:count]
 
 
 def _smooth(few: Misfit, load_zero: float, contact: float, seed: int) -> list[Floats]:
@@ -109,21 +112,18 @@ def _smooth(few: Misfit, load_zero: float, contact: float, seed: int) -> list[Fl
 
         drawn = qmc.Sobol(len(others), seed=seed).random(2**6)
     begun = []
-    for number, (work, depth) in enumerate(itertools.product(works, depths[np.isfinite(depths)])):
+    for number, (depth, work) in enumerate(itertools.product(depths[np.isfinite(depths)], works)):
         vector = 0.5 * (lows + highs)
         vector[others] = lows[others] + drawn[number % len(drawn)] * (highs - lows)[others]
         vector = put(few, vector, {DEPTH_ZERO: depth, LOAD_ZERO: load_zero, _WORK: work})
         begun.append(matched(few, vector, load_zero))
-    each = len(begun) // len(works)
-    likely = [*range(each - 1, len(begun), each)] if math.isfinite(contact) else []
-    order = np.argsort([few.size(vector) for vector in begun], kind="stable")[:_KEPT].tolist()
-    found = []
-    for i in (*likely, *(i for i in order if i not in likely)):
-        found.append(robust(few, begun[i]))
-        if is_noise(few, found[-1].x):
+    rest = len(begun) - (len(works) if math.isfinite(contact) else 0)  # the last are at the end of the base line
+    found: list[Any] = []
+    for vector in [*begun[rest:], *sorted(begun[:rest], key=few.size)[:_KEPT]]:
+        found.append(few.refined(vector, most=40, tolerance=1e-6))
+        if few.is_noise(found[-1].cost):
             break  # other contact points have a larger misfit
-    found.sort(key=lambda done: float(done.cost))
-    return _best(few, distinct([done.x for done in found], few), len(found), _WORSE)
+    return _kept(found, few, len(found))
 
 
 def matched(misfit: Misfit, vector: Floats, load_zero: float) -> Floats:
@@ -175,7 +175,7 @@ def _wavy(few: Misfit, smooth: Misfit, bases: list[Floats], count: int) -> list[
     length, height = few.model.place_of(WAVELENGTHS), few.model.place_of(AMPLITUDES)
     held = [i for i in (length, height) if i is not None]
     heights = [None] if height is None else shares_of(few, height, _HEIGHTS)
-    found: list[Floats] = []
+    found: list[Any] = []
     for base in bases:
         middle = put(few, 0.5 * (few.low + few.high), dict(zip(smooth.names, base, strict=True)))
         for waves in [[None]] if length is None else _lengths(few, smooth, base, middle, length):
@@ -185,14 +185,12 @@ def _wavy(few: Misfit, smooth: Misfit, bases: list[Floats], count: int) -> list[
                 for i, value in ((length, wave), (height, swell)):
                     if i is not None:
                         vector[i] = value
-                begun.append(_softened(few, vector))
-            rough = [few.refined(vector, loss="soft_l1", most=4, held=held, tolerance=1e-4).x for vector in begun]
-            rough = distinct(_best(few, rough, count), few)
-            found += [few.refined(vector, loss="soft_l1", most=10, tolerance=1e-4).x for vector in rough]
-            found = _best(few, found, len(found))
-            if found and is_noise(few, best := robust(few, found[0]).x):
-                return _best(few, distinct([best, *found], few), count, _CLOSE)
-    return _best(few, distinct(found, few), count, _WORSE)
+                begun.append(few.refined(_softened(few, vector), most=_HELD, held=held, tolerance=1e-4))
+            begun = sorted(begun, key=_COST)[:count]
+            found += [few.refined(done.x, most=_ROUGH, tolerance=1e-4) for done in begun]
+            if found and few.is_noise(min(found, key=_COST).cost):
+                return _kept(found, few, count)
+    return _kept(found, few, count)
 
 
 def _lengths(few: Misfit, smooth: Misfit, base: Floats, middle: Floats, i: int) -> list[Any]:
@@ -229,4 +227,4 @@ def _fast(few: Misfit, at_rest: Mapping[str, float]) -> list[Floats]:
     vectors = np.tile(start, (_SPEEDS if free else 1, 1))
     for i in free:
         vectors[:, i] = shares_of(few, i, _SPEEDS)
-    return _best(few, [few.refined(vector, loss="soft_l1", most=12, tolerance=1e-4).x for vector in vectors], 3)
+    return _kept([few.refined(vector, most=12, tolerance=1e-4) for vector in vectors], few, 3)

@@ -1,5 +1,6 @@
 """The misfit of a loop: signed distances of its points to the path, over the noise, with their exact derivatives."""
 
+import math
 from collections.abc import Sequence
 from typing import Any, Final, NamedTuple
 
@@ -14,6 +15,8 @@ from gradhesion.core.types import Floats, Truths
 
 _STEP: Final = 1e-5
 """Step of differences of paths, in parts of a range."""
+_CLEAR: Final = 4.0
+"""Standard deviations of chi square within which a misfit is noise."""
 LOST: Final = 1e3
 """Distance, in standard deviations, of every point where a scene has no path."""
 
@@ -108,6 +111,15 @@ class Misfit:
             found[own] = near.bent | ((near.share > 0.0) & (near.share < 1.0))
         return found
 
+    def size(self, vector: Floats) -> float:
+        """Return a measure of the misfit that outliers hardly move."""
+        return float(np.sum(np.log1p(self.residual(vector) ** 2)))
+
+    def is_noise(self, cost: float) -> bool:
+        """Say whether half a sum of squares is no more than noise leaves."""
+        count = self.weights.size
+        return 2.0 * cost <= count + _CLEAR * math.sqrt(2.0 * count)
+
     def _differences(self, vector: Floats) -> Floats:
         """Return the derivatives of the distances by central differences, of one side at the end of a range."""
         steps = np.diag(_STEP * (self.high - self.low))
@@ -115,9 +127,7 @@ class Misfit:
         changes = [(self.residual(above) - self.residual(below)) / np.sum(above - below) for above, below in ends]
         return np.column_stack(changes)
 
-    def refined(
-        self, start: Floats, *, loss: str = "linear", most: int = 60, held: Sequence[int] = (), tolerance: float = 1e-8
-    ) -> Any:
+    def refined(self, start: Floats, *, most: int = 60, held: Sequence[int] = (), tolerance: float = 1e-8) -> Any:
         """Refine a start within the ranges, the numbers `held` fixed; as of `least_squares`, `x` with all numbers."""
         searched = np.setdiff1d(np.arange(start.size), held)
         low, high = self.low[searched], self.high[searched]
@@ -133,7 +143,6 @@ class Misfit:
             jac=lambda part: self.jacobian(whole(part))[:, searched],
             bounds=(low, high),
             x_scale="jac",
-            loss=loss,
             xtol=tolerance,
             ftol=tolerance,
             gtol=1e-10,
@@ -141,7 +150,3 @@ class Misfit:
         )
         done.x = whole(done.x)
         return done
-
-    def size(self, vector: Floats) -> float:
-        """Return a measure of the misfit that outliers hardly move."""
-        return float(np.sum(np.log1p(self.residual(vector) ** 2)))
