@@ -90,6 +90,13 @@ def _nearest(x: float, y: float, chain: Floats, boxes: Floats, guess: int) -> tu
 
 
 @kernel
+def _slope(run: float, rise: float, tangent: Floats) -> float:
+    """Return the slope of a tangent (2,) over a direction of length 1; no more than 1."""
+    along, aside = run * tangent[0] + rise * tangent[1], run * tangent[1] - rise * tangent[0]
+    return min(max(aside / along, -1.0), 1.0) if along != 0.0 else 0.0
+
+
+@kernel
 def _on_piece(
     point: Floats, chain: Floats, tangents: Floats, curved: Truths, i: int
 ) -> tuple[float, float, float, float]:
@@ -98,13 +105,9 @@ def _on_piece(
     length = np.hypot(run, rise)
     if length == 0.0:
         return 0.0, np.inf, 0.0, 1.0
-    run, rise, begin, end = run / length, rise / length, 0.0, 0.0
-    if curved[i + 1]:  # the cubic over the chord, with slopes of at most 1
-        ahead, later = run * tangents[i, 0] + rise * tangents[i, 1], run * tangents[i + 1, 0] + rise * tangents[i + 1, 1]
-        if ahead != 0.0:
-            begin = min(max((run * tangents[i, 1] - rise * tangents[i, 0]) / ahead, -1.0), 1.0)
-        if later != 0.0:
-            end = min(max((run * tangents[i + 1, 1] - rise * tangents[i + 1, 0]) / later, -1.0), 1.0)
+    run, rise = run / length, rise / length
+    begin = _slope(run, rise, tangents[i]) if curved[i + 1] else 0.0
+    end = _slope(run, rise, tangents[i + 1]) if curved[i + 1] else 0.0
     left, over = point[0] - chain[i, 0], point[1] - chain[i, 1]
     at, above = (run * left + rise * over) / length, (run * over - rise * left) / length
     t, off, slope, bend = 0.0, above, 0.0, 0.0
