@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 from threadpoolctl import threadpool_limits
 
 from gradhesion.core.closed.reduced import WAYS
-from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop
+from gradhesion.core.loops.fitted import FittedLoop
 from gradhesion.core.loops.measured.features import BaseLine, base_line, contact_point
 from gradhesion.core.loops.minima import minima
 from gradhesion.core.loops.paths.misfit import Data, Misfit
@@ -38,8 +38,6 @@ from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.toughness import Toughness
 from gradhesion.core.types import Floats, Truths
 
-ONE_NUMBER: Final = ("E_star", "E", "modulus", "c0", "c0_over_R", "nu")
-"""Parameters that act on a loop through M = theta(k, nu) E*/c0^k alone."""
 INTERVALS: Final = ("linear", "profile")
 """Methods for intervals."""
 _BLUR: Final = 6.0
@@ -244,6 +242,3 @@ def _check(
     for name, (low, high) in free.items():
         if not low < high or (name not in LINEAR and not low > 0.0):
             raise ValueError(f"{name}: the ends {low:g} and {high:g} of a range rise, and are above 0 but for k and nu")
-    through_stiffness = [name for name in free if name in ONE_NUMBER]
-    if len(through_stiffness) > 1:
-        raise CannotTellApartError(through_stiffness)

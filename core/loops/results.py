@@ -109,13 +109,9 @@ def covariance_of(misfit: Misfit, vector: Floats) -> Floats:
             f"{' and '.join(without)}: without effect on this loop; fix {'it' if len(without) == 1 else 'them'}"
         )
     unit = lengths / widths
-    # how corners move along the curve is known roughly: they would hide what is locked together
-    inside = np.append(misfit.inside(vector), np.zeros(len(misfit.turn), bool))
-    searched = np.delete(np.arange(unit.size), misfit.turn)
-    _, singular, rows = np.linalg.svd((jacobian / unit)[np.ix_(inside, searched)], full_matrices=False)
-    if singular.size == searched.size and singular[-1] < _SINGULAR * singular[0]:
-        weights = np.abs(rows[-1])
-        raise CannotTellApartError([names[i] for i, weight in zip(searched, weights, strict=True) if weight > _PART])
+    _, singular, rows = np.linalg.svd(jacobian / unit, full_matrices=False)
+    if singular[-1] < _SINGULAR * singular[0]:
+        raise CannotTellApartError([name for name, part in zip(names, np.abs(rows[-1]), strict=True) if part > _PART])
     return np.linalg.inv(jacobian.T @ jacobian / np.outer(unit, unit)) / np.outer(unit, unit)
 
 

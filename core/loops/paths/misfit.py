@@ -104,13 +104,6 @@ class Misfit:
         turn = (2.0 * np.eye(vector.size) / (self.high - self.low))[self.turn]
         return np.concatenate([found * self.weights[:, None], turn])
 
-    def inside(self, vector: Floats) -> Truths:
-        """Return which points are nearest to the inside of a piece, no corner; (points,)."""
-        found = np.zeros(self.weights.size, bool)
-        for own, _, near in self.nearest(vector).branches:
-            found[own] = near.bent | ((near.share > 0.0) & (near.share < 1.0))
-        return found
-
     def size(self, vector: Floats) -> float:
         """Return a measure of the misfit that outliers hardly move."""
         return float(np.sum(np.log1p(self.residual(vector) ** 2)))
