@@ -69,11 +69,7 @@ def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: i
     if not misfit.model.has_waves:
         return _smooth(few, load_zero, contact, seed)[:count]
     smooth = few.without(WAVES, A=0.0)
-    first = _smooth(smooth, load_zero, contact, seed)[0]
-    held = put(smooth, first, {DEPTH_ZERO: contact, LOAD_ZERO: load_zero})
-    places = smooth.model.places_of((DEPTH_ZERO, LOAD_ZERO))
-    again = smooth.refined(matched(smooth, held, load_zero), held=places, tolerance=1e-6)
-    return _wavy(few, smooth, distinct([first, again.x], smooth, 0.05), count)
+    return _wavy(few, smooth, _smooth(smooth, load_zero, contact, seed)[0], count)
 
 
 def put(misfit: Misfit, vector: Floats, values: Mapping[str, float]) -> Floats:
@@ -167,29 +163,28 @@ def spectrum(smooth: Misfit, vector: Floats, lengths: tuple[float, float]) -> Fl
     return np.asarray(1.0 / waves[peaks[np.argsort(-power[peaks], kind="stable")]])
 
 
-def _wavy(few: Misfit, smooth: Misfit, bases: list[Floats], count: int) -> list[Floats]:
+def _wavy(few: Misfit, smooth: Misfit, base: Floats, count: int) -> list[Floats]:
     """Return starts for waves that are searched, refined in everything else, the best first.
 
-    `smooth` and `bases` are the same loop without waves, and where it is begun from.
+    `smooth` and `base` are the same loop without waves, and its best start.
     """
     length, height = few.model.place_of(WAVELENGTHS), few.model.place_of(AMPLITUDES)
     held = [i for i in (length, height) if i is not None]
     heights = [None] if height is None else shares_of(few, height, _HEIGHTS)
+    middle = put(few, 0.5 * (few.low + few.high), dict(zip(smooth.names, base, strict=True)))
     found: list[Any] = []
-    for base in bases:
-        middle = put(few, 0.5 * (few.low + few.high), dict(zip(smooth.names, base, strict=True)))
-        for waves in [[None]] if length is None else _lengths(few, smooth, base, middle, length):
-            begun = []
-            for wave, swell in itertools.product(waves, heights):
-                vector = middle.copy()
-                for i, value in ((length, wave), (height, swell)):
-                    if i is not None:
-                        vector[i] = value
-                begun.append(few.refined(_softened(few, vector), most=_HELD, held=held, tolerance=1e-4))
-            begun = sorted(begun, key=_COST)[:count]
-            found += [few.refined(done.x, most=_ROUGH, tolerance=1e-4) for done in begun]
-            if found and few.is_noise(min(found, key=_COST).cost):
-                return _kept(found, few, count)
+    for waves in [[None]] if length is None else _lengths(few, smooth, base, middle, length):
+        begun = []
+        for wave, swell in itertools.product(waves, heights):
+            vector = middle.copy()
+            for i, value in ((length, wave), (height, swell)):
+                if i is not None:
+                    vector[i] = value
+            begun.append(few.refined(_softened(few, vector), most=_HELD, held=held, tolerance=1e-4))
+        begun = sorted(begun, key=_COST)[:count]
+        found += [few.refined(done.x, most=_ROUGH, tolerance=1e-4) for done in begun]
+        if found and few.is_noise(min(found, key=_COST).cost):
+            break
     return _kept(found, few, count)
 
 

@@ -123,15 +123,17 @@ def base_line(points: Floats, back: Truths, noise: float) -> BaseLine | None:
     return BaseLine(float(mean[1]), float(away[:, 1].std()), slope, error, (ends[0], ends[1]), float(mean[0]))
 
 
-def contact_point(points: Floats, back: Truths, noise: tuple[float, float]) -> ContactPoint | None:
+def contact_point(
+    points: Floats, back: Truths, line: BaseLine | None, noise: tuple[float, float]
+) -> ContactPoint | None:
     """Find the depth at which contact begins on loading; None without a base line there and a point beyond it.
 
-    Points are as to `base_line`; `noise` are the standard deviations of their depth and load. It is half way from the
-    end of the base line to the next point.
+    Points are as to `base_line`, whose result `line` is; `noise` are the standard deviations of their depth and load.
+    It is half way from the end of the base line to the next point.
     """
-    line = base_line(points, back, noise[1])
-    beyond = points[~back, 0][points[~back, 0] > (np.inf if line is None else line.ends[0])]
-    if line is None or not beyond.size:
+    end = np.inf if line is None else line.ends[0]
+    beyond = points[~back & (points[:, 0] > end), 0]
+    if not beyond.size:
         return None
-    low, high = line.ends[0], float(beyond.min())
-    return ContactPoint(0.5 * (low + high), float(np.hypot(noise[0], (high - low) / np.sqrt(12.0))))
+    gap = float(beyond.min()) - end
+    return ContactPoint(end + 0.5 * gap, float(np.hypot(noise[0], gap / np.sqrt(12.0))))
