@@ -14,7 +14,6 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
 from gradhesion.core.loops.minima import distinct, minima
 from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.model import AMPLITUDES, SPEEDS, TURN, WAVELENGTHS, WAVES
@@ -37,8 +36,6 @@ _HEIGHTS: Final = 3
 """Amplitudes that are tried with each wavelength."""
 _PEAKS: Final = 6
 """Peaks of the spectrum that are tried."""
-_BESIDE: Final = 2
-"""Peaks that are tried with a third of a wave more, and less, within the contact."""
 _PER_WAVE: Final = 3.0
 """Wavelengths tried, over the number of waves by which the shortest and the longest differ within the contact."""
 _LEAST, _MOST = 8, 14
@@ -180,7 +177,7 @@ def _wavy(few: Misfit, smooth: Misfit, base: Floats, count: int) -> list[Floats]
             for i, value in ((length, wave), (height, swell)):
                 if i is not None:
                     vector[i] = value
-            begun.append(few.refined(_softened(few, vector), most=_HELD, held=held, tolerance=1e-4))
+            begun.append(few.refined(vector, most=_HELD, held=held, tolerance=1e-4))
         begun = sorted(begun, key=_COST)[:count]
         found += [few.refined(done.x, most=_ROUGH, tolerance=1e-4) for done in begun]
         if found and few.is_noise(min(found, key=_COST).cost):
@@ -197,21 +194,7 @@ def _lengths(few: Misfit, smooth: Misfit, base: Floats, middle: Floats, i: int) 
     count = int(np.clip(_PER_WAVE * largest * (1.0 / low - 1.0 / high), _LEAST, _MOST))
     even = 1.0 / np.linspace(1.0 / high, 1.0 / low, count + 2)[1:-1]
     peaks = spectrum(smooth, base, (low, high))[:_PEAKS]
-    # a wave more or less within the contact is another minimum: peaks are off by parts of one
-    strong = peaks[:_BESIDE]
-    beside = [strong / (1.0 + sign * strong / (_PER_WAVE * largest)) for sign in (1.0, -1.0) if largest]
-    groups = np.concatenate([peaks, *beside]), even
-    return [np.log(tried[(tried >= low) & (tried <= high)] / unit) for tried in groups]
-
-
-def _softened(misfit: Misfit, vector: Floats) -> Floats:
-    """Subtract what waves add from the work of adhesion of the smooth punch: the roots of both add up."""
-    if _WORK not in misfit.names:
-        return vector
-    scene = misfit.model.scenes(vector[None]).one
-    waves = float(waviness_strength(scene.k, scene.wavelength, scene.A))
-    root = max(1.0 - waves / float(adhesion_strength(scene.k, scene.stiffness)), 0.15)
-    return put(misfit, vector, {_WORK: vector[misfit.names.index(_WORK)] + 2.0 * math.log(root)})
+    return [np.log(tried[(tried >= low) & (tried <= high)] / unit) for tried in (peaks, even)]
 
 
 def _fast(few: Misfit, at_rest: Mapping[str, float]) -> list[Floats]:
