@@ -50,7 +50,7 @@ class Misfit:
         self.data, self.scale = data, np.array(data.noise)
         self.points, self.weights = data.points / self.scale, np.sqrt(data.counts)
         self.model, self.names, self.low, self.high = model, model.names, low, high
-        self.turn = model.places_of((TURN,))
+        self.turn = [place for place, name in enumerate(model.names) if name == TURN]
         """The place of the turn, which is likely near the middle of its range: one more residual says so."""
         self._kept = Nearest(b"", [], None)
 
@@ -96,8 +96,8 @@ class Misfit:
             return self._differences(vector)
         found, (_, branches, drawn) = np.zeros((self.weights.size, vector.size)), self.nearest(vector)
         if drawn is not None:
-            near = [piece.start + feet.piece for _, piece, feet in branches]
-            used = np.unique(np.concatenate([place + more for place in near for more in (0, 1)]))
+            begun = np.concatenate([piece.start + near.piece for _, piece, near in branches])
+            used = np.unique([begun, begun + 1])
             moved = moving(self.model, vector, drawn, self.low, self.high, used) / self.scale[:, None]
             for own, piece, near in branches:
                 found[own] = near.slopes(moved[piece], drawn.tangents[piece] / self.scale)

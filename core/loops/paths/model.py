@@ -125,10 +125,6 @@ class Model:
             for name, column in zip(self.names, vectors.T, strict=True)
         }
 
-    def places_of(self, names: Sequence[str]) -> list[int]:
-        """Return the places of those of some names that are searched."""
-        return [place for place, name in enumerate(self.names) if name in names]
-
     def searched(self, values: Mapping[str, float]) -> dict[str, float]:
         """Return numbers by name as they are searched."""
         return {name: value if name in LINEAR else math.log(value) for name, value in values.items()}
