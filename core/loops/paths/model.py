@@ -10,7 +10,6 @@ root of the closing ratio where it closes. Paths, and how they move, need nothin
 
 import math
 from collections.abc import Mapping, Sequence
-from functools import lru_cache
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -75,22 +74,6 @@ class Scenes(NamedTuple):
         return float(self.R * (2.0 ** (1.0 + self.k) * math.pi / self.stiffness) ** (1.0 / (3.0 + self.k)))
 
 
-@lru_cache(maxsize=64)
-def _units_at(k: float, nu: float, m: float) -> tuple[Any, ...]:
-    """Return the result of `_units` for plain numbers."""
-    return (
-        stiffness(k, nu, 1.0, 1.0), hertz.power_indentation(k, 1.0, m), hertz.disc_stiffness(k, 1.0, 1.0),
-        jkr.adhesive_depth(k, 1.0, 1.0),
-    )  # fmt: skip
-
-
-def _units(k: Any, nu: Any, m: float) -> tuple[Any, ...]:
-    """Return M, depth, stiffness and pull at the radius R, in R and dgamma, where E* R/dgamma, c0/R and M are 1."""
-    if np.ndim(k) == np.ndim(nu) == 0:
-        return _units_at(float(k), float(nu), m)
-    return _units_at.__wrapped__(k, nu, m)
-
-
 class Model:
     """A loop as a function of the numbers that are searched: its curves of equilibrium.
 
@@ -141,14 +124,14 @@ class Model:
         made = parameters_from(given)
         R, work = given["R"], given["work_of_adhesion"]
         k, nu, modulus, c0 = (made[name] for name in PARAMETERS[:4])
-        theta, rise, disc, adhesion = _units(k, nu, self.profile.exponent)
-        M, unit = theta * modulus / c0**k, 1.5 * math.pi * R * work
+        M, unit = stiffness(k, nu, modulus, c0), 1.5 * math.pi * R * work
         compliance = 1.0 / (made["machine_stiffness"] * modulus * work) if self.loading.control == "machine" else 0.0
         turn = made[self.turns] * (unit if self.turns == "load_max" else R) if self.turns else math.nan
         columns = (
             k, R, M, made["lambda_over_R"], made["A"], np.sqrt(np.maximum(made.get(CLOSING, 1.0), 0.0)), compliance,
             R * made["a_max_over_R"], made.get(PATTERN[0], 1.0), made.get(PATTERN[1], 1.0), turn,
-            R * rise, unit / R * disc * M, R * adhesion / np.sqrt(M),
+            R * hertz.power_indentation(k, 1.0, self.profile.exponent), unit / R * hertz.disc_stiffness(k, M, 1.0),
+            R * jkr.adhesive_depth(k, M, 1.0),
         )  # fmt: skip
         return Scenes(*columns)
 
