@@ -10,6 +10,7 @@ root of the closing ratio where it closes. Paths, and how they move, need nothin
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -74,6 +75,7 @@ class Scenes(NamedTuple):
         return float(self.R * (2.0 ** (1.0 + self.k) * math.pi / self.stiffness) ** (1.0 / (3.0 + self.k)))
 
 
+@dataclass(eq=False)
 class Model:
     """A loop as a function of the numbers that are searched: its curves of equilibrium.
 
@@ -81,21 +83,21 @@ class Model:
     `TURN` last. The rest is the shape of the punch, what is prescribed, and a pattern of the toughness.
     """
 
-    def __init__(
-        self,
-        fixed: Mapping[str, float],
-        names: tuple[str, ...],
-        profile: Profile,
-        loading: Loading,
-        toughness: Toughness | None = None,
-    ) -> None:
-        self.fixed, self.names = dict(fixed), names
-        self.profile, self.loading, self.toughness = profile, loading, toughness
-        known = {*fixed, *names}
-        self.turns = next((name for name in TURNS if {name, *WAYS[name]} & known), "")
-        self.has_waves = bool(profile.harmonics) and not any(
-            fixed.get(name) == 0.0 for name in ("A", "amplitude", "chi")
-        )
+    fixed: dict[str, float]
+    names: tuple[str, ...]
+    profile: Profile
+    loading: Loading = field(default_factory=Loading)
+    toughness: Toughness | None = None
+
+    @property
+    def turns(self) -> str:
+        """The name of the parameter that says where loading turns, "" where the data do."""
+        return next((name for name in TURNS if {name, *WAYS[name]} & {*self.fixed, *self.names}), "")
+
+    @property
+    def has_waves(self) -> bool:
+        """Whether the punch has waves: a profile with some, and no amplitude of 0."""
+        return bool(self.profile.harmonics) and not any(self.fixed.get(name) == 0.0 for name in AMPLITUDES)
 
     def place_of(self, ways: Sequence[str]) -> int | None:
         """Return the place, among what is searched, of the one that has one of some names; None if none has."""

@@ -4,18 +4,15 @@ Vertices lie on the curve itself, at radii through which the path passes on a gr
 """
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Final
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any, ClassVar, Final
 
 import numpy as np
 
 from gradhesion.core.loops.paths.model import TURN, Model, Scenes
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.loops.paths.walk import between, climb, met
-from gradhesion.core.problem.control import Loading
-from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.toughness import Toughness
 from gradhesion.core.types import Floats, Truths
 
 _A_WAVE: Final = 60
@@ -57,6 +54,7 @@ class LoopPath:
     """How much deeper the contact is pressed on at the rim, up to the turn, in m; None if the rim is not met."""
 
 
+@dataclass(eq=False, kw_only=True)
 class LoopModel(Model):
     """The path of a loop as a function of the numbers that are searched.
 
@@ -65,32 +63,23 @@ class LoopModel(Model):
     is pinned at the turn, which is then searched as `TURN`. The line of no load begins at the depth `first`.
     """
 
-    by_differences = False
+    furthest: tuple[float, float]
+    first: float
+    blur: float = 0.0
+    by_differences: ClassVar[bool] = False
     """Whether derivatives are differences of paths."""
 
-    def __init__(
-        self,
-        fixed: Mapping[str, float],
-        names: tuple[str, ...],
-        *,
-        furthest: tuple[float, float],
-        blur: float = 0.0,
-        first: float,
-        profile: Profile,
-        loading: Loading | None = None,
-        toughness: Toughness | None = None,
-    ) -> None:
-        super().__init__(fixed, names, profile, loading or Loading(), toughness)
-        self.furthest, self.blur, self.first = furthest, blur, first
-        self.driven = int(self.loading.control == "load")  # the row of the states that is prescribed
+    @property
+    def driven(self) -> int:
+        """The row of the states that is prescribed."""
+        return int(self.loading.control == "load")
 
     def without(self, names: Sequence[str], **more: float) -> "LoopModel":
         """Return the path of an edge at rest as a function of the numbers less some, with others fixed."""
-        fixed = {name: value for name, value in self.fixed.items() if name not in names} | more
-        return LoopModel(
-            fixed, tuple(name for name in self.names if name not in names), furthest=self.furthest, blur=self.blur,
-            first=self.first, profile=self.profile, loading=self.loading, toughness=self.toughness,
-        )  # fmt: skip
+        own: dict[str, Any] = {one.name: getattr(self, one.name) for one in fields(LoopModel)}
+        own["fixed"] = {name: value for name, value in self.fixed.items() if name not in names} | more
+        own["names"] = tuple(name for name in self.names if name not in names)
+        return LoopModel(**own)
 
     def shift(self, vector: Floats) -> tuple[float, ...]:
         """Return the zeros of depth and load, and the tilt, of a vector."""
