@@ -162,7 +162,7 @@ def fit_loop(
         "first": float(shifted[:, 0].min() - np.ptp(points[:, 0])), "toughness": toughness,
     }  # fmt: skip
     names = tuple(ranges)
-    model = LoopModel(dict(fixed), names, **own) if rate is None else SpeedModel(dict(fixed), names, rate=rate, **own)
+    model = LoopModel(fixed, names, **own) if rate is None else SpeedModel(fixed, names, rate=rate, **own)
     low, high = (np.array([*model.searched(dict(zip(names, ends, strict=True))).values()])
                  for ends in zip(*ranges.values(), strict=True))  # fmt: skip
     misfit = Misfit(Data(shifted, back, noise, each), model, low, high)

@@ -83,7 +83,7 @@ class Model:
     `TURN` last. The rest is the shape of the punch, what is prescribed, and a pattern of the toughness.
     """
 
-    fixed: dict[str, float]
+    fixed: Mapping[str, float]
     names: tuple[str, ...]
     profile: Profile
     loading: Loading = field(default_factory=Loading)
@@ -116,7 +116,7 @@ class Model:
 
     def given(self, own: Mapping[str, Any]) -> dict[str, Any]:
         """Join the searched and the fixed numbers, with defaults without effect for what is left out."""
-        given = self.fixed | {name: value for name, value in own.items() if name not in (*OFFSETS, TURN)}
+        given = dict(self.fixed) | {name: value for name, value in own.items() if name not in (*OFFSETS, TURN)}
         return {name: one for name, one in _WITHOUT_EFFECT.items() if not WAYS[name].keys() & given.keys()} | given
 
     def scenes(self, vectors: Floats) -> Scenes:
