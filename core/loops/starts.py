@@ -14,6 +14,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
 from gradhesion.core.loops.minima import distinct, minima
 from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.model import AMPLITUDES, SPEEDS, TURN, WAVELENGTHS, WAVES
@@ -177,7 +178,7 @@ def _wavy(few: Misfit, smooth: Misfit, base: Floats, count: int) -> list[Floats]
             for i, value in ((length, wave), (height, swell)):
                 if i is not None:
                     vector[i] = value
-            begun.append(few.refined(vector, most=_HELD, held=held, tolerance=1e-4))
+            begun.append(few.refined(_softened(few, vector), most=_HELD, held=held, tolerance=1e-4))
         begun = sorted(begun, key=_COST)[:count]
         found += [few.refined(done.x, most=_ROUGH, tolerance=1e-4) for done in begun]
         if found and few.is_noise(min(found, key=_COST).cost):
@@ -195,6 +196,16 @@ def _lengths(few: Misfit, smooth: Misfit, base: Floats, middle: Floats, i: int) 
     even = 1.0 / np.linspace(1.0 / high, 1.0 / low, count + 2)[1:-1]
     peaks = spectrum(smooth, base, (low, high))[:_PEAKS]
     return [np.log(tried[(tried >= low) & (tried <= high)] / unit) for tried in (peaks, even)]
+
+
+def _softened(misfit: Misfit, vector: Floats) -> Floats:
+    """Subtract what waves add from the work of adhesion of the smooth punch: the roots of both add up."""
+    if _WORK not in misfit.names:
+        return vector
+    scene = misfit.model.scenes(vector[None]).one
+    waves = float(waviness_strength(scene.k, scene.wavelength, scene.A))
+    root = max(1.0 - waves / float(adhesion_strength(scene.k, scene.stiffness)), 0.15)
+    return put(misfit, vector, {_WORK: vector[misfit.names.index(_WORK)] + 2.0 * math.log(root)})
 
 
 def _fast(few: Misfit, at_rest: Mapping[str, float]) -> list[Floats]:
