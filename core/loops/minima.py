@@ -22,6 +22,8 @@ _WAVES: Final = (-1.0, -0.5, 0.5, 1.0)
 """Differences of the number of waves within the contact that are tried."""
 _HOPELESS: Final = 25.0
 """Half the sum of squares of some of the points by which a minimum may be worse than one that leaves only noise."""
+_VALLEY: Final = 3.0
+"""Standard deviations of the least certain combination by which a smooth fit is begun anew on both sides."""
 _FEWEST: Final = 0.2
 """Least number of waves that is tried."""
 _HOPS: Final = 5
@@ -36,8 +38,8 @@ of chi square; two places in one valley are not."""
 def minima(misfit: Misfit, begun: list[Floats]) -> list[Any]:
     """Refine starts, by some of the points and then the best of them by all; the best minimum first.
 
-    Where a wavelength is searched, minima with some waves more or less in the contact than the best has are tried too,
-    until none is better.
+    Minima beside the best one are tried too, until none is better: with some waves more or less in the contact, or
+    along the valley of a smooth punch.
     """
     few = misfit.thinned(_FEW)
 
@@ -66,10 +68,15 @@ def distinct(vectors: list[Floats], misfit: Misfit, near: float = 1e-3) -> list[
 
 
 def _beside(misfit: Misfit, vector: Floats) -> list[Floats]:
-    """Return a vector with some waves more or less in the contact; none where the wavelength is not searched."""
+    """Return where minima may lie beside one: with some waves more or less in the contact, or along the valley."""
     i, path = misfit.model.place_of(WAVELENGTHS), misfit.nearest(vector).drawn
-    if i is None or path is None or not misfit.model.has_waves:
+    if path is None or misfit.model.by_differences:
         return []
+    if i is None or not misfit.model.has_waves:  # a jump between two points may be nearer to either of them
+        widths = misfit.high - misfit.low
+        _, singular, rows = np.linalg.svd(misfit.jacobian(vector) * widths, full_matrices=False)
+        step = _VALLEY / max(singular[-1], 1e-300) * rows[-1] * widths
+        return [np.clip(vector + sign * step, misfit.low, misfit.high) for sign in (-1.0, 1.0)]
     waves = float(path.radius.max()) / (path.scene.wavelength * path.scene.R)
     step = np.eye(vector.size)[i]
     moved = [vector - step * math.log((waves + more) / waves) for more in _WAVES if waves + more > _FEWEST]

@@ -37,10 +37,14 @@ _HEIGHTS: Final = 3
 """Amplitudes that are tried with each wavelength."""
 _PEAKS: Final = 6
 """Peaks of the spectrum that are tried."""
+_BESIDE: Final = 2
+"""Peaks that are tried with a third of a wave more, and less, within the contact."""
 _PER_WAVE: Final = 3.0
 """Wavelengths tried, over the number of waves by which the shortest and the longest differ within the contact."""
 _LEAST, _MOST = 8, 14
 """How many they are at least and at most."""
+_LONG: Final = 16
+"""Wavelengths tried beside these, evenly by their logarithm: of long waves, few of which are in the contact."""
 _HELD, _ROUGH = 6, 15
 """Steps in which starts are refined with the waves held, and the best of these with them."""
 _SPEEDS: Final = 4
@@ -113,10 +117,10 @@ def _smooth(few: Misfit, load_zero: float, contact: float, seed: int) -> list[Fl
         begun.append(matched(few, vector, load_zero))
     rest = len(begun) - (len(works) if math.isfinite(contact) else 0)  # the last are at the end of the base line
     found: list[Any] = []
-    for vector in [*begun[rest:], *sorted(begun[:rest], key=few.size)[:_KEPT]]:
-        found.append(few.refined(vector, most=40, tolerance=1e-6))
-        if few.is_noise(found[-1].cost):
-            break  # other contact points have a larger misfit
+    for vectors in (begun[rest:], sorted(begun[:rest], key=few.size)[:_KEPT]):
+        found += [few.refined(vector, most=40, tolerance=1e-6) for vector in vectors]
+        if found and few.is_noise(min(found, key=_COST).cost):
+            break  # contact points elsewhere have a larger misfit
     return _kept(found, few, len(found))
 
 
@@ -193,9 +197,13 @@ def _lengths(few: Misfit, smooth: Misfit, base: Floats, middle: Floats, i: int) 
     low, high = math.exp(few.low[i]) * unit, math.exp(few.high[i]) * unit
     largest = 0.0 if drawn is None else float(drawn.radius.max())
     count = int(np.clip(_PER_WAVE * largest * (1.0 / low - 1.0 / high), _LEAST, _MOST))
-    even = 1.0 / np.linspace(1.0 / high, 1.0 / low, count + 2)[1:-1]
+    even = 1.0 / np.linspace(1.0 / high, 1.0 / low, count + 2), np.geomspace(low, high, _LONG + 2)
     peaks = spectrum(smooth, base, (low, high))[:_PEAKS]
-    return [np.log(tried[(tried >= low) & (tried <= high)] / unit) for tried in (peaks, even)]
+    # a wave more or less within the contact is another minimum: peaks are off by parts of one
+    strong = peaks[:_BESIDE]
+    beside = [strong / (1.0 + sign * strong / (_PER_WAVE * largest)) for sign in (1.0, -1.0) if largest]
+    groups = np.concatenate([peaks, *beside]), np.concatenate([row[1:-1] for row in even])
+    return [np.log(tried[(tried >= low) & (tried <= high)] / unit) for tried in groups]
 
 
 def _softened(misfit: Misfit, vector: Floats) -> Floats:
