@@ -45,6 +45,8 @@ _LEAST, _MOST = 8, 14
 """How many they are at least and at most."""
 _LONG: Final = 16
 """Wavelengths tried beside these, evenly by their logarithm: of long waves, few of which are in the contact."""
+_ALIKE: Final = 0.05
+"""Parts of the ranges within which two smooth curves share one search for waves."""
 _HELD, _ROUGH = 6, 15
 """Steps in which starts are refined with the waves held, and the best of these with them."""
 _SPEEDS: Final = 4
@@ -71,7 +73,16 @@ def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: i
     if not misfit.model.has_waves:
         return _smooth(few, load_zero, contact, seed)[:count]
     smooth = few.without(WAVES, A=0.0)
-    return _wavy(few, smooth, _smooth(smooth, load_zero, contact, seed)[0], count)
+    first = _smooth(smooth, load_zero, contact, seed)[0]
+    held = put(smooth, first, {DEPTH_ZERO: contact, LOAD_ZERO: load_zero})
+    zeros = [place for place, name in enumerate(smooth.names) if name in (DEPTH_ZERO, LOAD_ZERO)]
+    again = smooth.refined(matched(smooth, held, load_zero), most=40, held=zeros, tolerance=1e-6).x
+    found: list[Any] = []
+    for base in distinct([first, again], smooth, _ALIKE):
+        found += _wavy(few, smooth, base, count)
+        if few.is_noise(min(found, key=_COST).cost):
+            break
+    return _kept(found, few, count)
 
 
 def put(misfit: Misfit, vector: Floats, values: Mapping[str, float]) -> Floats:
@@ -165,8 +176,8 @@ def spectrum(smooth: Misfit, vector: Floats, lengths: tuple[float, float]) -> Fl
     return np.asarray(1.0 / waves[peaks[np.argsort(-power[peaks], kind="stable")]])
 
 
-def _wavy(few: Misfit, smooth: Misfit, base: Floats, count: int) -> list[Floats]:
-    """Return starts for waves that are searched, refined in everything else, the best first.
+def _wavy(few: Misfit, smooth: Misfit, base: Floats, count: int) -> list[Any]:
+    """Return refined starts for waves that are searched, refined in everything else, the best first.
 
     `smooth` and `base` are the same loop without waves, and its best start.
     """
@@ -187,7 +198,7 @@ def _wavy(few: Misfit, smooth: Misfit, base: Floats, count: int) -> list[Floats]
         found += [few.refined(done.x, most=_ROUGH, tolerance=1e-4) for done in begun]
         if found and few.is_noise(min(found, key=_COST).cost):
             break
-    return _kept(found, few, count)
+    return found
 
 
 def _lengths(few: Misfit, smooth: Misfit, base: Floats, middle: Floats, i: int) -> list[Any]:
