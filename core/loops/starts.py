@@ -67,8 +67,8 @@ def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: i
         return _fast(misfit.thinned(100), rest.named(best.x))
     if misfit.turn:  # near the middle of its range
         rest, middle = misfit.without((TURN,)), 0.5 * (misfit.low + misfit.high)
-        found = starts(rest, load_zero, contact, count, seed)
-        return [put(misfit, middle, dict(zip(rest.names, vector, strict=True))) for vector in found]
+        begun = starts(rest, load_zero, contact, count, seed)
+        return [put(misfit, middle, dict(zip(rest.names, vector, strict=True))) for vector in begun]
     few = misfit.thinned(_FEW)
     if not misfit.model.has_waves:
         return _smooth(few, load_zero, contact, seed)[:count]
