@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 from threadpoolctl import threadpool_limits
 
 from gradhesion.core.closed.reduced import WAYS
-from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop
+from gradhesion.core.loops.fitted import FittedLoop
 from gradhesion.core.loops.measured.features import BaseLine, base_line, contact_point
 from gradhesion.core.loops.minima import minima
 from gradhesion.core.loops.paths.misfit import Data, Misfit
@@ -37,8 +37,6 @@ from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.toughness import Rate, Toughness
 from gradhesion.core.types import Floats, Truths
 
-ONE_NUMBER: Final = ("E_star", "E", "modulus", "c0", "c0_over_R", "nu")
-"""Parameters that act on a loop through M = theta(k, nu) E*/c0^k alone."""
 INTERVALS: Final = ("linear", "profile")
 """Methods for intervals."""
 _BLUR: Final = 6.0
@@ -145,33 +143,28 @@ def fit_loop(
     root = float(np.sqrt(np.median(each)))
     of_means = noise[0] / root, noise[1] / root
     line = base_line(points, back, of_means[1])
-    contact = contact_point(points, back, of_means) if zeros.indentation == "contact" else None
+    contact = contact_point(points, back, line, of_means) if zeros.indentation == "contact" else None
     if contact is None and zeros.indentation == "contact":
         raise ValueError(
             'offsets.indentation = "contact": loading has no base line from which contact could be told; measure '
             'further out, or write "free"'
         )
     zero = np.array([0.0 if contact is None else contact.depth, 0.0])
-    shifted = points - zero
-    ranges = _searched(shifted, free, zeros, line)
+    shifted, drive = points - zero, loading or Loading()
+    driven, furthest = int(drive.control == "load"), shifted.max(axis=0)
+    ranges, blur = _searched(shifted, free, zeros, line), _BLUR * of_means[0]
+    if _is_pinned({*fixed, *free}):  # at a turn that points may miss by a step
+        step = _MISSED * np.ptp(points[:, driven]) + _BLUR * of_means[driven]
+        ranges[TURN], blur = (furthest[driven] - step, furthest[driven] + step), 0.0
     own: dict[str, Any] = {
-        "furthest": tuple(shifted.max(axis=0).tolist()), "blur": _BLUR * of_means[0],
-        "first": float(shifted[:, 0].min() - np.ptp(points[:, 0])),
-        "profile": profile or Profile(), "loading": loading or Loading(), "toughness": toughness,
+        "furthest": tuple(furthest.tolist()), "blur": blur, "profile": profile or Profile(), "loading": drive,
+        "first": float(shifted[:, 0].min() - np.ptp(points[:, 0])), "toughness": toughness,
     }  # fmt: skip
-    driven, bound = int(own["loading"].control == "load"), {*fixed, *free}
-    if bound & {CLOSING, *WAYS[CLOSING]} and not any(bound & {name, *WAYS[name]} for name in TURNS):
-        # the edge is pinned at the turn, which points may miss by a step
-        furthest, step = own["furthest"][driven], _MISSED * np.ptp(points[:, driven]) + _BLUR * of_means[driven]
-        ranges |= {TURN: (furthest - step, furthest + step)}
-        own["blur"] = 0.0
     names = tuple(ranges)
-    low, high = np.array(
-        [ends if name in LINEAR else tuple(np.log(ends)) for name, ends in ranges.items()], dtype=float
-    ).T
-    data = Data(shifted, back, noise, each)
     model = LoopModel(fixed, names, **own) if rate is None else SpeedModel(fixed, names, rate=rate, **own)
-    misfit = Misfit(data, model, low, high)
+    low, high = (np.array([*model.searched(dict(zip(names, ends, strict=True))).values()])
+                 for ends in zip(*ranges.values(), strict=True))  # fmt: skip
+    misfit = Misfit(Data(shifted, back, noise, each), model, low, high)
     with threadpool_limits(1):  # matrices of a few columns: threads only wait for each other
         begun = starts_of(misfit, *_zeros(points, back, line, known=contact is not None), starts, seed)
         _refuse_locked(misfit, begun)
@@ -184,6 +177,11 @@ def fit_loop(
         line = line if abs(line.level - level) < _LEVEL * line.spread else None
     paths = {"loading": fitted.loading + zero, "unloading": fitted.unloading + zero}
     return replace(fitted, base_line=line, contact=contact, **paths)
+
+
+def _is_pinned(given: set[str]) -> bool:
+    """Say whether works of adhesion differ, so that the edge is pinned at a turn, which is that of the data."""
+    return bool(given & {CLOSING, *WAYS[CLOSING]}) and not any(given & {name, *WAYS[name]} for name in TURNS)
 
 
 def _zeros(points: Floats, back: Truths, line: BaseLine | None, *, known: bool) -> tuple[float, float]:
@@ -243,6 +241,3 @@ def _check(
     for name, (low, high) in free.items():
         if not low < high or (name not in LINEAR and not low > 0.0):
             raise ValueError(f"{name}: the ends {low:g} and {high:g} of a range rise, and are above 0 but for k and nu")
-    through_stiffness = [name for name in free if name in ONE_NUMBER]
-    if len(through_stiffness) > 1:
-        raise CannotTellApartError(through_stiffness)

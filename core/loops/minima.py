@@ -1,7 +1,6 @@
 """The minima of the misfit of a loop: several starts refined, and which of them the noise allows."""
 
 import math
-from collections.abc import Sequence
 from operator import attrgetter
 from typing import Any, Final
 
@@ -23,6 +22,8 @@ _WAVES: Final = (-1.0, -0.5, 0.5, 1.0)
 """Differences of the number of waves within the contact that are tried."""
 _HOPELESS: Final = 25.0
 """Half the sum of squares of some of the points by which a minimum may be worse than one that leaves only noise."""
+_VALLEY: Final = 3.0
+"""Standard deviations of the least certain combination by which a smooth fit is begun anew on both sides."""
 _FEWEST: Final = 0.2
 """Least number of waves that is tried."""
 _HOPS: Final = 5
@@ -32,23 +33,19 @@ _BETTER: Final = 1e-6
 _APART: Final = 9.0, 4.0
 """Another minimum is further away, in squared standard deviations, than the first, and than the second times the rise
 of chi square; two places in one valley are not."""
-_NOISE: Final = 0.533, 0.518
-"""Mean and standard deviation of the robust size of a point whose distance is its noise: of ln(1 + z^2), z normal."""
-_CLEAR: Final = 4.0
-"""Standard deviations of the robust size of a loop within which a misfit is noise."""
 
 
 def minima(misfit: Misfit, begun: list[Floats]) -> list[Any]:
     """Refine starts, by some of the points and then the best of them by all; the best minimum first.
 
-    Where a wavelength is searched, minima with some waves more or less in the contact than the best has are tried too,
-    until none is better.
+    Minima beside the best one are tried too, until none is better: with some waves more or less in the contact, or
+    along the valley of a smooth punch.
     """
     few = misfit.thinned(_FEW)
 
     def best(vectors: list[Floats], count: int) -> list[Any]:
-        rough = sorted((robust(few, vector) for vector in vectors), key=_COST)
-        if rough and is_noise(few, rough[0].x):
+        rough = sorted((few.refined(vector, most=30, tolerance=1e-6) for vector in vectors), key=_COST)
+        if rough and few.is_noise(rough[0].cost):
             rough = [done for done in rough if done.cost < rough[0].cost + _HOPELESS]
         return [misfit.refined(vector, most=100) for vector in distinct([done.x for done in rough], misfit)[:count]]
 
@@ -61,19 +58,6 @@ def minima(misfit: Misfit, begun: list[Floats]) -> list[Any]:
     return whole
 
 
-def robust(few: Misfit, start: Floats, held: Sequence[int] = ()) -> Any:
-    """Refine a start by some of the points, first with a loss that outliers hardly move, unless only noise is left."""
-    if not is_noise(few, start):
-        start = few.refined(start, loss="soft_l1", most=40, held=held, tolerance=1e-6).x
-    return few.refined(start, most=30, held=held, tolerance=1e-6)
-
-
-def is_noise(few: Misfit, vector: Floats) -> bool:
-    """Say whether a vector leaves no more than noise at some of the points."""
-    count = few.weights.size
-    return few.size(vector) <= _NOISE[0] * count + _CLEAR * _NOISE[1] * math.sqrt(count)
-
-
 def distinct(vectors: list[Floats], misfit: Misfit, near: float = 1e-3) -> list[Floats]:
     """Return those of some vectors that are not near an earlier one: a part of the ranges in every number."""
     kept: list[Floats] = []
@@ -84,10 +68,15 @@ def distinct(vectors: list[Floats], misfit: Misfit, near: float = 1e-3) -> list[
 
 
 def _beside(misfit: Misfit, vector: Floats) -> list[Floats]:
-    """Return a vector with some waves more or less in the contact; none where the wavelength is not searched."""
+    """Return where minima may lie beside one: with some waves more or less in the contact, or along the valley."""
     i, path = misfit.model.place_of(WAVELENGTHS), misfit.nearest(vector).drawn
-    if i is None or path is None or not misfit.model.has_waves:
+    if path is None or misfit.model.by_differences:
         return []
+    if i is None or not misfit.model.has_waves:  # a jump between two points may be nearer to either of them
+        widths = misfit.high - misfit.low
+        _, singular, rows = np.linalg.svd(misfit.jacobian(vector) * widths, full_matrices=False)
+        step = _VALLEY / max(singular[-1], 1e-300) * rows[-1] * widths
+        return [np.clip(vector + sign * step, misfit.low, misfit.high) for sign in (-1.0, 1.0)]
     waves = float(path.radius.max()) / (path.scene.wavelength * path.scene.R)
     step = np.eye(vector.size)[i]
     moved = [vector - step * math.log((waves + more) / waves) for more in _WAVES if waves + more > _FEWEST]

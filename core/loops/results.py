@@ -38,7 +38,7 @@ _FINE: Final = 1e-5
 _TRIALS: Final = 8
 """Steps to an end of an interval, at most."""
 _FURTHEST: Final = 4.0
-"""Longest of them, in parts of the displacement so far: beyond it a linear estimate is unreliable."""
+"""Most by which the displacement is corrected in one of them."""
 _ROUNDING: Final = 1e-12
 """Relative difference of radii that is rounding."""
 _SEEN: Final = 5.0
@@ -109,12 +109,9 @@ def covariance_of(misfit: Misfit, vector: Floats) -> Floats:
             f"{' and '.join(without)}: without effect on this loop; fix {'it' if len(without) == 1 else 'them'}"
         )
     unit = lengths / widths
-    # how corners move along the curve is known roughly: they would hide what is locked together
-    inside = np.append(misfit.inside(vector), np.ones(len(misfit.turn), bool))
-    _, singular, rows = np.linalg.svd(jacobian[inside] / unit, full_matrices=False)
-    if singular.size == unit.size and singular[-1] < _SINGULAR * singular[0]:
-        weights = np.abs(rows[-1])
-        raise CannotTellApartError([name for name, weight in zip(names, weights, strict=True) if weight > _PART])
+    _, singular, rows = np.linalg.svd(jacobian / unit, full_matrices=False)
+    if singular[-1] < _SINGULAR * singular[0]:
+        raise CannotTellApartError([name for name, part in zip(names, np.abs(rows[-1]), strict=True) if part > _PART])
     return np.linalg.inv(jacobian.T @ jacobian / np.outer(unit, unit)) / np.outer(unit, unit)
 
 
@@ -132,28 +129,24 @@ def profile_interval(
     """Return how low and how high one number may be by its profile likelihood, all others fitted anew.
 
     An interval ends where the sum of squares, over the variance `unit` of a residual, has risen by the square of
-    `factor`, a quantile of Student's t, or at the end of the range. The root of the rise is nearly linear in the
-    displacement, so that a secant finds it in a few steps. `along` is how all numbers move with this one in the linear
-    problem, standard deviation times correlation, (unknown,). A misfit lower than at `best` counts as that of `best`.
+    `factor`, a quantile of Student's t, or at the end of the range. The root of the rise is nearly proportional to the
+    displacement, which is corrected by their ratio until it is right. `along` is how all numbers move with this one in
+    the linear problem, standard deviation times correlation, (unknown,).
     """
     least, ends = float(np.sum(misfit.residual(best) ** 2)), []
     for sign in (-1.0, 1.0):
         most = sign * float((misfit.low if sign < 0.0 else misfit.high)[number] - best[number])
-        way, before, start = factor * float(along[number]), (0.0, 0.0), best
+        way, start = factor * float(along[number]), best
         for _ in range(_TRIALS):
-            at_limit, way = way >= most, min(way, most)
-            moved = start + (sign * way - (start[number] - best[number])) * along / along[number]
+            way = min(way, most)
+            moved = start + (best[number] + sign * way - start[number]) * along / along[number]
             moved = np.clip(moved, misfit.low, misfit.high)
-            moved[number] = best[number] + sign * way
             done = misfit.refined(moved, held=[number], most=20, tolerance=_FINE)
             reached = math.sqrt(max(0.0, 2.0 * done.cost - least) / unit)
-            if abs(reached - factor) < _NEAR * factor or (at_limit and reached < factor):
+            if abs(reached - factor) < _NEAR * factor or (way == most and reached < factor):
                 break
-            slope = (reached - before[1]) / (way - before[0]) if way != before[0] else 0.0
-            step = (factor - reached) / slope if slope > 0.0 else way
-            before, start = (way, reached), done.x
-            way = float(np.clip(way + step, 0.2 * way, (1.0 + _FURTHEST) * way))
-        ends.append(float(best[number] + sign * way))
+            way, start = way * min(max(factor / max(reached, 1e-9), 1.0 / _FURTHEST), _FURTHEST), done.x
+        ends.append(float(done.x[number]))
     return ends[0], ends[1]
 
 

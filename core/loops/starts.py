@@ -9,18 +9,20 @@ than noise.
 import itertools
 import math
 from collections.abc import Mapping
+from operator import attrgetter
 from typing import Any, Final
 
 import numpy as np
 
 from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
-from gradhesion.core.loops.minima import distinct, is_noise, minima, robust
+from gradhesion.core.loops.minima import distinct, minima
 from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.model import AMPLITUDES, SPEEDS, TURN, WAVELENGTHS, WAVES
 from gradhesion.core.loops.paths.offsets import DEPTH_ZERO, LOAD_ZERO
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.types import Floats
 
+_COST: Final = attrgetter("cost")
 _FEW: Final = 140
 """Points that starts are compared with."""
 _WORK: Final = "work_of_adhesion"
@@ -41,11 +43,16 @@ _PER_WAVE: Final = 3.0
 """Wavelengths tried, over the number of waves by which the shortest and the longest differ within the contact."""
 _LEAST, _MOST = 8, 14
 """How many they are at least and at most."""
+_LONG: Final = 16
+"""Wavelengths tried beside these, evenly by their logarithm: of long waves, few of which are in the contact."""
+_ALIKE: Final = 0.05
+"""Parts of the ranges within which two smooth curves share one search for waves."""
+_HELD, _ROUGH = 6, 15
+"""Steps in which starts are refined with the waves held, and the best of these with them."""
 _SPEEDS: Final = 4
 """Speeds that are tried."""
-_WORSE, _CLOSE = 0.5, 0.2
-"""Robust size of a misfit for each point: a refined start worse than the best by more is left out, by the second where
-the best leaves only noise."""
+_WORSE: Final = 4.0
+"""Half the sum of squares over that of the best start, above which another is left out."""
 
 
 def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: int) -> list[Floats]:
@@ -60,16 +67,22 @@ def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: i
         return _fast(misfit.thinned(100), rest.named(best.x))
     if misfit.turn:  # near the middle of its range
         rest, middle = misfit.without((TURN,)), 0.5 * (misfit.low + misfit.high)
-        found = starts(rest, load_zero, contact, count, seed)
-        return [put(misfit, middle, dict(zip(rest.names, vector, strict=True))) for vector in found]
+        begun = starts(rest, load_zero, contact, count, seed)
+        return [put(misfit, middle, dict(zip(rest.names, vector, strict=True))) for vector in begun]
     few = misfit.thinned(_FEW)
     if not misfit.model.has_waves:
         return _smooth(few, load_zero, contact, seed)[:count]
     smooth = few.without(WAVES, A=0.0)
     first = _smooth(smooth, load_zero, contact, seed)[0]
     held = put(smooth, first, {DEPTH_ZERO: contact, LOAD_ZERO: load_zero})
-    again = robust(smooth, matched(smooth, held, load_zero), held=smooth.model.places_of((DEPTH_ZERO, LOAD_ZERO)))
-    return _wavy(few, smooth, distinct([first, again.x], smooth, 0.05), count)
+    zeros = [place for place, name in enumerate(smooth.names) if name in (DEPTH_ZERO, LOAD_ZERO)]
+    again = smooth.refined(matched(smooth, held, load_zero), most=40, held=zeros, tolerance=1e-6).x
+    found: list[Any] = []
+    for base in distinct([first, again], smooth, _ALIKE):
+        found += _wavy(few, smooth, base, count)
+        if few.is_noise(min(found, key=_COST).cost):
+            break
+    return _kept(found, few, count)
 
 
 def put(misfit: Misfit, vector: Floats, values: Mapping[str, float]) -> Floats:
@@ -87,11 +100,10 @@ def shares_of(misfit: Misfit, number: int, count: int) -> Floats:
     return np.asarray(misfit.low[number] + shares * (misfit.high[number] - misfit.low[number]))
 
 
-def _best(misfit: Misfit, vectors: list[Floats], count: int, worse: float = math.inf) -> list[Floats]:
-    """Return the best of some vectors, in order, that are worse than the first by no more than this for each point."""
-    sizes = np.array([misfit.size(vector) for vector in vectors])
-    order = np.argsort(sizes, kind="stable")[:count]
-    return [vectors[i] for i in order if sizes[i] <= sizes[order[0]] + worse * misfit.weights.size]
+def _kept(found: list[Any], few: Misfit, count: int) -> list[Floats]:
+    """Return the best of some refined starts that differ, in order, without those that are far worse."""
+    best = sorted(found, key=_COST)
+    return distinct([done.x for done in best if done.cost <= _WORSE * best[0].cost], few)[:count]
 
 
 def _smooth(few: Misfit, load_zero: float, contact: float, seed: int) -> list[Floats]:
@@ -109,21 +121,18 @@ def _smooth(few: Misfit, load_zero: float, contact: float, seed: int) -> list[Fl
 
         drawn = qmc.Sobol(len(others), seed=seed).random(2**6)
     begun = []
-    for number, (work, depth) in enumerate(itertools.product(works, depths[np.isfinite(depths)])):
+    for number, (depth, work) in enumerate(itertools.product(depths[np.isfinite(depths)], works)):
         vector = 0.5 * (lows + highs)
         vector[others] = lows[others] + drawn[number % len(drawn)] * (highs - lows)[others]
         vector = put(few, vector, {DEPTH_ZERO: depth, LOAD_ZERO: load_zero, _WORK: work})
         begun.append(matched(few, vector, load_zero))
-    each = len(begun) // len(works)
-    likely = [*range(each - 1, len(begun), each)] if math.isfinite(contact) else []
-    order = np.argsort([few.size(vector) for vector in begun], kind="stable")[:_KEPT].tolist()
-    found = []
-    for i in (*likely, *(i for i in order if i not in likely)):
-        found.append(robust(few, begun[i]))
-        if is_noise(few, found[-1].x):
-            break  # other contact points have a larger misfit
-    found.sort(key=lambda done: float(done.cost))
-    return _best(few, distinct([done.x for done in found], few), len(found), _WORSE)
+    rest = len(begun) - (len(works) if math.isfinite(contact) else 0)  # the last are at the end of the base line
+    found: list[Any] = []
+    for vectors in (begun[rest:], sorted(begun[:rest], key=few.size)[:_KEPT]):
+        found += [few.refined(vector, most=40, tolerance=1e-6) for vector in vectors]
+        if found and few.is_noise(min(found, key=_COST).cost):
+            break  # contact points elsewhere have a larger misfit
+    return _kept(found, few, len(found))
 
 
 def matched(misfit: Misfit, vector: Floats, load_zero: float) -> Floats:
@@ -167,32 +176,29 @@ def spectrum(smooth: Misfit, vector: Floats, lengths: tuple[float, float]) -> Fl
     return np.asarray(1.0 / waves[peaks[np.argsort(-power[peaks], kind="stable")]])
 
 
-def _wavy(few: Misfit, smooth: Misfit, bases: list[Floats], count: int) -> list[Floats]:
-    """Return starts for waves that are searched, refined in everything else, the best first.
+def _wavy(few: Misfit, smooth: Misfit, base: Floats, count: int) -> list[Any]:
+    """Return refined starts for waves that are searched, refined in everything else, the best first.
 
-    `smooth` and `bases` are the same loop without waves, and where it is begun from.
+    `smooth` and `base` are the same loop without waves, and its best start.
     """
     length, height = few.model.place_of(WAVELENGTHS), few.model.place_of(AMPLITUDES)
     held = [i for i in (length, height) if i is not None]
     heights = [None] if height is None else shares_of(few, height, _HEIGHTS)
-    found: list[Floats] = []
-    for base in bases:
-        middle = put(few, 0.5 * (few.low + few.high), dict(zip(smooth.names, base, strict=True)))
-        for waves in [[None]] if length is None else _lengths(few, smooth, base, middle, length):
-            begun = []
-            for wave, swell in itertools.product(waves, heights):
-                vector = middle.copy()
-                for i, value in ((length, wave), (height, swell)):
-                    if i is not None:
-                        vector[i] = value
-                begun.append(_softened(few, vector))
-            rough = [few.refined(vector, loss="soft_l1", most=4, held=held, tolerance=1e-4).x for vector in begun]
-            rough = distinct(_best(few, rough, count), few)
-            found += [few.refined(vector, loss="soft_l1", most=10, tolerance=1e-4).x for vector in rough]
-            found = _best(few, found, len(found))
-            if found and is_noise(few, best := robust(few, found[0]).x):
-                return _best(few, distinct([best, *found], few), count, _CLOSE)
-    return _best(few, distinct(found, few), count, _WORSE)
+    middle = put(few, 0.5 * (few.low + few.high), dict(zip(smooth.names, base, strict=True)))
+    found: list[Any] = []
+    for waves in [[None]] if length is None else _lengths(few, smooth, base, middle, length):
+        begun = []
+        for wave, swell in itertools.product(waves, heights):
+            vector = middle.copy()
+            for i, value in ((length, wave), (height, swell)):
+                if i is not None:
+                    vector[i] = value
+            begun.append(few.refined(_softened(few, vector), most=_HELD, held=held, tolerance=1e-4))
+        begun = sorted(begun, key=_COST)[:count]
+        found += [few.refined(done.x, most=_ROUGH, tolerance=1e-4) for done in begun]
+        if found and few.is_noise(min(found, key=_COST).cost):
+            break
+    return found
 
 
 def _lengths(few: Misfit, smooth: Misfit, base: Floats, middle: Floats, i: int) -> list[Any]:
@@ -202,12 +208,12 @@ def _lengths(few: Misfit, smooth: Misfit, base: Floats, middle: Floats, i: int) 
     low, high = math.exp(few.low[i]) * unit, math.exp(few.high[i]) * unit
     largest = 0.0 if drawn is None else float(drawn.radius.max())
     count = int(np.clip(_PER_WAVE * largest * (1.0 / low - 1.0 / high), _LEAST, _MOST))
-    even = 1.0 / np.linspace(1.0 / high, 1.0 / low, count + 2)[1:-1]
+    even = 1.0 / np.linspace(1.0 / high, 1.0 / low, count + 2), np.geomspace(low, high, _LONG + 2)
     peaks = spectrum(smooth, base, (low, high))[:_PEAKS]
     # a wave more or less within the contact is another minimum: peaks are off by parts of one
     strong = peaks[:_BESIDE]
     beside = [strong / (1.0 + sign * strong / (_PER_WAVE * largest)) for sign in (1.0, -1.0) if largest]
-    groups = np.concatenate([peaks, *beside]), even
+    groups = np.concatenate([peaks, *beside]), np.concatenate([row[1:-1] for row in even])
     return [np.log(tried[(tried >= low) & (tried <= high)] / unit) for tried in groups]
 
 
@@ -229,4 +235,4 @@ def _fast(few: Misfit, at_rest: Mapping[str, float]) -> list[Floats]:
     vectors = np.tile(start, (_SPEEDS if free else 1, 1))
     for i in free:
         vectors[:, i] = shares_of(few, i, _SPEEDS)
-    return _best(few, [few.refined(vector, loss="soft_l1", most=12, tolerance=1e-4).x for vector in vectors], 3)
+    return _kept([few.refined(vector, most=12, tolerance=1e-4) for vector in vectors], few, 3)

@@ -19,12 +19,6 @@ _FLAT: Final = 0.05
 """Slope over the mean slope of the loop: a steeper line is no base line."""
 _DOUBT: Final = 2.5
 """Error of a slope over that mean slope: with a larger one the points are too close together to be called flat."""
-_AROUND: Final = 20
-"""Points on either side of the end of a base line, at least, among which contact may begin."""
-_TRIED: Final = 300
-"""How many of these are tried."""
-_ALLOWED: Final = 4.0
-"""Rise of the sum of squares, in variances of the noise, within the deviation of a contact point."""
 _LEAST: Final = 6
 """Least number of points of a base line."""
 _CLEAR: Final = 5.0
@@ -129,33 +123,17 @@ def base_line(points: Floats, back: Truths, noise: float) -> BaseLine | None:
     return BaseLine(float(mean[1]), float(away[:, 1].std()), slope, error, (ends[0], ends[1]), float(mean[0]))
 
 
-def contact_point(points: Floats, back: Truths, noise: tuple[float, float]) -> ContactPoint | None:
+def contact_point(
+    points: Floats, back: Truths, line: BaseLine | None, noise: tuple[float, float]
+) -> ContactPoint | None:
     """Find the depth at which contact begins on loading; None without a base line there and a point beyond it.
 
-    Points are as to `base_line`; `noise` are the standard deviations of their depth and load.
+    Points are as to `base_line`, whose result `line` is; `noise` are the standard deviations of their depth and load.
+    It is half way from the end of the base line to the next point.
     """
-    line = base_line(points, back, noise[1])
-    if line is None or not np.isfinite(line.ends[0]):
+    end = np.inf if line is None else line.ends[0]
+    beyond = points[~back & (points[:, 0] > end), 0]
+    if not beyond.size:
         return None
-    depth, load = _by_depth(points, ~back).T
-    if depth.size <= _LEAST:
-        return None
-    end = int(np.searchsorted(depth, line.ends[0], "right"))
-    around = max(_AROUND, end // 2)
-    last = min(depth.size, end + 2 * around)
-    latest = max(_LEAST, min(last - _AROUND // 2, end + around))
-    earliest = max(_LEAST, end - around)
-    tried = np.arange(earliest, latest + 1, max(1, (latest - earliest) // _TRIED))
-    sizes = np.array([_two_parts(depth[:last], load[:last], at, line.level) for at in tried]) / noise[1] ** 2
-    allowed = tried[sizes <= sizes.min() + _ALLOWED]
-    low, high = float(depth[allowed[0] - 1]), float(depth[min(allowed[-1], depth.size - 1)])
-    return ContactPoint(0.5 * (low + high), float(np.hypot(noise[0], (high - low) / np.sqrt(12.0))))
-
-
-def _two_parts(depth: Floats, load: Floats, at: int, level: float) -> float:
-    """Return the squares of a load about a level up to a place and a cubic from there on; arrays (n,)."""
-    before = load[:at] - level
-    scaled = (depth[at:] - depth[at]) / max(float(depth[-1] - depth[at]), np.finfo(float).tiny)
-    powers = np.vander(scaled, 4)
-    after = load[at:] - powers @ np.linalg.lstsq(powers, load[at:], rcond=None)[0]
-    return float(before @ before + after @ after)
+    gap = float(beyond.min()) - end
+    return ContactPoint(end + 0.5 * gap, float(np.hypot(noise[0], gap / np.sqrt(12.0))))

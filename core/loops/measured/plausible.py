@@ -13,6 +13,10 @@ _STRAIGHT: Final = 5.0
 """Standard deviations of chi square about a straight line, up to which the data are a straight line."""
 _FLAT: Final = 0.03
 """Largest change of the load over a flat end of the depths, in parts of its span."""
+_JUMPS: Final = 0.13
+"""Scatter about a straight line, over the change along it, above which an end is no curve: it has a jump."""
+_WORDS: Final = {(False, True): "load", (True, True): "depth", (True, False): "both"}
+"""What is wrong where the load is steep at the shallow end, not at the deep one, and falls there with the depth."""
 
 
 def fault_of(depth: Floats, load: Floats, noise: Floats, unloading: Truths) -> str:
@@ -20,8 +24,9 @@ def fault_of(depth: Floats, load: Floats, noise: Floats, unloading: Truths) -> s
 
     Depths and loads are in any unit and order, `noise` is the standard deviation of each load, and `unloading` its
     branch, on which signs are tested; all (n,). "straight": the load is a straight line of the depth and noise, without
-    contact. "load": it falls towards the deepest points and is farthest from the other end there, so that its sign is
-    wrong. "depth": it does so rising towards the shallowest points, so that the sign of the depth is wrong. "both".
+    contact. "load": one end of the depths is flat, and the load falls steeply towards the other, the deepest points, so
+    that its sign is wrong. "depth": it rises steeply towards the shallowest points, so that the sign of the depth is
+    wrong. "both": it falls towards these.
 
     >>> depth = np.linspace(-1.0, 1.0, 200)
     >>> load, noise = np.maximum(depth, 0.0) ** 1.5, np.full(200, 1e-3)
@@ -38,35 +43,24 @@ def fault_of(depth: Floats, load: Floats, noise: Floats, unloading: Truths) -> s
     if float(np.sum((rest / noise) ** 2)) < depth.size + _STRAIGHT * float(np.sqrt(2.0 * depth.size)):
         return "straight"
     branches = [own for own in (~unloading, unloading) if np.count_nonzero(own) >= FEWEST // 2]
-    found = {_signs(x[own], load[own], noise[own]) for own in branches} - {None}
+    found = {_signs(x[own], load[own]) for own in branches} - {None}
     return str(found.pop()) if len(found) == 1 else ""
 
 
-def _signs(x: Floats, load: Floats, noise: Floats) -> str | None:
+def _signs(x: Floats, load: Floats) -> str | None:
     """Return which signs of a branch are wrong; None where its ends do not decide."""
-    span = float(np.ptp(np.quantile(load, [0.002, 0.998])))
-    shallow, deep = (_end(x, load, noise, float(side)) for side in (x.min(), x.max()))
-    if shallow is None or deep is None:
+    flat = _FLAT * float(np.ptp(np.quantile(load, [0.002, 0.998])))
+    ends = [own for own in (x < x.min() + _END, x > x.max() - _END) if np.count_nonzero(own) > 9]
+    if len(ends) < 2:
         return None
-    apart, flat = deep[0] - shallow[0], _FLAT * span
-    if abs(apart) < 0.5 * span:
+    changes = []
+    for own in ends:
+        line = np.polynomial.Polynomial.fit(x[own], load[own], 1)
+        changes.append(float(line(x[own].max()) - line(x[own].min())))
+        if flat < abs(changes[-1]) < float(np.std(load[own] - line(x[own]))) / _JUMPS:
+            return None
+    shallow, deep = changes
+    if min(abs(shallow), abs(deep)) > flat or max(abs(shallow), abs(deep)) < 2.0 * flat:
         return ""
-    if apart < 0.0 and deep[1] < -flat and deep[1] < -abs(shallow[1]):
-        return "load"
-    if apart < 0.0 and shallow[1] < -3.0 * flat:
-        return "depth"
-    return "both" if apart > 0.0 and deep[1] < flat and shallow[1] > 3.0 * flat else ""
-
-
-def _end(x: Floats, load: Floats, noise: Floats, side: float) -> tuple[float, float] | None:
-    """Give the load at an end of the depths, and its change over it; None where it jumps there, and is no curve."""
-    fifths = [np.abs(np.abs(x - side) / _END - share) < 0.1 for share in (0.1, 0.3, 0.5, 0.7, 0.9)]
-    if min(np.count_nonzero(own) for own in fifths) < 2:
-        return None
-    levels = np.array([np.mean(load[own]) for own in fifths])
-    error = max(float(np.median(noise[own]) / np.sqrt(np.count_nonzero(own))) for own in fifths)
-    steps = np.diff(levels) * (1.0 if side < np.mean(x) else -1.0)
-    change = float(steps.sum()) * 1.25
-    if abs(change) > 5.0 * error and abs(steps[0]) < 0.4 * abs(change) / 5.0:
-        return None
-    return float(levels[0]), change
+    is_shallow = abs(shallow) > abs(deep)
+    return _WORDS.get((is_shallow, changes[not is_shallow] < 0.0), "")

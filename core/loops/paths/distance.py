@@ -97,14 +97,17 @@ def _slope(run: float, rise: float, tangent: Floats) -> float:
 
 
 @kernel
-def _on_cubic(point: Floats, chain: Floats, tangents: Floats, i: int) -> tuple[float, float, float, float]:
-    """Return the share of the foot of a point on the cubic over a chord, the signed distance, and its normal."""
+def _on_piece(
+    point: Floats, chain: Floats, tangents: Floats, curved: Truths, i: int
+) -> tuple[float, float, float, float]:
+    """Return the share of the foot of a point on a piece, the signed distance, and its normal; inf of no length."""
     run, rise = chain[i + 1, 0] - chain[i, 0], chain[i + 1, 1] - chain[i, 1]
     length = np.hypot(run, rise)
     if length == 0.0:
         return 0.0, np.inf, 0.0, 1.0
     run, rise = run / length, rise / length
-    begin, end = _slope(run, rise, tangents[i]), _slope(run, rise, tangents[i + 1])
+    begin = _slope(run, rise, tangents[i]) if curved[i + 1] else 0.0
+    end = _slope(run, rise, tangents[i + 1]) if curved[i + 1] else 0.0
     left, over = point[0] - chain[i, 0], point[1] - chain[i, 1]
     at, above = (run * left + rise * over) / length, (run * over - rise * left) / length
     t, off, slope, bend = 0.0, above, 0.0, 0.0
@@ -132,18 +135,12 @@ def _feet(
         piece[j], share[j], distance[j] = i, t, np.inf
         for near in range(1 if 0.0 < t < 1.0 else 2):  # between two chords the foot may be on the curve over either
             on = other if near else i
-            if curved[on + 1]:
-                found = _on_cubic(points[j], chain, tangents, on)
-                if abs(found[1]) < abs(distance[j]):
-                    piece[j], share[j], distance[j], normal[j, 0], normal[j, 1] = on, *found
+            found = _on_piece(points[j], chain, tangents, curved, on)
+            if abs(found[1]) < abs(distance[j]):
+                piece[j], share[j], distance[j], normal[j, 0], normal[j, 1] = on, *found
         i, t = piece[j], share[j]
         if 0.0 < t < 1.0:
             bent[j] = curved[i + 1]
-            if not bent[j]:
-                run, rise = chain[i + 1, 0] - chain[i, 0], chain[i + 1, 1] - chain[i, 1]
-                far = np.hypot(run, rise)
-                normal[j, 0], normal[j, 1] = -rise / far, run / far
-                distance[j] = normal[j, 0] * (points[j, 0] - chain[i, 0]) + normal[j, 1] * (points[j, 1] - chain[i, 1])
             continue
         vertex = i + 1 if t == 1.0 else i
         bent[j] = 0 < vertex <= last and curved[vertex] and curved[vertex + 1]

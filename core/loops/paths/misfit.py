@@ -1,5 +1,6 @@
 """The misfit of a loop: signed distances of its points to the path, over the noise, with their exact derivatives."""
 
+import math
 from collections.abc import Sequence
 from typing import Any, Final, NamedTuple
 
@@ -14,6 +15,8 @@ from gradhesion.core.types import Floats, Truths
 
 _STEP: Final = 1e-5
 """Step of differences of paths, in parts of a range."""
+_CLEAR: Final = 4.0
+"""Standard deviations of chi square within which a misfit is noise."""
 LOST: Final = 1e3
 """Distance, in standard deviations, of every point where a scene has no path."""
 
@@ -47,7 +50,7 @@ class Misfit:
         self.data, self.scale = data, np.array(data.noise)
         self.points, self.weights = data.points / self.scale, np.sqrt(data.counts)
         self.model, self.names, self.low, self.high = model, model.names, low, high
-        self.turn = model.places_of((TURN,))
+        self.turn = [place for place, name in enumerate(model.names) if name == TURN]
         """The place of the turn, which is likely near the middle of its range: one more residual says so."""
         self._kept = Nearest(b"", [], None)
 
@@ -73,7 +76,7 @@ class Misfit:
             self._kept = Nearest(vector.tobytes(), [], self.model.path(vector))
             if (drawn := self._kept.drawn) is not None:
                 chain, tangents = drawn.places / self.scale, drawn.tangents / self.scale
-                up, down = slice(0, drawn.turn + 1), slice(drawn.turn, None)
+                up, down = slice(0, drawn.turn + 1), slice(drawn.turn, len(chain))
                 for own, piece in ((~self.data.back, up), (self.data.back, down)):
                     near = feet(self.points[own], chain[piece], tangents[piece], drawn.curved[piece])
                     self._kept.branches.append((own, piece, near))
@@ -93,18 +96,22 @@ class Misfit:
             return self._differences(vector)
         found, (_, branches, drawn) = np.zeros((self.weights.size, vector.size)), self.nearest(vector)
         if drawn is not None:
-            moved = moving(self.model, vector, drawn, self.low, self.high) / self.scale[:, None]
+            begun = np.concatenate([piece.start + near.piece for _, piece, near in branches])
+            used = np.unique([begun, begun + 1])
+            moved = moving(self.model, vector, drawn, self.low, self.high, used) / self.scale[:, None]
             for own, piece, near in branches:
                 found[own] = near.slopes(moved[piece], drawn.tangents[piece] / self.scale)
         turn = (2.0 * np.eye(vector.size) / (self.high - self.low))[self.turn]
         return np.concatenate([found * self.weights[:, None], turn])
 
-    def inside(self, vector: Floats) -> Truths:
-        """Return which points are nearest to the inside of a piece, no corner; (points,)."""
-        found = np.zeros(self.weights.size, bool)
-        for own, _, near in self.nearest(vector).branches:
-            found[own] = near.bent | ((near.share > 0.0) & (near.share < 1.0))
-        return found
+    def size(self, vector: Floats) -> float:
+        """Return a measure of the misfit that outliers hardly move."""
+        return float(np.sum(np.log1p(self.residual(vector) ** 2)))
+
+    def is_noise(self, cost: float) -> bool:
+        """Say whether half a sum of squares is no more than noise leaves."""
+        count = self.weights.size
+        return 2.0 * cost <= count + _CLEAR * math.sqrt(2.0 * count)
 
     def _differences(self, vector: Floats) -> Floats:
         """Return the derivatives of the distances by central differences, of one side at the end of a range."""
@@ -113,9 +120,7 @@ class Misfit:
         changes = [(self.residual(above) - self.residual(below)) / np.sum(above - below) for above, below in ends]
         return np.column_stack(changes)
 
-    def refined(
-        self, start: Floats, *, loss: str = "linear", most: int = 60, held: Sequence[int] = (), tolerance: float = 1e-8
-    ) -> Any:
+    def refined(self, start: Floats, *, most: int = 60, held: Sequence[int] = (), tolerance: float = 1e-8) -> Any:
         """Refine a start within the ranges, the numbers `held` fixed; as of `least_squares`, `x` with all numbers."""
         searched = np.setdiff1d(np.arange(start.size), held)
         low, high = self.low[searched], self.high[searched]
@@ -131,7 +136,6 @@ class Misfit:
             jac=lambda part: self.jacobian(whole(part))[:, searched],
             bounds=(low, high),
             x_scale="jac",
-            loss=loss,
             xtol=tolerance,
             ftol=tolerance,
             gtol=1e-10,
@@ -139,7 +143,3 @@ class Misfit:
         )
         done.x = whole(done.x)
         return done
-
-    def size(self, vector: Floats) -> float:
-        """Return a measure of the misfit that outliers hardly move."""
-        return float(np.sum(np.log1p(self.residual(vector) ** 2)))

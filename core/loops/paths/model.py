@@ -10,7 +10,7 @@ root of the closing ratio where it closes. Paths, and how they move, need nothin
 
 import math
 from collections.abc import Mapping, Sequence
-from functools import lru_cache
+from dataclasses import dataclass, field
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -75,22 +75,7 @@ class Scenes(NamedTuple):
         return float(self.R * (2.0 ** (1.0 + self.k) * math.pi / self.stiffness) ** (1.0 / (3.0 + self.k)))
 
 
-@lru_cache(maxsize=64)
-def _units_at(k: float, nu: float, m: float) -> tuple[Any, ...]:
-    """Return the result of `_units` for plain numbers."""
-    return (
-        stiffness(k, nu, 1.0, 1.0), hertz.power_indentation(k, 1.0, m), hertz.disc_stiffness(k, 1.0, 1.0),
-        jkr.adhesive_depth(k, 1.0, 1.0),
-    )  # fmt: skip
-
-
-def _units(k: Any, nu: Any, m: float) -> tuple[Any, ...]:
-    """Return M, depth, stiffness and pull at the radius R, in R and dgamma, where E* R/dgamma, c0/R and M are 1."""
-    if np.ndim(k) == np.ndim(nu) == 0:
-        return _units_at(float(k), float(nu), m)
-    return _units_at.__wrapped__(k, nu, m)
-
-
+@dataclass(eq=False)
 class Model:
     """A loop as a function of the numbers that are searched: its curves of equilibrium.
 
@@ -98,21 +83,21 @@ class Model:
     `TURN` last. The rest is the shape of the punch, what is prescribed, and a pattern of the toughness.
     """
 
-    def __init__(
-        self,
-        fixed: Mapping[str, float],
-        names: tuple[str, ...],
-        profile: Profile,
-        loading: Loading,
-        toughness: Toughness | None = None,
-    ) -> None:
-        self.fixed, self.names = dict(fixed), names
-        self.profile, self.loading, self.toughness = profile, loading, toughness
-        known = {*fixed, *names}
-        self.turns = next((name for name in TURNS if {name, *WAYS[name]} & known), "")
-        self.has_waves = bool(profile.harmonics) and not any(
-            fixed.get(name) == 0.0 for name in ("A", "amplitude", "chi")
-        )
+    fixed: Mapping[str, float]
+    names: tuple[str, ...]
+    profile: Profile
+    loading: Loading = field(default_factory=Loading)
+    toughness: Toughness | None = None
+
+    @property
+    def turns(self) -> str:
+        """The name of the parameter that says where loading turns, "" where the data do."""
+        return next((name for name in TURNS if {name, *WAYS[name]} & {*self.fixed, *self.names}), "")
+
+    @property
+    def has_waves(self) -> bool:
+        """Whether the punch has waves: a profile with some, and no amplitude of 0."""
+        return bool(self.profile.harmonics) and not any(self.fixed.get(name) == 0.0 for name in AMPLITUDES)
 
     def place_of(self, ways: Sequence[str]) -> int | None:
         """Return the place, among what is searched, of the one that has one of some names; None if none has."""
@@ -125,17 +110,13 @@ class Model:
             for name, column in zip(self.names, vectors.T, strict=True)
         }
 
-    def places_of(self, names: Sequence[str]) -> list[int]:
-        """Return the places of those of some names that are searched."""
-        return [place for place, name in enumerate(self.names) if name in names]
-
     def searched(self, values: Mapping[str, float]) -> dict[str, float]:
         """Return numbers by name as they are searched."""
         return {name: value if name in LINEAR else math.log(value) for name, value in values.items()}
 
     def given(self, own: Mapping[str, Any]) -> dict[str, Any]:
         """Join the searched and the fixed numbers, with defaults without effect for what is left out."""
-        given = self.fixed | {name: value for name, value in own.items() if name not in (*OFFSETS, TURN)}
+        given = dict(self.fixed) | {name: value for name, value in own.items() if name not in (*OFFSETS, TURN)}
         return {name: one for name, one in _WITHOUT_EFFECT.items() if not WAYS[name].keys() & given.keys()} | given
 
     def scenes(self, vectors: Floats) -> Scenes:
@@ -145,14 +126,14 @@ class Model:
         made = parameters_from(given)
         R, work = given["R"], given["work_of_adhesion"]
         k, nu, modulus, c0 = (made[name] for name in PARAMETERS[:4])
-        theta, rise, disc, adhesion = _units(k, nu, self.profile.exponent)
-        M, unit = theta * modulus / c0**k, 1.5 * math.pi * R * work
+        M, unit = stiffness(k, nu, modulus, c0), 1.5 * math.pi * R * work
         compliance = 1.0 / (made["machine_stiffness"] * modulus * work) if self.loading.control == "machine" else 0.0
         turn = made[self.turns] * (unit if self.turns == "load_max" else R) if self.turns else math.nan
         columns = (
             k, R, M, made["lambda_over_R"], made["A"], np.sqrt(np.maximum(made.get(CLOSING, 1.0), 0.0)), compliance,
             R * made["a_max_over_R"], made.get(PATTERN[0], 1.0), made.get(PATTERN[1], 1.0), turn,
-            R * rise, unit / R * disc * M, R * adhesion / np.sqrt(M),
+            R * hertz.power_indentation(k, 1.0, self.profile.exponent), unit / R * hertz.disc_stiffness(k, M, 1.0),
+            R * jkr.adhesive_depth(k, M, 1.0),
         )  # fmt: skip
         return Scenes(*columns)
 

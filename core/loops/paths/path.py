@@ -4,31 +4,25 @@ Vertices lie on the curve itself, at radii through which the path passes on a gr
 """
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Final
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any, ClassVar, Final
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
 
 from gradhesion.core.loops.paths.model import TURN, Model, Scenes
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
-from gradhesion.core.loops.paths.walk import climb, met
-from gradhesion.core.problem.control import Loading
-from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.toughness import Toughness
+from gradhesion.core.loops.paths.walk import between, climb, met
 from gradhesion.core.types import Floats, Truths
 
-_A_WAVE: Final = 80
-"""Radii of the grid within the shortest wave: the cubics between them are off by 1e-7 of its height."""
+_A_WAVE: Final = 60
+"""Radii of the grid within the shortest wave: the cubics between them are off by 3e-7 of its height."""
 _SMOOTH: Final = 200
 """Radii of the grid without waves, each a fixed part further out than the last."""
 _SMALLEST: Final = 0.02
 """Smallest radius of the grid, in radii at which adhesion outweighs the curvature of the punch."""
 _MOST: Final = 400_000
 """Radii of the grid at most."""
-_FEWEST: Final = 5
-"""Radii of a grid at least."""
 _REACH: Final = (1.25, 2.5, 10.0)
 """How far the grid reaches, in radii of contact without adhesion at the turn: the next if one is not enough."""
 _BY_LOAD: Final = (0.0, 1.0)
@@ -60,6 +54,7 @@ class LoopPath:
     """How much deeper the contact is pressed on at the rim, up to the turn, in m; None if the rim is not met."""
 
 
+@dataclass(eq=False, kw_only=True)
 class LoopModel(Model):
     """The path of a loop as a function of the numbers that are searched.
 
@@ -68,32 +63,23 @@ class LoopModel(Model):
     is pinned at the turn, which is then searched as `TURN`. The line of no load begins at the depth `first`.
     """
 
-    by_differences = False
+    furthest: tuple[float, float]
+    first: float
+    blur: float = 0.0
+    by_differences: ClassVar[bool] = False
     """Whether derivatives are differences of paths."""
 
-    def __init__(
-        self,
-        fixed: Mapping[str, float],
-        names: tuple[str, ...],
-        *,
-        furthest: tuple[float, float],
-        blur: float = 0.0,
-        first: float,
-        profile: Profile,
-        loading: Loading | None = None,
-        toughness: Toughness | None = None,
-    ) -> None:
-        super().__init__(fixed, names, profile, loading or Loading(), toughness)
-        self.furthest, self.blur, self.first = furthest, blur, first
-        self.driven = int(self.loading.control == "load")  # the row of the states that is prescribed
+    @property
+    def driven(self) -> int:
+        """The row of the states that is prescribed."""
+        return int(self.loading.control == "load")
 
     def without(self, names: Sequence[str], **more: float) -> "LoopModel":
         """Return the path of an edge at rest as a function of the numbers less some, with others fixed."""
-        fixed = {name: value for name, value in self.fixed.items() if name not in names} | more
-        return LoopModel(
-            fixed, tuple(name for name in self.names if name not in names), furthest=self.furthest, blur=self.blur,
-            first=self.first, profile=self.profile, loading=self.loading, toughness=self.toughness,
-        )  # fmt: skip
+        own: dict[str, Any] = {one.name: getattr(self, one.name) for one in fields(LoopModel)}
+        own["fixed"] = {name: value for name, value in self.fixed.items() if name not in names} | more
+        own["names"] = tuple(name for name in self.names if name not in names)
+        return LoopModel(**own)
 
     def shift(self, vector: Floats) -> tuple[float, ...]:
         """Return the zeros of depth and load, and the tilt, of a vector."""
@@ -131,7 +117,7 @@ class LoopModel(Model):
         growth = math.log(end / low) / _SMOOTH
         begin = max(step / growth, low)  # where both kinds of steps are equal
         if begin >= end:
-            return low * np.exp(growth * np.arange(_SMOOTH + 1.0))
+            return np.geomspace(low, end, _SMOOTH + 1)
         inner, outer = math.ceil(math.log(begin / low) / growth), max(7, math.ceil((end - begin) / step))
         near = math.log(begin / low) / max(1, inner) * np.arange(float(inner))
         return np.concatenate([low * np.exp(near), np.linspace(begin, end, outer + 1)])
@@ -143,19 +129,6 @@ class LoopModel(Model):
         factor = scene.disc * m / (power + m) if by_load else 1.0
         place = (max(target, 0.0) / (scene.rise * factor)) ** (1.0 / (power + m if by_load else m))
         return float(scene.R * (place + (swell / scene.rise) ** (1.0 / m)))
-
-    def _curves(self, scene: Scenes, radius: Floats) -> tuple[Floats, Callable[[Floats], Floats]]:
-        """Return radii with the extrema of what is prescribed among them, and states at radii within: cubics.
-
-        These are as those of `states`, along their second axis for closing and opening.
-        """
-        rows = self.states(scene, radius, np.array([[scene.root], [1.0]]))
-        rate = rows[self.driven + 2]
-        side, at = np.nonzero(rate[:, 1:] * rate[:, :-1] < 0.0)
-        share = rate[side, at] / (rate[side, at] - rate[side, at + 1])
-        extrema = radius[at] + share * (radius[at + 1] - radius[at])
-        curve = CubicHermiteSpline(radius, rows[:2], rows[2:], axis=2)
-        return np.union1d(radius, extrema), lambda where: np.concatenate([curve(where), curve(where, 1)])
 
     def _drawn(self, scene: Scenes, target: float, aim: tuple[float, float], first: float) -> LoopPath | None:
         """Draw a path without offsets, whose line of no load begins at a depth.
@@ -175,60 +148,55 @@ class LoopModel(Model):
             grid = self._grid(scene, end)
             if grid is None:
                 return None
-            grid, curves = self._curves(scene, grid)
-            level, rate = curves(grid)[self.driven :: 2, 0]
-            way, jumped = climb(grid, level, rate, 0.0)
-            rows = curves(way)[:, 0]
-            levels, rates = (aim[0] * rows[i] + aim[1] * rows[i + 1] for i in (0, 2))
-            turn = met(way, jumped, levels, rates, target)
-            if math.isnan(turn) and end < scene.rim:
-                continue
-            if self.blur > 0.0 and aim == (1.0, 0.0) and turn <= way[-1]:
-                jumps = np.flatnonzero(jumped & (way > turn))
-                last = float(way[jumps[0] - 1 if jumps.size else -1])
-                further = met(way, jumped, levels, rates, target + self.blur)
-                turn, aim = (further, aim) if further <= last else (last, (0.0, 0.0))
-            break
+            states = self.states(scene, grid, np.array([[scene.root], [1.0]]))
+            closing, opening = (np.ascontiguousarray(states[:, edge]) for edge in range(2))
+            radius, passed, jump = climb(grid, closing, self.driven, 1.0, 0.0)
+            at, share = met(radius, passed, jump, aim, target)
+            if at < radius.size or end == scene.rim:
+                break
         else:
             return None
-        at_rim = math.isnan(turn)
-        turn = scene.rim if at_rim else turn
-        within, inside = way < turn, grid[grid < turn]
-        if inside.size < _FEWEST:
-            inside, curves = self._curves(scene, turn * np.linspace(0.1, 1.0, _FEWEST + 1))
-            inside = inside[:-1]
-        ends, inside = curves(np.array([turn])), np.append(inside, turn)[::-1].copy()
-        level, rate = -curves(inside)[self.driven :: 2, 1]
-        back, leapt = climb(inside, level, rate, -math.inf)
-        split = int(np.count_nonzero(within))
-        landed = bool(jumped[split]) if split < way.size and way[split] == turn else split == 0
-        parts = [rows[:, within], ends[:, 0], ends[:, 0], curves(back)[:, 1]]
-        pressed = None
-        if at_rim and target < math.inf:
-            flat = self.flat(scene, turn)
-            pressed = max(0.0, (target - aim[0] * parts[1][0, 0] - aim[1] * parts[1][1, 0])
-                          / (aim[0] * flat[0] + aim[1] * flat[1]))  # fmt: skip
-            parts[2] = parts[2] + pressed * np.array([[flat[0]], [flat[1]], [0.0], [0.0]])
-        else:
-            del parts[2]
-        more = len(parts) - 3
-        split += more
-        x, load, *rates = np.concatenate(parts, axis=1)
-        radius = np.concatenate([way[within], np.full(1 + more, turn), back])
-        jump = np.concatenate([jumped[within], [landed], np.zeros(more + 1, bool), leapt[1:]])
-        curved = ~jump
-        curved[[0, split + 1, *([split] * more)]] = False
+        pinned = []
+        if at == radius.size:  # the rim is met, perhaps by a jump, and the contact pressed on
+            if not at or radius[-1] < end:
+                radius, jump = np.append(radius, end), np.append(jump, np.True_)
+                passed = np.column_stack([passed, closing[:, -1]])
+            at = radius.size - 1
+            if target < math.inf:
+                flat = np.array(self.flat(scene, end))
+                deeper = max(0.0, float((target - passed[:2, at] @ aim) / (flat @ aim)))
+                pinned = [[*(passed[:2, at] + deeper * flat), *passed[2:, at], end, 0.0, 0.0]]
+        elif self.blur > 0.0 and aim == (1.0, 0.0):
+            further, part = met(radius, passed, jump, aim, target + self.blur)
+            leaps = np.append(np.flatnonzero(jump[at + 1 : further + 1]) + at, radius.size - 1)
+            at, share, aim = (int(leaps[0]), 1.0, (0.0, 0.0)) if leaps[0] < further else (further, part, aim)
+        up = _rows(radius, passed, jump)[: at + 1]
+        up[at, 4], up[at, :4] = between(radius, passed, at, share)
+        back = self._unloading(scene, grid, opening, up[at])
+        lines = np.zeros((4, 7))
+        lines[:, 0] = min(first, 0.0), 0.0, back[-1, 0], min(first, back[-1, 0])
+        lines[2, 5] = 1.0
         # under a falling load nothing holds the punch once contact is lost
-        tail = [] if self.driven else [[x[-1], 0.0], [min(first, x[-1]), 0.0]]
-        head, out, no = [[min(first, 0.0), 0.0], [0.0, 0.0]], np.zeros(len(tail)), np.zeros(2, bool)
+        rows = np.concatenate([lines[:2], up, np.reshape(pinned, (-1, 7)), back, lines[2 : 2 if self.driven else 4]])
+        jumps, curved = rows[:, 5:].T > 0.0
         return LoopPath(
-            np.concatenate([head, np.column_stack([x, load]), np.reshape(tail, (-1, 2))]),
-            np.pad(np.column_stack(rates), ((2, len(tail)), (0, 0))),
-            np.concatenate([no, radius, out]),
-            np.concatenate([no, jump, np.arange(out.size) == 0]),
-            np.concatenate([no, curved, out > 0.0]),
-            split + 2,
-            scene,
-            aim,
-            pressed,
-        )
+            rows[:, :2].copy(), rows[:, 2:4].copy(), rows[:, 4], jumps, curved, at + 2 + len(pinned), scene, aim,
+            deeper if pinned else None,
+        )  # fmt: skip
+
+    def _unloading(self, scene: Scenes, grid: Floats, opening: Floats, end: Floats) -> Floats:
+        """Return the vertices of unloading from the last one of loading, as of `_rows`; the edge is pinned up to it."""
+        turn, begun = float(end[4]), end[:4]
+        inside = int(np.count_nonzero(grid < turn))
+        if scene.root != 1.0:
+            share = (turn - grid[inside - 1]) / (grid[inside] - grid[inside - 1])
+            begun = between(grid, opening, inside, share)[1]
+        states = np.column_stack([begun, opening[:, :inside][:, ::-1]])
+        back = _rows(*climb(np.append(turn, grid[:inside][::-1]), states, self.driven, -1.0, -math.inf))
+        back[0, 5:] = 0.0
+        return back
+
+
+def _rows(radius: Floats, states: Floats, jump: Truths) -> Floats:
+    """Return vertices as rows: state, radius, whether it is reached by a jump, and whether along a smooth branch."""
+    return np.column_stack([states.T, radius, jump, ~jump])

@@ -5,9 +5,8 @@ are differences.
 """
 
 import math
-from collections.abc import Mapping
-from dataclasses import replace
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 
@@ -20,6 +19,7 @@ from gradhesion.core.problem.toughness import EXPONENTS, Rate
 from gradhesion.core.types import Floats
 
 
+@dataclass(eq=False, kw_only=True)
 class SpeedModel(LoopModel):
     """The path of a loop whose edge has a speed, as a function of the numbers that are searched.
 
@@ -27,11 +27,8 @@ class SpeedModel(LoopModel):
     `LoopModel`.
     """
 
-    by_differences = True
-
-    def __init__(self, fixed: Mapping[str, float], names: tuple[str, ...], *, rate: Rate, **others: Any) -> None:
-        super().__init__(fixed, names, **others)
-        self.rate = rate
+    rate: Rate
+    by_differences: ClassVar[bool] = True
 
     def path(self, vector: Floats) -> LoopPath | None:
         """Draw the path; None where the scene has none. It turns where that of an edge at rest does."""

@@ -7,7 +7,7 @@ import pytest
 
 from gradhesion.core.loops.paths.misfit import Data, Misfit
 from gradhesion.core.loops.paths.model import WAVES
-from gradhesion.core.loops.starts import matched, shares_of, spectrum, starts
+from gradhesion.core.loops.starts import matched, spectrum, starts
 from tests.core.loops.models import CASES, TRUE, TURN, UNIT, Array, R, vector
 
 NOISE = (1e-4 * R, 0.01 * UNIT)
@@ -58,9 +58,3 @@ def test_the_wavelength_is_among_the_peaks_and_a_start_ends_at_the_truth() -> No
     found = own.refined(starts(own, 0.0, 0.0, 16, 0)[0], most=100).x
     np.testing.assert_allclose(found, here, atol=0.05)
     assert math.exp(found[2]) == pytest.approx(TRUE["wavelength"], rel=0.01)
-
-
-def test_shares_are_even_and_within_the_range() -> None:
-    own, _ = loop("smooth", ("E_star",))
-    third = (own.high[0] - own.low[0]) / 3.0
-    np.testing.assert_allclose(shares_of(own, 0, 3), own.low[0] + third * np.array([0.5, 1.5, 2.5]), rtol=1e-13)

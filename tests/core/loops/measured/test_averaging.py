@@ -1,7 +1,5 @@
 """Means of raw points lie on the curve to within their noise, never across a jump."""
 
-import time
-
 import numpy as np
 import pytest
 
@@ -115,14 +113,3 @@ def test_noise_that_is_not_white_is_more_than_that_of_neighbours() -> None:
     assert found.noise[1] == pytest.approx(2.0 * factor, rel=0.1)
     assert found.noise[0] == noise[0]
     assert found.depth.size < 1.1 * MOST
-
-
-def test_a_million_points_take_less_than_a_sort_of_words() -> None:
-    raw = drawn(1_000_000)
-    noise = noise_of(*raw)
-    seconds = []
-    for _ in range(3):
-        begin = time.perf_counter()
-        averaged(*raw, noise)
-        seconds.append(time.perf_counter() - begin)
-    assert min(seconds) < 2.0, "a loop over points takes minutes"

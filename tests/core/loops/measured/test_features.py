@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gradhesion.core.loops.measured.features import base_line, contact_point
+from gradhesion.core.loops.measured.features import ContactPoint, base_line, contact_point
 from tests.core.loops.models import Array
 
 NOISE = 1e-2
@@ -18,6 +18,10 @@ def points(seed: int, *, first: float = -1.0, tilt: float = 0.0, drift: float = 
     load = np.where(contact, np.maximum(depth + 0.2, 0.0) ** 1.5 - 0.5, 0.0)  # it jumps into contact, and out of it
     load += 0.3 + tilt * depth + drift * np.arange(800) / 800 + NOISE * rng.standard_normal(800)
     return np.column_stack([depth, load]), back
+
+
+def contact_of(rows: Array, back: Array) -> ContactPoint | None:
+    return contact_point(rows, back, base_line(rows, back, NOISE), (1e-3, NOISE))
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -44,21 +48,21 @@ def test_without_a_base_line_there_is_none() -> None:
     rows, back = points(1, first=0.2)
     rows[:, 1] = np.abs(rows[:, 0]) ** 1.5
     assert base_line(rows, back, 1e-5) is None
-    assert contact_point(rows, back, (1e-3, 1e-5)) is None
+    assert contact_point(rows, back, None, (1e-3, 1e-5)) is None
     assert base_line(rows[:3], back[:3], NOISE) is None
 
 
 def test_contact_is_where_loading_leaves_the_line() -> None:
     """To a step of the points, where it jumps into contact."""
     rows, back = points(2)
-    found = contact_point(rows, back, (1e-3, NOISE))
+    found = contact_of(rows, back)
     assert found is not None
     assert found.depth == pytest.approx(0.0, abs=0.006)
     assert found.deviation > 0.0
-    moved = contact_point(rows + np.array([7.0, -3.0]), back, (1e-3, NOISE))
+    moved = contact_of(rows + np.array([7.0, -3.0]), back)
     assert moved is not None
     assert moved.depth == pytest.approx(found.depth + 7.0, abs=1e-9)
-    assert contact_point(rows[back], back[back], (1e-3, NOISE)) is None, "loading has none"
+    assert contact_of(rows[back], back[back]) is None, "loading has none"
 
 
 def test_loading_that_is_all_base_line_has_no_contact_point() -> None:
@@ -70,4 +74,4 @@ def test_loading_that_is_all_base_line_has_no_contact_point() -> None:
     line = base_line(rows, back, 1e-3)
     assert line is not None
     assert line.ends[0] == -0.5
-    assert contact_point(rows, back, (1e-3, 1e-3)) is None
+    assert contact_point(rows, back, line, (1e-3, 1e-3)) is None

@@ -56,20 +56,20 @@ def test_a_coarse_digit_is_noise(step: float, size: float) -> None:
 
 
 @pytest.mark.parametrize("points", [600, 10_000])
-def test_points_in_no_order_have_the_same_noise(points: int) -> None:
+def test_points_in_no_order_have_the_same_noise_of_load(points: int) -> None:
     rng = np.random.default_rng(5)
     depth, load, back, cycle = loop(points)
     depth, load = depth + 0.3 * rng.standard_normal(points), load + 2.0 * rng.standard_normal(points)
     mix = rng.permutation(points)
     found = noise_of(depth[mix], load[mix], back[mix], cycle)
     assert found[1] == pytest.approx(2.0, rel=0.25)
-    assert found[0] == pytest.approx(0.3, rel=0.6), "that of the depth is seen on steep parts alone"
+    assert found[0] < 0.3, "that of the depth cannot be seen"
 
 
 def test_points_in_order_are_not_sorted() -> None:
     rng = np.random.default_rng(6)
-    depth, load, back, cycle = loop(600)
-    order, begin = along(depth + 5.0 * rng.standard_normal(600), load, back, cycle)
+    depth, _, back, cycle = loop(600)
+    order, begin = along(depth + 5.0 * rng.standard_normal(600), back, cycle)
     assert order.tolist() == list(range(600)), "noise of depth is no disorder"
     assert begin.tolist() == [0, 300]
 
@@ -82,12 +82,8 @@ def test_noise_has_a_floor_far_below_instruments() -> None:
     assert all(size > 0.0 for size in noise_of(np.zeros(4), np.zeros(4), np.zeros(4, bool), np.ones(4, np.int32)))
 
 
-def test_differences_stay_within_branches_and_leave_out_what_is_not_sound() -> None:
-    row = np.concatenate([np.zeros(50), np.full(50, 7.0)])
-    row[20] = 5.0
-    sound = row != 5.0
-    assert of_differences(row, np.array([0, 50]), sound=sound) == 0.0
-    assert of_differences(np.array([0.0, 1.0]), np.array([0])) == 0.0
+def test_differences_of_any_order_have_the_size_of_white_noise() -> None:
+    assert of_differences(np.array([0.0, 1.0])) == 0.0
     every = np.random.default_rng(7).standard_normal(20_000)
     for order in (1, 2, 6):
-        assert of_differences(every, np.array([0]), order=order) == pytest.approx(1.0, rel=0.05)
+        assert of_differences(every, order) == pytest.approx(1.0, rel=0.05)

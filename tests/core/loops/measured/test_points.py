@@ -1,7 +1,5 @@
 """Ways of points are told from their order, whatever noise, spikes and pauses there are."""
 
-import time
-
 import numpy as np
 import pytest
 
@@ -82,11 +80,3 @@ def test_each_given_cycle_loads_up_to_its_deepest_point() -> None:
 
 def test_retract_only_is_told_by_its_first_point() -> None:
     assert ways(np.linspace(1.0, 0.0, 50))[0].tolist() == [False] + 49 * [True]
-
-
-def test_many_points_and_many_cycles_take_no_time() -> None:
-    depth = triangle(1, 500_000) + 1e-3 * np.random.default_rng(0).standard_normal(1_000_000)
-    begin = time.perf_counter()
-    ways(depth)
-    ways(depth, np.repeat(np.arange(2000, dtype=np.int32), 500))
-    assert time.perf_counter() - begin < 5.0, "a loop over points and cycles takes minutes"
