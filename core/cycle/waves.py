@@ -10,7 +10,8 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from gradhesion.core.jit import borrowed, kernel, leaf, quadrature
+from gradhesion.core.borrowed import borrowed
+from gradhesion.core.jit import kernel, leaf, quadrature
 from gradhesion.core.table.filling import fill_bins
 from gradhesion.core.table.layout import (
     BE,

@@ -8,6 +8,7 @@ traces; what each of them gets does not depend on the others.
 import math
 from typing import NamedTuple
 
+from gradhesion.core.borrowed import borrowed
 from gradhesion.core.curve.folds import CLOSE, find_folds
 from gradhesion.core.curve.levels import polished
 from gradhesion.core.curve.trace import END, END_LEVEL, LANDING, START
@@ -19,7 +20,7 @@ from gradhesion.core.cycle.residual import work_of_cycle
 from gradhesion.core.cycle.ties import loading_is_tied, rim_is_tied, target_is_tied, unloading_is_tied
 from gradhesion.core.cycle.turning import turning_radius
 from gradhesion.core.edge.pattern import Pattern, edge_area, patterned_table, toughness_at
-from gradhesion.core.jit import borrowed, kernel, leaf
+from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.problem.status import (
     CLOSE_TO_A_JUMP,
     JUMP_IN_TO_RIM,

@@ -2,11 +2,12 @@
 
 import math
 
+from gradhesion.core.borrowed import borrowed
 from gradhesion.core.curve.values import Curve
 from gradhesion.core.cycle.long import Long, begin, end_of_folds, from_birth, last_fold, loop_far, lowest_far, turn_far
 from gradhesion.core.cycle.pull_off import lowest_load
 from gradhesion.core.cycle.waves import start_of
-from gradhesion.core.jit import borrowed, kernel, leaf
+from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.scenes.cycles import (
     Cycle,

@@ -11,8 +11,9 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from gradhesion.core.borrowed import borrowed
 from gradhesion.core.cycle.turning import turning_reach
-from gradhesion.core.jit import borrowed, kernel
+from gradhesion.core.jit import kernel
 from gradhesion.core.problem.material import theta_of
 from gradhesion.core.table.basis import Basis, between
 from gradhesion.core.types import Floats

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import psi
 
+from gradhesion.core.borrowed import borrowed
 from gradhesion.core.curve.trace import END, LANDING
 from gradhesion.core.curve.values import Curve, bin_of, load_curve
 from gradhesion.core.cycle.disc import profile_of
@@ -42,7 +43,7 @@ from gradhesion.core.cycle.slopes import (
     unloading_by_turn,
 )
 from gradhesion.core.edge.pattern import Pattern, edge_area, toughness_at
-from gradhesion.core.jit import borrowed, kernel
+from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.problem.material import theta_slopes
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, SENSITIVITIES, TURNS
 from gradhesion.core.scenes.cycles import (
@@ -182,7 +183,7 @@ class Pair(NamedTuple):
     ratio: float
 
 
-@kernel
+@leaf
 def _neighbour(
     punch: Punch, crest: float, rooms: Rooms, scene: Floats, numbers: Floats, table: Table, y_end: float
 ) -> Pair:
@@ -259,7 +260,7 @@ def _step_of(near: Near, pattern: Pattern, y_end: float, row: int) -> float:
     return _PHASE_STEP * _least_of(pattern) / (max(1.0, phase) if row == OF_PATTERN_WAVES else 1.0)
 
 
-@kernel
+@leaf
 def _fill_by(task: Task, near: Near, pattern: Pattern, frozen: Frozen, y_end: float) -> None:
     """Fill the derivatives of what is observed by all numbers but those of the turn."""
     near.by[:] = 0.0
@@ -282,7 +283,7 @@ def _fill_by(task: Task, near: Near, pattern: Pattern, frozen: Frozen, y_end: fl
         numbers[number, 0] = value
 
 
-@kernel
+@leaf
 def _move_of(near: Near, pair: Pair, frozen: Frozen, target: float, row: int) -> float:
     """Return d ln y/d ln of a number, k: /dk, of where the cycle turns; `target` in units of closing."""
     if not frozen.moves:
@@ -295,7 +296,7 @@ def _move_of(near: Near, pair: Pair, frozen: Frozen, target: float, row: int) ->
     return -by / rate_at(measured_by(pair.closing, frozen), frozen.turn)
 
 
-@kernel
+@leaf
 def _put_slopes(near: Near, pair: Pair, frozen: Frozen, target: float, out: Floats, i: int) -> None:
     """Store the derivatives of force and energy of scene i from those of what is observed."""
     by, value, y, ratio = near.by, near.value, frozen.turn, pair.ratio
@@ -326,7 +327,7 @@ def _put_slopes(near: Near, pair: Pair, frozen: Frozen, target: float, out: Floa
         out[ENERGY + row, i] = (loss + energy_by_turn * move) / energy
 
 
-@kernel
+@leaf
 def _fill_scene(
     task: Task, near: Near, walked: Walked, opened: int, y: float, scenes: Floats, reduced: Floats, i: int, out: Floats
 ) -> bool:

@@ -15,13 +15,14 @@ from typing import Final, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.core.borrowed import borrowed
 from gradhesion.core.curve.values import Curve, bin_of
 from gradhesion.core.cycle.disc import disc_of, profile_of
 from gradhesion.core.cycle.long import MOST, NEAR, Long, space_for
 from gradhesion.core.cycle.pull_off import Lowest, envelope_place, lowest_load, serves
 from gradhesion.core.cycle.waves import Waves, reach_of, waves_of
 from gradhesion.core.edge.pattern import bins_of_wave, bounds_of, rows_by_number
-from gradhesion.core.jit import borrowed, kernel, leaf
+from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.processors import processors
 from gradhesion.core.scenes.cycles import Task, no_value, put_force, same_curve, solve_cycles

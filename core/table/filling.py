@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 
-from gradhesion.core.jit import borrowed, kernel, leaf, quadrature, quadrature_leaf
+from gradhesion.core.borrowed import borrowed
+from gradhesion.core.jit import kernel, leaf, quadrature, quadrature_leaf
 from gradhesion.core.table.functions import LAST, TAIL, Functions, functions_of, pairs_at
 from gradhesion.core.table.layout import (
     BE,
