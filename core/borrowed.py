@@ -17,9 +17,8 @@ def borrowed(_typing: Any, values: Any) -> Any:
     def without_owner(context: Any, builder: Any, kind: Any, value: Any) -> Any:
         """Write the code for a value: an array without its owner, a tuple of such items."""
         if isinstance(kind, types.Array):
-            array = cgutils.create_struct_proxy(kind)(context, builder, value)
-            array.meminfo = cgutils.get_null_value(array.meminfo.type)
-            return array._getvalue()  # noqa: SLF001 (numba's guide to extensions does so)
+            owner = context.data_model_manager.lookup(kind).get_field_position("meminfo")
+            return builder.insert_value(value, cgutils.get_null_value(value.type.elements[owner]), owner)
         for i, item in enumerate(kind if isinstance(kind, types.BaseTuple) else ()):
             own = without_owner(context, builder, item, builder.extract_value(value, i))
             value = builder.insert_value(value, own, i)

@@ -58,10 +58,10 @@ def _merge_shards(file: Path, *, overwrite: bool, quiet: bool) -> None:
     folder = folder_of(file)
     study = study_in(folder)
     if study is None and is_file(file):
+        status_of(file)  # which refuses what is no dataset
         if folder.is_dir():  # of a merge that was killed when it was done
             with claimed(file):
                 pass
-        status_of(file)  # which refuses what is no dataset
         messages.say(f"{file}: was complete already")
         return
     if study is None:

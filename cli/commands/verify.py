@@ -7,6 +7,7 @@ import click
 from gradhesion.cli.errors import DeviationError
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.examples import example
+from gradhesion.cli.terminal.given_up import given_up
 from gradhesion.cli.terminal.output import show
 from gradhesion.cli.terminal.progress import progress
 
@@ -15,8 +16,8 @@ from gradhesion.cli.terminal.progress import progress
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("--sample", type=click.IntRange(min=1), default=20, show_default=True, help="Scenes to recompute.")
 @click.option("--seed", type=click.IntRange(min=0), help="Seed of the random sample [random].")
-@click.option("--digits", is_flag=True, hidden=True, help="Given up.")
-def verify(file: Path, sample: int, seed: int | None, digits: bool) -> None:
+@given_up("--digits", "in Python, gr.verify(FILE).deviations has each value beside the one recomputed")
+def verify(file: Path, sample: int, seed: int | None) -> None:
     """Recompute maps to 30 digits and compare.
 
     The study stored in FILE must be unchanged and match its coordinates. A random sample of the scenes is then solved
@@ -26,10 +27,6 @@ def verify(file: Path, sample: int, seed: int | None, digits: bool) -> None:
 
     The exit code is 3 if a value deviates by more than its stated error.
     """
-    if digits:
-        raise click.UsageError(
-            "--digits was given up; in Python, gr.verify(FILE).deviations has each value beside the one recomputed"
-        )
     from gradhesion.cli.dataset.read.reader import opened
     from gradhesion.cli.dataset.verify.deviations import lines_of
     from gradhesion.cli.dataset.verify.recompute import recompute

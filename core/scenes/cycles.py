@@ -39,6 +39,7 @@ from gradhesion.core.scenes.reduced import (
     BY_WAVES,
     CLOSING,
     DEPTH,
+    EXPONENT,
     LENGTH,
     LOAD,
     MOST,
@@ -167,7 +168,7 @@ def curve_of(
 @kernel
 def same_curve(scenes: Floats, reduced: Floats, i: int, j: int) -> bool:
     """Return whether two scenes differ in rim and target alone."""
-    for row in (BY_POWER, BY_WAVES, LENGTH, BY_LOAD, CLOSING, PATTERN_WAVES):
+    for row in (EXPONENT, BY_POWER, BY_WAVES, LENGTH, BY_LOAD, CLOSING, PATTERN_WAVES):
         if reduced[row, i] != reduced[row, j]:
             return False
     return bool(scenes[PATTERN_AMPLITUDE, i] == scenes[PATTERN_AMPLITUDE, j])

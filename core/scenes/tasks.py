@@ -25,7 +25,7 @@ from gradhesion.core.edge.pattern import bins_of_wave, bounds_of, rows_by_number
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.processors import processors
-from gradhesion.core.scenes.cycles import Task, no_value, put_force, same_curve, solve_cycles
+from gradhesion.core.scenes.cycles import Task, curve_end, put_force, solve_cycles
 from gradhesion.core.scenes.long import fill_saturation, solve_long
 from gradhesion.core.scenes.reduced import (
     AMPLITUDE,
@@ -40,7 +40,6 @@ from gradhesion.core.scenes.reduced import (
     PULL,
     RIM,
     RIM_Y,
-    VALID,
     WAVELENGTH,
     WINDOW,
     K,
@@ -127,25 +126,21 @@ def _near_lowest(basis: Basis, kept: Kept, place: int, curve: Curve, rim: float)
 
 
 @kernel
-def near_forces(punch: Punch, basis: Basis, kept: Kept, scenes: Floats, reduced: Floats, out: Floats) -> None:
+def near_forces(basis: Basis, kept: Kept, scenes: Floats, reduced: Floats, out: Floats) -> None:
     """Solve the pull-off alone of scenes in the order of their exponents, once for neighbours of the same curve."""
-    punch, basis, kept, scenes, reduced, out = borrowed((punch, basis, kept, scenes, reduced, out))
-    first, k, place = 0, math.nan, 0
+    basis, kept, scenes, reduced, out = borrowed((basis, kept, scenes, reduced, out))
+    first, k, place = int(np.int64(0)), math.nan, 0  # a plain 0 would be a type of its own
     while first < scenes.shape[1]:
-        if reduced[VALID, first] == 0.0:
-            no_value(out, first, NO_VALUE)
+        last = curve_end(math.inf, scenes, reduced, first, scenes.shape[1], out)
+        if last == first:
             first += 1
             continue
-        last, widest = first, 0.0
-        while last < scenes.shape[1] and reduced[VALID, last] > 0.0 and same_curve(scenes, reduced, first, last):
-            widest = max(widest, reduced[RIM_Y, last])
-            last += 1
         if scenes[K, first] != k:
             k = scenes[K, first]
             place = place_for(basis, kept, k)
         table = empty_table(basis, k, kept.nodes[place], kept.polys[place])
         curve = Curve(table, reduced[BY_POWER, first], reduced[BY_WAVES, first], 0.0, 1.0)
-        rim = widest
+        rim = reduced[RIM_Y, first:last].max()
         while first < last:
             lowest = _near_lowest(basis, kept, place, curve, rim)
             while first < last and serves(lowest, rim, reduced[RIM_Y, first]):
@@ -261,7 +256,7 @@ def _solve_near(
             near = NearTables(basis, kept, by_load, pulls, rooms_for(basis.values.shape[0] - 1, patterned))
             near_cycles(punch, wanted, near, profile, scenes, reduced, out)
         else:
-            near_forces(punch, by_load, pulls, scenes, reduced, out)
+            near_forces(by_load, pulls, scenes, reduced, out)
 
 
 _tables: OrderedDict[tuple[object, ...], tuple[Table, Source, float]] = OrderedDict()
