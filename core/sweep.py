@@ -31,8 +31,9 @@ from gradhesion.core.problem.names import (
 from gradhesion.core.problem.profile import WAVY, Profile, in_own_wavelength, starts_downwards
 from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE
 from gradhesion.core.problem.toughness import rows_of_pattern
+from gradhesion.core.scenes.requests import Request
 from gradhesion.core.scenes.results import INTEGERS, NAMES, Wanted
-from gradhesion.core.scenes.tasks import Request, solve_all
+from gradhesion.core.scenes.tasks import solve_all
 from gradhesion.core.table.layout import BY_DEPTH, EXACT
 
 if TYPE_CHECKING:

@@ -42,16 +42,9 @@ from gradhesion.core.scenes.reduced import (
     Punch,
     crest_of,
 )
-from gradhesion.core.scenes.tasks import (
-    FINEST,
-    Request,
-    columns_of,
-    long_table,
-    prepared,
-    punch_of,
-    scenes_of,
-    set_lengths,
-)
+from gradhesion.core.scenes.requests import Request, columns_of, punch_of, scenes_of, set_lengths
+from gradhesion.core.scenes.tables import MOST_BINS, long_table
+from gradhesion.core.scenes.tasks import FINEST, prepared
 from gradhesion.core.table.basis import room_of
 from gradhesion.core.table.filling import width_of
 from gradhesion.core.table.layout import EXACT, LANES, Source, Table, span_of
@@ -61,8 +54,6 @@ BEYOND: Final = 1.05
 """How far an unbounded punch is drawn beyond its last fold or jump."""
 _BEYOND_SMOOTH: Final = 1.5
 """How far it is drawn at least, in radii where the smooth curve is at zero depth."""
-_MOST_BINS: Final = 130_000
-"""Bins of a curve that is drawn, at most: 16,000 of the shortest waves."""
 _LEAST: Final = 1e-5
 """Radii y that are resolved: a wave may be some hundred thousand times as long as the contact is wide."""
 _SAME: Final = 1e-8
@@ -200,7 +191,7 @@ def waves_of(frame: Frame) -> tuple[float, float]:
 
 def table_for(frame: Frame, form: int, y_end: float) -> tuple[Table, Source, float] | None:
     """Return the table of a scene up to y_end, its source, and the crest of -U'; None where it cannot be resolved."""
-    if not min(y_end, frame.place(1.0, 1.0)) >= _LEAST or y_end > _MOST_BINS * width_of(frame.punch.waves, frame.finer):
+    if not min(y_end, frame.place(1.0, 1.0)) >= _LEAST or y_end > MOST_BINS * width_of(frame.punch.waves, frame.finer):
         return None
     return long_table(frame.punch, frame.k, form, frame.finer, y_end)
 

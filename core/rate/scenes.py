@@ -20,7 +20,8 @@ from gradhesion.core.processors import processors
 from gradhesion.core.rate.edge import Edge, goal, lag_of, load_at, place_at, pulls_at, state_of
 from gradhesion.core.rate.step import LAG, NODES, RADIUS, SLOW, STAGES, Room, Way, step_until, stride
 from gradhesion.core.scenes import reduced as rows
-from gradhesion.core.scenes.tasks import columns_of, long_table, punch_of, scenes_of
+from gradhesion.core.scenes.requests import columns_of, punch_of, scenes_of
+from gradhesion.core.scenes.tables import long_table
 from gradhesion.core.sweep import request_of
 from gradhesion.core.table.basis import basis_of
 from gradhesion.core.table.layout import EXACT, Table

@@ -1,13 +1,21 @@
 """Scenes of more waves than are walked, of one exponent: their results as the other loops store them."""
 
 import math
+import threading
+from collections import OrderedDict
+from collections.abc import Callable
+from typing import Final
+
+import numpy as np
 
 from gradhesion.core.borrowed import borrowed
 from gradhesion.core.curve.values import Curve
-from gradhesion.core.cycle.long import Long, begin, end_of_folds, from_birth, last_fold, loop_far, lowest_far, turn_far
+from gradhesion.core.cycle.disc import disc_of
 from gradhesion.core.cycle.pull_off import lowest_load
-from gradhesion.core.cycle.waves import start_of
 from gradhesion.core.jit import kernel, leaf
+from gradhesion.core.many.loop import begin, last_fold, loop_far, lowest_far, turn_far
+from gradhesion.core.many.search import MOST, NEAR, Long, end_of_folds, from_birth, space_for
+from gradhesion.core.many.waves import Waves, reach_of, start_of, waves_of
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.scenes.cycles import (
     Cycle,
@@ -34,10 +42,36 @@ from gradhesion.core.scenes.reduced import (
     TARGET_VALUE,
     VALID,
     WINDOW,
+    K,
+    Punch,
+    depth_factor_of,
 )
-from gradhesion.core.scenes.results import SATURATION, SHORT, STATUS
-from gradhesion.core.table.layout import end_of
+from gradhesion.core.scenes.results import RESULT_ROWS, SATURATION, SHORT, STATUS, Wanted, rooms_for
+from gradhesion.core.scenes.tables import (
+    MOST_BINS,
+    long_table,
+)
+from gradhesion.core.table.filling import width_of
+from gradhesion.core.table.layout import BY_LOAD as OF_PULL_OFF
+from gradhesion.core.table.layout import (
+    EXACT,
+    GEOMETRIC,
+    PER_WAVE,
+    end_of,
+)
+from gradhesion.core.table.leading import crests_of
 from gradhesion.core.types import Floats
+
+_WALKED: Final = 600
+"""Waves that are walked; scenes of more are summed."""
+_WALKED_WITH_WORK: Final = 2000
+"""The same where the loop integral is wanted, which is not summed."""
+_WALKED_BINS: Final = 40_000
+"""Bins that are walked at most, where waves have many: 23 MB."""
+_BINS_OF_A_WAVE: Final = 1024
+"""Bins of a wave at most, where waves are summed: 5 MB for each doubling of their number."""
+_KEPT_WAVES: Final = 64e6
+"""Bytes of all waves (many/waves.py) that are kept between calls."""
 
 
 @leaf
@@ -113,3 +147,79 @@ def fill_saturation(task: Task, long: Long, reduced: Floats, out: Floats) -> Non
             out[SATURATION, i] = y * reduced[LENGTH, i]  # NaN, and flagged, if there are too many waves up to it
             if math.isnan(y):
                 out[STATUS, i] = int(out[STATUS, i]) | TOO_MANY_WAVES
+
+
+_waves: OrderedDict[tuple[object, ...], Waves] = OrderedDict()
+_lock = threading.Lock()
+
+
+def _long_of(punch: Punch, wanted: Wanted, k: float, form: int, profile: Floats, most: int) -> tuple[Task, Long]:
+    """Return what scenes of an exponent are summed with, up to a number of waves."""
+    near = NEAR + 3.0
+    if punch.exponent - 1.0 < 0.5 * (1.0 - k):  # folds may begin far out
+        near = _WALKED_BINS / (PER_WAVE * float(punch.waves[:, 0].max()))
+    table, source, crest = long_table(punch, k, form, 1, 2.0 * math.pi * near, exactly=True)
+    key = (punch.exponent, punch.waves.tobytes(), k, form)
+    with _lock:
+        waves = _waves.pop(key, None)
+        if waves is None or most + 8 > reach_of(waves):
+            waves = waves_of(table, source, crest, crests_of(k, punch.waves)[2], most + 8.0)
+        _waves[key] = waves
+        while len(_waves) > 1 and sum(own.values.nbytes for own in _waves.values()) > _KEPT_WAVES:
+            _waves.popitem(last=False)
+    disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
+    task = Task(punch, wanted, table, table, crest, disc, rooms_for(0, patterned=False), math.inf)
+    spaces = (space_for(bins) for bins in (table.bins, 2 * waves.per, 3 * waves.per, 5 * waves.per))
+    return task, Long(table, waves, NEAR, most, disc, wanted.contact, *spaces)
+
+
+def _walked(punch: Punch, wanted: Wanted) -> float:
+    """Return the radius up to which scenes are walked, beyond which they are summed: inf for those that cannot be."""
+    per = PER_WAVE * float(punch.waves[:, 0].max())
+    if punch.rows.shape[1] > 0 or per > _BINS_OF_A_WAVE:
+        return math.inf
+    waves, bins = (_WALKED_WITH_WORK, MOST_BINS - 2 * GEOMETRIC) if wanted.residual else (_WALKED, _WALKED_BINS)
+    return 2.0 * math.pi * min(waves, max(bins / per, 64.0))
+
+
+def solve_summed(
+    punch: Punch,
+    wanted: Wanted,
+    form: int,
+    profile: Floats,
+    scenes: Floats,
+    reduced: Floats,
+    out: Floats,
+    walk: Callable[[Floats, Floats, Floats], None],
+) -> None:
+    """Solve scenes of one exponent that have more waves than are walked; others are left as SHORT.
+
+    `walk` solves those of them that prove irregular.
+    """
+    out[STATUS] = SHORT
+    walked = _walked(punch, wanted)
+    far = np.flatnonzero(reduced[NEED] > walked)
+    if not far.size:
+        return
+    chosen, own = np.ascontiguousarray(scenes[:, far]), np.ascontiguousarray(reduced[:, far])
+    found = np.empty((RESULT_ROWS, far.size))
+    k, reach = float(scenes[K, 0]), own[NEED]
+    if punch.turn != AT_RIM:  # a jump may pass where a cycle turns
+        reach = np.minimum(np.fmax(reach, own[WINDOW]), own[RIM_Y])
+    most = int(min(reach.max() / (2.0 * math.pi) + 3.0, MOST + 8.0))
+    task, long = _long_of(punch, wanted, k, form, profile, most)
+    pull = long
+    if form != EXACT:
+        by_load, pull = _long_of(punch, wanted, k, OF_PULL_OFF, profile, most)
+        task = task._replace(by_load=by_load.table)
+    walkable = (MOST_BINS - 2 * GEOMETRIC) * width_of(punch.waves)
+    solve_long(task, long, pull, chosen, own, walkable, found)
+    left = np.flatnonzero(found[STATUS] == SHORT)
+    if left.size:
+        rest = np.full((RESULT_ROWS, left.size), np.nan)
+        again, numbers = np.ascontiguousarray(chosen[:, left]), np.ascontiguousarray(own[:, left])
+        walk(again, numbers, rest)
+        found[:, left] = rest
+    if wanted.saturation:
+        fill_saturation(task, long, own, found)
+    out[:, far] = found

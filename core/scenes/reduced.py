@@ -29,11 +29,12 @@ BY_POWER, BY_WAVES, BY_DEPTH, BY_LOAD, LENGTH, DEPTH, LOAD = range(7)
 # B; g; weights of depth and load; units of length in R, of depth in R, of load in R dgamma
 RIM_Y, TARGET_VALUE, CLOSING = 7, 8, 9
 # the rim; the target in its unit; w_c/w_o
-WINDOW, PULL, NEED = 10, 11, 12
-# radii: beyond the first no fold; the pull-off within the second; the table must reach to the third
-PATTERN_WAVES, MOST, STEEP, EXPONENT, VALID = 13, 14, 15, 16, 17
+WINDOW, PULL, FAR, NEED = range(10, 14)
+# radii: beyond the first no fold; the pull-off within the second; the table must reach to the third without a rim, to
+# the last with it
+PATTERN_WAVES, MOST, STEEP, EXPONENT, VALID = range(14, 19)
 # waves of the pattern in one of the profile; bounds of kappa and its slope; k; 1 if the scene can have a value, else 0
-REDUCED_ROWS: Final = 18
+REDUCED_ROWS: Final = 19
 
 DISPLACEMENT, AT_LOAD, MACHINE = range(3)
 """What is prescribed."""
@@ -117,7 +118,6 @@ def reduce_scene(punch: Punch, scenes: Floats, i: int, theta: float, depth_facto
         reduced[BY_DEPTH, i], reduced[BY_LOAD, i] = 0.0, 1.0
     elif punch.control == MACHINE:
         reduced[BY_LOAD, i] = load / depth / (scenes[STIFFNESS, i] * scenes[MODULUS, i])
-    reduced[RIM_Y, i] = scenes[RIM, i] / length
     unit = depth if punch.turn == AT_DEPTH else load * UNIT_OF_FORCE
     reduced[TARGET_VALUE, i] = scenes[TARGET, i] / unit
     reduced[CLOSING, i] = max(scenes[RATIO, i], LEAST_RATIO) if scenes[RATIO, i] >= 0.0 else math.nan
@@ -127,7 +127,7 @@ def reduce_scene(punch: Punch, scenes: Floats, i: int, theta: float, depth_facto
 
 @kernel
 def fill_reach(punch: Punch, i: int, crest: float, steepest: float, mean: float, reduced: Floats) -> None:
-    """Fill how far scene i must be known: `crest` and `steepest` bound U and -U' over y^((1-k)/2)."""
+    """Fill how far scene i must be known without its rim: `crest` and `steepest` bound U and -U' over y^((1-k)/2)."""
     k, m = reduced[EXPONENT, i], punch.exponent
     B, g, most = reduced[BY_POWER, i], reduced[BY_WAVES, i], reduced[MOST, i]
     eta = 0.5 * (1.0 - k)
@@ -146,15 +146,32 @@ def fill_reach(punch: Punch, i: int, crest: float, steepest: float, mean: float,
     elif power == 0.0 and steep < B * m:
         window = 60.0
     reduced[WINDOW, i] = max(smooth, window)
-    far = reduced[WINDOW, i]
+    reduced[FAR, i] = reduced[WINDOW, i]
     if punch.turn != AT_RIM:
         root = math.sqrt(reduced[CLOSING, i])
         target = max(reduced[TARGET_VALUE, i], 0.0)
         far = turning_reach(k, m, B, root * most + g * crest, g * mean, target, punch.turn == AT_A_LOAD)
-        far = max(far, reduced[PULL, i])
-    elif punch.rows.shape[1] > 0 and reduced[RIM_Y, i] < math.inf:
-        far = max(far, reduced[RIM_Y, i])  # beyond its table an interface with a pattern is not known
-    reduced[NEED, i] = min(far, reduced[RIM_Y, i])
+        reduced[FAR, i] = max(far, reduced[PULL, i])
+
+
+@kernel
+def fill_rim(punch: Punch, scenes: Floats, i: int, reduced: Floats) -> None:
+    """Fill what depends on the rim of scene i; the rest of its numbers is known."""
+    rim, far = scenes[RIM, i] / reduced[LENGTH, i], reduced[FAR, i]
+    if punch.turn == AT_RIM and punch.rows.shape[1] > 0 and rim < math.inf:
+        far = max(far, rim)  # beyond its table an interface with a pattern is not known
+    reduced[RIM_Y, i], reduced[NEED, i] = rim, min(far, rim)
+    reduced[VALID, i] = 1.0 if _is_valid(punch, scenes, reduced, i) else 0.0
+
+
+@kernel
+def _differs_in_rim_alone(scenes: Floats, i: int, j: int) -> bool:
+    """Return whether two scenes have all parameters but the rim in common."""
+    same, row = True, 0
+    while same and row < PARAMETER_ROWS:
+        same = row == RIM or scenes[row, i] == scenes[row, j]
+        row += 1
+    return same
 
 
 @kernel
@@ -183,11 +200,15 @@ def _is_below_tables(punch: Punch, reduced: Floats, i: int) -> bool:
 
 @kernel
 def reduce_scenes(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats) -> None:
-    """Fill the reduced numbers of all scenes but MOST and STEEP; neighbours share what depends on k alone."""
+    """Fill the reduced numbers of all scenes but MOST and STEEP; neighbours share what they have in common."""
     punch, basis, scenes, reduced = borrowed((punch, basis, scenes, reduced))
     k = nu = theta = depth_factor = crest = steepest = math.nan
     mean = mean_of(punch.waves)
     for i in range(scenes.shape[1]):
+        if i > 0 and punch.rows.shape[1] == 0 and _differs_in_rim_alone(scenes, i - 1, i):
+            reduced[:, i] = reduced[:, i - 1]
+            fill_rim(punch, scenes, i, reduced)
+            continue
         if scenes[K, i] != k:
             k, nu = scenes[K, i], math.nan
             if not 0.0 <= k <= 1.0:
@@ -201,7 +222,7 @@ def reduce_scenes(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats) -
             theta = theta_of(k, nu)
         reduce_scene(punch, scenes, i, theta, depth_factor, reduced)
         fill_reach(punch, i, crest, steepest, mean, reduced)
-        reduced[VALID, i] = 1.0 if _is_valid(punch, scenes, reduced, i) else 0.0
+        fill_rim(punch, scenes, i, reduced)
 
 
 def reduced_of(punch: Punch, basis: Basis, scenes: Floats, most: Floats, steep: Floats) -> Floats:

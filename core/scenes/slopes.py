@@ -10,7 +10,7 @@ exponents. The turn is added by its own condition, the parameters by the chain r
 import math
 from collections.abc import Sequence
 from functools import partial
-from typing import Final, NamedTuple
+from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -43,7 +43,7 @@ from gradhesion.core.cycle.slopes import (
     unloading_by_turn,
 )
 from gradhesion.core.edge.pattern import Pattern, edge_area, toughness_at
-from gradhesion.core.jit import kernel, leaf
+from gradhesion.core.jit import inlined, kernel, leaf
 from gradhesion.core.problem.material import theta_slopes
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, SENSITIVITIES, TURNS
 from gradhesion.core.scenes.cycles import (
@@ -83,21 +83,12 @@ from gradhesion.core.scenes.reduced import (
 from gradhesion.core.scenes.reduced import (
     CLOSING as CLOSING_ROW,
 )
+from gradhesion.core.scenes.requests import Request, columns_of, punch_of, run_parts, scenes_of
 from gradhesion.core.scenes.results import RESULT_ROWS, SHORT, TURN, Rooms, Wanted, rooms_for
-from gradhesion.core.scenes.tasks import (
-    NearTables,
-    Request,
-    columns_of,
-    end_of_exponent,
-    in_groups,
-    long_table,
-    near_task,
-    punch_of,
-    run_parts,
-    scenes_of,
-    solve_far,
-)
-from gradhesion.core.table.basis import NODES, Basis, basis_of, empty_table, fill_table, kept_tables, room_of
+from gradhesion.core.scenes.tables import Tables, end_of_exponent, long_table, near_tables, solve_far, task_of
+from gradhesion.core.scenes.tasks import in_groups
+from gradhesion.core.table.basis import NODES, Basis, empty_table, fill_table, room_of
+from gradhesion.core.table.filling import width_of
 from gradhesion.core.table.layout import EXACT, GEOMETRIC, Table, Y, end_of, span_of
 from gradhesion.core.types import Floats, Integers
 
@@ -260,7 +251,7 @@ def _step_of(near: Near, pattern: Pattern, y_end: float, row: int) -> float:
     return _PHASE_STEP * _least_of(pattern) / (max(1.0, phase) if row == OF_PATTERN_WAVES else 1.0)
 
 
-@leaf
+@inlined
 def _fill_by(task: Task, near: Near, pattern: Pattern, frozen: Frozen, y_end: float) -> None:
     """Fill the derivatives of what is observed by all numbers but those of the turn."""
     near.by[:] = 0.0
@@ -296,7 +287,7 @@ def _move_of(near: Near, pair: Pair, frozen: Frozen, target: float, row: int) ->
     return -by / rate_at(measured_by(pair.closing, frozen), frozen.turn)
 
 
-@leaf
+@inlined
 def _put_slopes(near: Near, pair: Pair, frozen: Frozen, target: float, out: Floats, i: int) -> None:
     """Store the derivatives of force and energy of scene i from those of what is observed."""
     by, value, y, ratio = near.by, near.value, frozen.turn, pair.ratio
@@ -327,7 +318,7 @@ def _put_slopes(near: Near, pair: Pair, frozen: Frozen, target: float, out: Floa
         out[ENERGY + row, i] = (loss + energy_by_turn * move) / energy
 
 
-@leaf
+@inlined
 def _fill_scene(
     task: Task, near: Near, walked: Walked, opened: int, y: float, scenes: Floats, reduced: Floats, i: int, out: Floats
 ) -> bool:
@@ -350,68 +341,67 @@ def _fill_scene(
     return True
 
 
-@kernel
-def fill_slopes(task: Task, near: Near, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
-    """Store the derivatives of the scenes `first` to `last` - 1 of one exponent, or SHORT as status."""
-    task, near, scenes, reduced, out = borrowed((task, near, scenes, reduced, out))
-    start = first
-    while start < last:
-        end = curve_end(task.reach, scenes, reduced, start, last, out)
-        if end > start:
-            walked = turns_of(task, scenes, reduced, start, end, out)
-            opened, _ = open_curve(walked, task.punch.turn, start, end, out)
-            for i in range(start, end):
-                y = out[TURN, i]
-                if y > 0.0 and not _fill_scene(task, near, walked, opened, y, scenes, reduced, i, out):
-                    no_value(out, i, SHORT)
-        start = max(end, start + 1)
+FourTables: TypeAlias = tuple[Table, Table, Table, Table]
 
 
 @kernel
-def near_slopes(
+def solve_slopes(
     punch: Punch,
     wanted: Wanted,
-    near: NearTables,
-    profile: Floats,
+    tables: Tables,
+    neighbours: FourTables,
     nodes: Floats,
     polys: Floats,
     own_rooms: Rooms,
+    profile: Floats,
     scenes: Floats,
     reduced: Floats,
     out: Floats,
 ) -> None:
-    """Store the derivatives of scenes in the order of their exponents; those that reach beyond the basis are SHORT.
+    """Store the derivatives of scenes in the order of their exponents; those that reach beyond the tables are SHORT.
 
-    `nodes` and `polys` have room for the tables of four neighbours of an exponent, `own_rooms` for those of a scene
-    with a pattern.
+    `neighbours` are the long tables of the exponents next to that of `tables`; where it has no long one, `nodes` and
+    `polys` have room for near ones. `own_rooms` are for the tables of a scene with a pattern.
     """
-    punch, near, profile, nodes, polys, own_rooms, scenes, reduced, out = borrowed(
-        (punch, near, profile, nodes, polys, own_rooms, scenes, reduced, out)
+    punch, tables, neighbours, nodes, polys, own_rooms, profile, scenes, reduced, out = borrowed(
+        (punch, tables, neighbours, nodes, polys, own_rooms, profile, scenes, reduced, out)
     )
-    basis, first = near.basis, int(np.int64(0))  # a plain 0 would be a type of its own to callees
+    basis, bins, filled = tables.basis, tables.long.bins, ALL
+    first = int(np.int64(0))  # a plain 0 would be a type of its own to callees
     while first < scenes.shape[1]:
         last, k = end_of_exponent(scenes, first), scenes[K, first]
-        task = near_task(punch, wanted, near, profile, scenes, reduced, first, last)
-        tables = (
-            empty_table(basis, k - 2.0 * _STEP, nodes[0], polys[0]),
-            empty_table(basis, k - _STEP, nodes[1], polys[1]),
-            empty_table(basis, k + _STEP, nodes[2], polys[2]),
-            empty_table(basis, k + 2.0 * _STEP, nodes[3], polys[3]),
-        )
-        fill_slopes(task, _near_of(tables, basis, own_rooms, polys.shape[1], 0), scenes, reduced, first, last, out)
-        first = last
+        task = task_of(punch, wanted, tables, profile, scenes, reduced, first, last)
+        if tables.long.bins == 0:
+            bins, filled = polys.shape[1], first - first
+            neighbours = (
+                empty_table(basis, k - 2.0 * _STEP, nodes[0], polys[0]),
+                empty_table(basis, k - _STEP, nodes[1], polys[1]),
+                empty_table(basis, k + _STEP, nodes[2], polys[2]),
+                empty_table(basis, k + 2.0 * _STEP, nodes[3], polys[3]),
+            )
+        near = _near_of(neighbours, basis, own_rooms, bins, filled)
+        while first < last:
+            end = curve_end(task.reach, scenes, reduced, first, last, out)
+            if end > first:
+                walked = turns_of(task, scenes, reduced, first, end, out)
+                opened, _ = open_curve(walked, task.punch.turn, first, end, out)
+                for i in range(first, end):
+                    y = out[TURN, i]
+                    if y > 0.0 and not _fill_scene(task, near, walked, opened, y, scenes, reduced, i, out):
+                        no_value(out, i, SHORT)
+            first = max(end, first + 1)
 
 
 def _near(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Floats, out: Floats) -> None:
     """Store the derivatives of near scenes of one fineness of bins."""
-    basis, patterned = basis_of(punch.exponent, punch.waves, EXACT, finer), punch.rows.shape[1] > 0
-    bins = basis.values.shape[0] - 1
-    nodes, polys = (np.stack([room] * 4) for room in room_of(bins))
-    nodes[:, Y] = basis.fixed[0, : bins + 1]  # a table ends where its last bin does, filled or not
-    own_rooms = rooms_for(bins if patterned else 0, patterned)
-    with kept_tables(basis) as kept:
-        near = NearTables(basis, kept, basis, kept, rooms_for(bins, patterned))
-        near_slopes(punch, _WANTED, near, profile, nodes, polys, own_rooms, scenes, reduced, out)
+    patterned = punch.rows.shape[1] > 0
+    with near_tables(punch, EXACT, finer, math.nan) as tables:  # neighbours need a basis of all exponents
+        none, bins = tables.long, tables.basis.values.shape[0] - 1
+        nodes, polys = (np.stack([room] * 4) for room in room_of(bins))
+        nodes[:, Y] = tables.basis.fixed[0, : bins + 1]  # a table ends where its last bin does, filled or not
+        rooms = rooms_for(bins if patterned else 0, patterned)
+        four = (none, none, none, none)
+        solve_slopes(punch, _WANTED, tables, four, nodes, polys, rooms, profile, scenes, reduced, out)
 
 
 def _far(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Floats, out: Floats) -> None:
@@ -419,23 +409,21 @@ def _far(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Flo
 
     Those of more waves than _MOST_BINS holds have none: here sums over waves would take over.
     """
-    basis, patterned = basis_of(punch.exponent, punch.waves, EXACT, finer), punch.rows.shape[1] > 0
-    within = np.flatnonzero(reduced[NEED] <= (_MOST_BINS - GEOMETRIC) * basis.width)
+    patterned = punch.rows.shape[1] > 0
+    within = np.flatnonzero(reduced[NEED] <= (_MOST_BINS - GEOMETRIC) * width_of(punch.waves, finer))
 
-    def solve(task: Task, own: Floats, numbers: Floats, first: int, last: int, found: Floats) -> None:
-        """Store those of scenes within the table of a task, on tables of neighbouring exponents as long."""
-        y_end, bins = span_of(task.table), task.table.bins
-        k = task.table.k
-        tables = [long_table(punch, k + _STEP * place, EXACT, finer, y_end)[0] for place in _PLACES]
+    def solve(tables: Tables, own: Floats, numbers: Floats, found: Floats) -> None:
+        """Store those of scenes within a long table, on tables of neighbouring exponents as long."""
+        k, y_end, bins = tables.long.k, span_of(tables.long), tables.long.bins
+        long = [long_table(punch, k + _STEP * place, EXACT, finer, y_end)[0] for place in _PLACES]
+        nodes, polys = (np.stack([room] * 4) for room in room_of(0))
         rooms = rooms_for(bins if patterned else 0, patterned)
-        near = _near_of((tables[0], tables[1], tables[2], tables[3]), basis, rooms, bins, ALL)
-        fill_slopes(task, near, own, numbers, first, last, found)
+        four = (long[0], long[1], long[2], long[3])
+        solve_slopes(punch, _WANTED, tables, four, nodes, polys, rooms, profile, own, numbers, found)
 
     if within.size:
         found = np.empty((len(out), within.size))
-        solve_far(
-            punch, _WANTED, EXACT, finer, profile, scenes[:, within], reduced[:, within], found, _MOST_BINS, solve
-        )
+        solve_far(punch, EXACT, finer, scenes[:, within], reduced[:, within], found, solve, _MOST_BINS)
         out[:, within] = found
 
 

@@ -1,34 +1,22 @@
-"""Scenes in the order of their exponents, cut into tasks for threads, on tables that reach as far as they must.
-
-Near ones, within 64 of the shortest waves, are solved on bins interpolated in k (table/basis.py), the others on longer
-tables of their exponent. Which one it is depends on the scene alone.
-"""
+"""Scenes in the order of their exponents, on tables that reach as far as they must, and what each kind is solved by."""
 
 import math
-import threading
-from collections import OrderedDict
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import nullcontext
-from typing import Final, NamedTuple, TypeAlias
+from typing import Final, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.borrowed import borrowed
 from gradhesion.core.curve.values import Curve, bin_of
-from gradhesion.core.cycle.disc import disc_of, profile_of
-from gradhesion.core.cycle.long import MOST, NEAR, Long, space_for
+from gradhesion.core.cycle.disc import profile_of
 from gradhesion.core.cycle.pull_off import Lowest, envelope_place, lowest_load, serves
-from gradhesion.core.cycle.waves import Waves, reach_of, waves_of
-from gradhesion.core.edge.pattern import bins_of_wave, bounds_of, rows_by_number
-from gradhesion.core.jit import kernel, leaf
+from gradhesion.core.edge.pattern import bins_of_wave, bounds_of
+from gradhesion.core.jit import inlined, kernel
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
-from gradhesion.core.processors import processors
-from gradhesion.core.scenes.cycles import Task, curve_end, put_force, solve_cycles
-from gradhesion.core.scenes.long import fill_saturation, solve_long
+from gradhesion.core.scenes.cycles import curve_end, put_force, solve_curve, solve_patterned_forces
+from gradhesion.core.scenes.long import solve_summed
 from gradhesion.core.scenes.reduced import (
-    AMPLITUDE,
     AT_RIM,
     BY_POWER,
     BY_WAVES,
@@ -44,72 +32,45 @@ from gradhesion.core.scenes.reduced import (
     WINDOW,
     K,
     Punch,
-    depth_factor_of,
     reduced_of,
 )
-from gradhesion.core.scenes.results import DEEPEST, RESULT_ROWS, SATURATION, SHORT, STATUS, Rooms, Wanted, rooms_for
+from gradhesion.core.scenes.requests import Request, columns_of, punch_of, run_parts, scenes_of, set_lengths
+from gradhesion.core.scenes.results import DEEPEST, RESULT_ROWS, SATURATION, SHORT, STATUS, Wanted
+from gradhesion.core.scenes.tables import (
+    MOST_BINS,
+    Tables,
+    end_of_exponent,
+    near_tables,
+    own_exponent,
+    solve_far,
+    task_of,
+)
 from gradhesion.core.table.basis import (
     Basis,
     Kept,
     basis_of,
-    between,
     empty_table,
     fill_kept,
     is_interpolated,
-    kept_table,
-    kept_tables,
     mix_bins,
     place_for,
-    room_of,
 )
-from gradhesion.core.table.filling import fill_bins, source_of, waves_at, width_of, with_bounds
+from gradhesion.core.table.filling import source_of, waves_at, width_of
 from gradhesion.core.table.layout import (
-    BY_LOAD,
-    EXACT,
-    FIRST,
-    GEOMETRIC,
     PER_WAVE,
-    U1,
-    E,
-    Source,
-    Table,
-    U,
-    Y,
     end_of,
-    span_of,
 )
-from gradhesion.core.table.leading import crests_of
 from gradhesion.core.types import Floats, Integers
 
-_MOST_BINS: Final = 130_000
-"""Bins of a table, at most: 76 MB."""
-_KEPT_BINS: Final = 260_000
-"""Bins of all long tables that are kept between calls."""
-_WALKED: Final = 600
-"""Waves that are walked; scenes of more are summed."""
-_WALKED_WITH_WORK: Final = 2000
-"""The same where the loop integral is wanted, which is not summed."""
-_WALKED_BINS: Final = 40_000
-"""Bins that are walked at most, where waves have many: 23 MB."""
 FINEST: Final = 2**12
 """By which bins may be narrower than those of a profile, so that they resolve a pattern."""
-_BINS_OF_A_WAVE: Final = 1024
-"""Bins of a wave at most, where waves are summed: 5 MB for each doubling of their number."""
-_KEPT_WAVES: Final = 64e6
-"""Bytes of all waves (cycle/waves.py) that are kept between calls."""
 _AROUND: Final = 8
 """Bins around the lowest place of the envelope that are filled at once for a pull-off."""
-_LONGEST: Final = 30.0
-"""By which a table may be longer than what was asked for at first."""
-_SCENES: Final = 1000
-"""Scenes of a part, at least: a millisecond or more."""
-_MOST_SCENES: Final = 4000
-"""And at most: a megabyte of results. (No powers of 2, by which all rows would share the same few lines of a cache.)"""
 Group: TypeAlias = Callable[[int, Floats, Floats, Floats], None]
 """What solves scenes of one fineness of bins: takes that, scenes, their reduced numbers, and room for results."""
 
 
-@leaf
+@inlined
 def _near_lowest(basis: Basis, kept: Kept, place: int, curve: Curve, rim: float) -> Lowest:
     """Return the lowest load of a curve on a kept table, whose bins are filled where the search arrives."""
     table, most, around = curve.table, basis.values.shape[0] - 1, _AROUND
@@ -151,73 +112,24 @@ def near_forces(basis: Basis, kept: Kept, scenes: Floats, reduced: Floats, out: 
 
 
 @kernel
-def end_of_exponent(scenes: Floats, first: int) -> int:
-    """Return the end of the scenes that share the exponent of the first one."""
-    last = first + 1
-    while last < scenes.shape[1] and scenes[K, last] == scenes[K, first]:
-        last += 1
-    return last
-
-
-class NearTables(NamedTuple):
-    """What near scenes are solved on.
-
-    basis, kept         of the cycle, and its tables
-    by_load, kept_by_load  of the pull-off: the same but for the leading terms of short waves
-    rooms               for curves
-    """
-
-    basis: Basis
-    kept: Kept
-    by_load: Basis
-    kept_by_load: Kept
-    rooms: Rooms
-
-
-@kernel
-def near_task(
-    punch: Punch,
-    wanted: Wanted,
-    near: NearTables,
-    profile: Floats,
-    scenes: Floats,
-    reduced: Floats,
-    first: int,
-    last: int,
-) -> Task:
-    """Return what the scenes `first` to `last` - 1, of one exponent, are solved with, tables filled as they need."""
-    basis = near.basis
-    most = basis.values.shape[0] - 1
-    reach = basis.start + (most - 2 - GEOMETRIC) * basis.width
-    k, far = scenes[K, first], 0.0
-    for i in range(first, last):
-        if reduced[NEED, i] <= reach:
-            far = max(far, reduced[NEED, i])
-    if not (far > 0.0 and 0.0 <= k <= 1.0):
-        k = 0.5  # none can be solved here
-    bins = min(GEOMETRIC + max(16, int((far - basis.start) / basis.width) + 2), most)
-    table = kept_table(basis, near.kept, k, bins)
-    pull = table
-    if near.by_load.form != basis.form:
-        pull = kept_table(near.by_load, near.kept_by_load, k, bins)
-    low, high = between(basis, k)
-    crest = 1.01 * max(basis.crest[low], basis.crest[high])
-    disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
-    return Task(punch, wanted, table, pull, crest, disc, near.rooms, reach)
-
-
-@kernel
-def near_cycles(
-    punch: Punch, wanted: Wanted, near: NearTables, profile: Floats, scenes: Floats, reduced: Floats, out: Floats
+def solve_cycles(
+    punch: Punch, wanted: Wanted, tables: Tables, profile: Floats, scenes: Floats, reduced: Floats, out: Floats
 ) -> None:
-    """Solve cycles in the order of their exponents; scenes that reach beyond the basis are left as SHORT."""
-    punch, near, profile, scenes, reduced, out = borrowed((punch, near, profile, scenes, reduced, out))
+    """Solve cycles in the order of their exponents; scenes that reach beyond the tables are left as SHORT."""
+    punch, tables, profile, scenes, reduced, out = borrowed((punch, tables, profile, scenes, reduced, out))
+    forces = not wanted.cycle and punch.turn == AT_RIM  # of an interface with a pattern
     first = int(np.int64(0))  # a plain 0 would be a type of its own, for which callees are compiled once more
     while first < scenes.shape[1]:
         last = end_of_exponent(scenes, first)
-        task = near_task(punch, wanted, near, profile, scenes, reduced, first, last)
-        solve_cycles(task, scenes, reduced, first, last, out)
-        first = last
+        task = task_of(punch, wanted, tables, profile, scenes, reduced, first, last)
+        if forces:
+            solve_patterned_forces(task, scenes, reduced, first, last, out)
+            first = last
+        while first < last:
+            end = curve_end(task.reach, scenes, reduced, first, last, out)
+            if end > first:
+                solve_curve(task, scenes, reduced, first, end, out)
+            first = max(end, first + 1)
 
 
 @kernel
@@ -236,182 +148,14 @@ def far_rims(punch: Punch, width: float, form: int, scenes: Floats, reduced: Flo
             out[DEEPEST, i] = (flat - stretch) * reduced[DEPTH, i]
 
 
-def near_basis(punch: Punch, form: int, scenes: Floats, finer: int = 1) -> Basis:
-    """Return what near bins of scenes are filled from: those of a long series must share their exponent."""
-    k = math.nan
-    if not is_interpolated(punch.waves):
-        k = float(scenes[K, 0]) if 0.0 <= scenes[K, 0] <= 1.0 else 0.5  # no value: any will do
-    return basis_of(punch.exponent, punch.waves, form, finer, k)
-
-
-def _solve_near(
-    punch: Punch, wanted: Wanted, form: int, finer: int, profile: Floats, scenes: Floats, reduced: Floats, out: Floats
-) -> None:
-    """Solve near scenes of one fineness of bins."""
-    basis = near_basis(punch, form, scenes, finer)
-    by_load = basis if form == EXACT else near_basis(punch, BY_LOAD, scenes, finer)
-    patterned = punch.rows.shape[1] > 0
-    with kept_tables(basis) as kept, nullcontext(kept) if by_load is basis else kept_tables(by_load) as pulls:
-        if wanted.cycle or punch.turn != AT_RIM or patterned:
-            near = NearTables(basis, kept, by_load, pulls, rooms_for(basis.values.shape[0] - 1, patterned))
-            near_cycles(punch, wanted, near, profile, scenes, reduced, out)
-        else:
-            near_forces(by_load, pulls, scenes, reduced, out)
-
-
-_tables: OrderedDict[tuple[object, ...], tuple[Table, Source, float]] = OrderedDict()
-_lock = threading.Lock()
-
-
-def long_table(
-    punch: Punch, k: float, form: int, finer: int, y_end: float, *, exactly: bool = False
-) -> tuple[Table, Source, float]:
-    """Return a table of the exponent k to y = y_end or beyond, the source of its bins, and a bound of -U' y^((k-1)/2).
-
-    `form` is one of table/layout.py; bins are `finer` times narrower than usual. A table that is kept from an earlier
-    call serves if it is long enough. With `exactly` the length follows from y_end alone, whatever was asked before:
-    what is beyond it is found in another way, with other rounding.
-    """
-    width = width_of(punch.waves, finer)
-    key = (punch.exponent, punch.waves.tobytes(), k, form, finer, y_end if exactly else math.inf)
-    with _lock:
-        if key in _tables and span_of(_tables[key][0]) >= y_end:
-            _tables.move_to_end(key)
-            return _tables[key]
-        crest, wave, cut = crests_of(k, punch.waves)
-        source = source_of(k, punch.exponent, punch.waves, width, cut / width % 1.0, form)
-        bins = GEOMETRIC + max(16, int((y_end - source.start) / width) + 10)
-        nodes, polys = room_of(bins)
-        fill_bins(source, FIRST, GEOMETRIC, bins, nodes, polys)
-        lowest = _lowest(nodes, -wave)
-        share = (1.0 + k) / (1.0 + k + punch.exponent)
-        empty = Table(k, punch.exponent, share, source.start, width, lowest, 0.0, GEOMETRIC, bins, nodes, polys)
-        _tables.pop(key, None)
-        _tables[key] = with_bounds(empty, crest, bins), source, crest
-        while len(_tables) > 1 and sum(table.bins for table, _, _ in _tables.values()) > _KEPT_BINS:
-            _tables.popitem(last=False)
-        return _tables[key]
-
-
 @kernel
-def far_forces(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
-    """Solve the pull-off alone of the scenes `first` to `last` - 1 of one exponent."""
-    task, scenes, reduced, out = borrowed((task, scenes, reduced, out))
-    table = task.by_load
-    for i in range(first, last):
+def far_forces(tables: Tables, scenes: Floats, reduced: Floats, out: Floats) -> None:
+    """Solve the pull-off alone of scenes on a long table."""
+    tables, scenes, reduced, out = borrowed((tables, scenes, reduced, out))
+    table = tables.long_by_load
+    for i in range(scenes.shape[1]):
         curve = Curve(table, reduced[BY_POWER, i], reduced[BY_WAVES, i], 0.0, 1.0)
         put_force(lowest_load(curve, reduced[RIM_Y, i], 0, table.bins), reduced, i, out)
-
-
-def _lowest(nodes: Floats, crest: float) -> float:
-    """Return a bound below (U - U1)/(y E): that of the leading term, or 2 % more than the values near the centre."""
-    near = nodes[:, GEOMETRIC - 20 : GEOMETRIC + 512]
-    return min(crest, 1.02 * float(((near[U] - near[U1]) / (near[E] * near[Y])).min()))
-
-
-def solve_far(
-    punch: Punch,
-    wanted: Wanted,
-    form: int,
-    finer: int,
-    profile: Floats,
-    scenes: Floats,
-    reduced: Floats,
-    out: Floats,
-    most_bins: int = _MOST_BINS,
-    solve: Callable[[Task, Floats, Floats, int, int, Floats], None] = solve_cycles,
-) -> None:
-    """Solve scenes of one exponent beyond near tables, on tables that are tripled where they prove too short.
-
-    `solve` takes a task and scenes as `solve_cycles` does. Tables have `most_bins` bins at most.
-    """
-    k, most = float(scenes[K, 0]), (most_bins - GEOMETRIC) * width_of(punch.waves, finer)
-    left, factor = np.arange(scenes.shape[1]), 1.0
-    while left.size:
-        need = np.minimum(reduced[NEED, left] * factor, reduced[RIM_Y, left] * 1.01)
-        possible = need[need <= most]
-        y_end = float(possible.max()) if possible.size else most
-        table, _, crest = long_table(punch, k, form, finer, y_end)
-        pull = table if form == EXACT else long_table(punch, k, BY_LOAD, finer, y_end)[0]
-        disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
-        rooms = rooms_for(table.bins, punch.rows.shape[1] > 0)
-        # those that reach beyond all tables are left for the last, lest they take others of their curve along
-        reach = most if possible.size else math.inf
-        task = Task(punch, wanted, table, pull, crest, disc, rooms, reach)
-        chosen, own = np.ascontiguousarray(scenes[:, left]), np.ascontiguousarray(reduced[:, left])
-        found = np.full((len(out), left.size), np.nan)
-        solve(task, chosen, own, 0, left.size, found)
-        out[:, left] = found
-        left = left[found[STATUS] == SHORT]
-        factor *= 3.0
-        if factor > _LONGEST or y_end >= most:
-            break
-    out[STATUS, left] = NO_VALUE | TOO_MANY_WAVES
-
-
-_waves: OrderedDict[tuple[object, ...], Waves] = OrderedDict()
-
-
-def _long_of(punch: Punch, wanted: Wanted, k: float, form: int, profile: Floats, most: int) -> tuple[Task, Long]:
-    """Return what scenes of an exponent are summed with, up to a number of waves."""
-    near = NEAR + 3.0
-    if punch.exponent - 1.0 < 0.5 * (1.0 - k):  # folds may begin far out
-        near = _WALKED_BINS / (PER_WAVE * float(punch.waves[:, 0].max()))
-    table, source, crest = long_table(punch, k, form, 1, 2.0 * math.pi * near, exactly=True)
-    key = (punch.exponent, punch.waves.tobytes(), k, form)
-    with _lock:
-        waves = _waves.pop(key, None)
-        if waves is None or most + 8 > reach_of(waves):
-            waves = waves_of(table, source, crest, crests_of(k, punch.waves)[2], most + 8.0)
-        _waves[key] = waves
-        while len(_waves) > 1 and sum(own.values.nbytes for own in _waves.values()) > _KEPT_WAVES:
-            _waves.popitem(last=False)
-    disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
-    task = Task(punch, wanted, table, table, crest, disc, rooms_for(0, patterned=False), math.inf)
-    spaces = (space_for(bins) for bins in (table.bins, 2 * waves.per, 3 * waves.per, 5 * waves.per))
-    return task, Long(table, waves, NEAR, most, disc, wanted.contact, *spaces)
-
-
-def _walked(punch: Punch, wanted: Wanted) -> float:
-    """Return the radius up to which scenes are walked, beyond which they are summed: inf for those that cannot be."""
-    per = PER_WAVE * float(punch.waves[:, 0].max())
-    if punch.rows.shape[1] > 0 or per > _BINS_OF_A_WAVE:
-        return math.inf
-    waves, bins = (_WALKED_WITH_WORK, _MOST_BINS - 2 * GEOMETRIC) if wanted.residual else (_WALKED, _WALKED_BINS)
-    return 2.0 * math.pi * min(waves, max(bins / per, 64.0))
-
-
-def _sum(
-    punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes: Floats, reduced: Floats, out: Floats
-) -> None:
-    """Solve scenes of one exponent that have more waves than are walked; others are left as SHORT."""
-    out[STATUS] = SHORT
-    walked = _walked(punch, wanted)
-    far = np.flatnonzero(reduced[NEED] > walked)
-    if not far.size:
-        return
-    chosen, own = np.ascontiguousarray(scenes[:, far]), np.ascontiguousarray(reduced[:, far])
-    found = np.empty((RESULT_ROWS, far.size))
-    k, reach = float(scenes[K, 0]), own[NEED]
-    if punch.turn != AT_RIM:  # a jump may pass where a cycle turns
-        reach = np.minimum(np.fmax(reach, own[WINDOW]), own[RIM_Y])
-    most = int(min(reach.max() / (2.0 * math.pi) + 3.0, MOST + 8.0))
-    task, long = _long_of(punch, wanted, k, form, profile, most)
-    pull = long
-    if form != EXACT:
-        by_load, pull = _long_of(punch, wanted, k, BY_LOAD, profile, most)
-        task = task._replace(by_load=by_load.table)
-    walkable = (_MOST_BINS - 2 * GEOMETRIC) * width_of(punch.waves)
-    solve_long(task, long, pull, chosen, own, walkable, found)
-    left = np.flatnonzero(found[STATUS] == SHORT)
-    if left.size:
-        rest = np.full((RESULT_ROWS, left.size), np.nan)
-        again, numbers = np.ascontiguousarray(chosen[:, left]), np.ascontiguousarray(own[:, left])
-        solve_far(punch, wanted._replace(saturation=False), form, 1, profile, again, numbers, rest)
-        found[:, left] = rest
-    if wanted.saturation:
-        fill_saturation(task, long, own, found)
-    out[:, far] = found
 
 
 def _finer_bins(punch: Punch, scenes: Floats, least: Floats) -> Integers:
@@ -440,7 +184,8 @@ def prepared(punch: Punch, form: int, scenes: Floats) -> tuple[Floats, Integers]
         allowed = (least > 0.0) if punch.of_work else (least >= -1e-14)
         most = np.where(allowed, most, np.nan)
         finer = _finer_bins(punch, scenes, least)
-    return reduced_of(punch, near_basis(punch, form, scenes), scenes, most, steep), finer
+    basis = basis_of(punch.exponent, punch.waves, form, 1, own_exponent(punch, scenes))
+    return reduced_of(punch, basis, scenes, most, steep), finer
 
 
 def in_groups(
@@ -514,86 +259,48 @@ def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes
     return out
 
 
+def _solver(punch: Punch, wanted: Wanted, profile: Floats) -> Callable[[Tables, Floats, Floats, Floats], None]:
+    """Return what solves scenes on given tables: cycles, or the pull-off alone if that is all that is wanted."""
+    cycles = wanted.cycle or punch.turn != AT_RIM or punch.rows.shape[1] > 0
+
+    def solve(tables: Tables, scenes: Floats, reduced: Floats, out: Floats) -> None:
+        """Solve scenes in the order of their exponents."""
+        if cycles:
+            solve_cycles(punch, wanted, tables, profile, scenes, reduced, out)
+        elif tables.long.bins > 0:
+            far_forces(tables, scenes, reduced, out)
+        else:
+            near_forces(tables.by_load, tables.kept_by_load, scenes, reduced, out)
+
+    return solve
+
+
 def _in_groups(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes: Floats) -> tuple[Floats, Floats]:
     """Return results and reduced numbers of scenes, as `in_groups`, but for depths at rims beyond their tables."""
-    patterned = punch.rows.shape[1] > 0
-    cycles = wanted.cycle or punch.turn != AT_RIM or patterned
+    solve = _solver(punch, wanted, profile)
 
     def near(finer: int, own: Floats, reduced: Floats, out: Floats) -> None:
         """Solve near scenes."""
-        _solve_near(punch, wanted, form, finer, profile, own, reduced, out)
+        with near_tables(punch, form, finer, own_exponent(punch, own)) as tables:
+            solve(tables, own, reduced, out)
 
     def far(finer: int, own: Floats, reduced: Floats, out: Floats) -> None:
         """Solve others."""
-        _sum(punch, wanted, form, profile, own, reduced, out)
+
+        def walk(irregular: Floats, numbers: Floats, found: Floats) -> None:
+            """Solve scenes that cannot be summed."""
+            alone = _solver(punch, wanted._replace(saturation=False), profile)
+            solve_far(punch, form, 1, irregular, numbers, found, alone, MOST_BINS)
+
+        solve_summed(punch, wanted, form, profile, own, reduced, out, walk)
         left = np.flatnonzero(out[STATUS] == SHORT)
         if left.size:
             rest = np.full((RESULT_ROWS, left.size), np.nan)
-            numbers = np.ascontiguousarray(reduced[:, left])
-            solve = solve_cycles if cycles else far_forces
-            solve_far(punch, wanted, form, finer, profile, own[:, left], numbers, rest, _MOST_BINS, solve)
+            solve_far(punch, form, finer, own[:, left], np.ascontiguousarray(reduced[:, left]), rest, solve, MOST_BINS)
             out[:, left] = rest
 
-    pull_off = patterned and punch.turn == AT_RIM and not wanted.cycle
+    pull_off = punch.rows.shape[1] > 0 and punch.turn == AT_RIM and not wanted.cycle
     return in_groups(punch, form, scenes, RESULT_ROWS, near, far, whole=wanted.saturation, pull_off=pull_off)
-
-
-class Request(NamedTuple):
-    """What a call asks for: the parameters of its scenes, and what all of them share, as `Punch` has it.
-
-    arrays      an array for each row of parameters (reduced.py), all broadcastable
-    pattern     the harmonics of the pattern of toughness, rows (n, cos, sin)
-    """
-
-    arrays: list[Floats]
-    exponent: float
-    waves: Floats
-    control: int
-    turn: int
-    pattern: Floats
-    of_work: bool
-
-
-def punch_of(request: Request) -> Punch:
-    """Return what the scenes of a request share."""
-    rows = rows_by_number(request.pattern)
-    return Punch(request.exponent, request.waves, request.control, request.turn, rows, request.of_work)
-
-
-def columns_of(request: Request) -> tuple[list[Floats], int]:
-    """Return each row of parameters, of one item or one a scene, and the number of scenes."""
-    shape = np.broadcast_shapes(*(array.shape for array in request.arrays))
-    columns = [a.reshape(1) if a.size == 1 else np.broadcast_to(a, shape).reshape(-1) for a in request.arrays]
-    return columns, math.prod(shape)
-
-
-def scenes_of(columns: list[Floats], first: int, last: int) -> Floats:
-    """Return the parameters of the scenes `first` to `last` - 1, (PARAMETER_ROWS, scenes)."""
-    scenes = np.empty((len(columns), last - first))
-    for row, column in enumerate(columns):
-        scenes[row] = column if column.size == 1 else column[first:last]
-    return scenes
-
-
-def set_lengths(punch: Punch, scenes: Floats) -> None:
-    """Give smooth punches on a pattern its wavelength, where that is shorter: another has no meaning for them."""
-    if punch.rows.shape[1] > 0:
-        smooth = (scenes[AMPLITUDE] == 0.0) & (scenes[PATTERN_WAVELENGTH] < scenes[WAVELENGTH])
-        smooth &= scenes[WAVELENGTH] < np.inf  # which is out of range
-        scenes[WAVELENGTH, smooth] = scenes[PATTERN_WAVELENGTH, smooth]
-
-
-def run_parts(count: int, work: Callable[[int, int], None], threads: int | None) -> None:
-    """Do the work on parts of `count` scenes, first to last, on threads that each take the next part."""
-    workers = 1 if count < 2 * _SCENES else min(threads or processors(), -(-count // _SCENES))
-    size = max(_SCENES, min(_MOST_SCENES, -(-count // (4 * workers)))) if workers > 1 else _MOST_SCENES
-    parts = [(first, min(first + size, count)) for first in range(0, count, size)]
-    if workers < 2:
-        for part in parts:
-            work(*part)
-        return
-    with ThreadPoolExecutor(workers) as pool:
-        list(pool.map(lambda part: work(*part), parts))
 
 
 def solve_all(

@@ -10,8 +10,6 @@ such tables, whatever else is in their call, so that a value does not depend on 
 import math
 import threading
 from collections import OrderedDict
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -67,8 +65,6 @@ _KEPT: Final = 14
 """Bases kept, of 11 megabytes each: the bins of patterns have up to 13 widths."""
 _TABLES: Final = 8
 """Tables of a basis that a thread keeps, of 0.4 MB each."""
-_LENT: Final = 4
-"""Threads for which tables of a basis are kept between calls."""
 
 
 class Basis(NamedTuple):
@@ -153,9 +149,7 @@ def basis_of(exponent: float, waves: Floats, form: int = EXACT, finer: int = 1, 
         if key not in _bases:
             _bases[key] = make_basis(exponent, waves, form, finer, k)
             if len(_bases) > _KEPT:
-                _, gone = _bases.popitem(last=False)
-                _free.pop(id(gone.values), None)
-            _free[id(_bases[key].values)] = []
+                _bases.popitem(last=False)
         _bases.move_to_end(key)
         return _bases[key]
 
@@ -278,27 +272,13 @@ class Kept(NamedTuple):
     polys: Floats
 
 
-_free: dict[int, list[Kept]] = {}
-"""Kept tables that no thread uses, for each basis that is kept: by the identity of its values."""
-
-
-@contextmanager
-def kept_tables(basis: Basis) -> Iterator[Kept]:
-    """Lend a thread tables that are kept between calls."""
+def kept_for(basis: Basis) -> Kept:
+    """Return room for the tables of a basis, none of which is filled yet."""
     bins = basis.values.shape[0] - 1
-    with _lock:
-        free = _free.get(id(basis.values), [])
-        kept = free.pop() if free else None
-    if kept is None:
-        nodes, polys = np.zeros((_TABLES, ROWS, bins + 1)), np.zeros((_TABLES, bins, LANES, N))
-        nodes[:, Y] = basis.fixed[0, : bins + 1]  # a table ends where its last bin does, filled or not
-        marks = np.zeros((_TABLES, 2), dtype=np.int64), np.zeros(1, dtype=np.int64)
-        kept = Kept(np.full(_TABLES, np.nan), *marks, np.zeros((_TABLES, NODES)), nodes, polys)
-    yield kept
-    with _lock:
-        free = _free.get(id(basis.values), [])
-        if len(free) < _LENT:
-            free.append(kept)
+    nodes, polys = np.zeros((_TABLES, ROWS, bins + 1)), np.zeros((_TABLES, bins, LANES, N))
+    nodes[:, Y] = basis.fixed[0, : bins + 1]  # a table ends where its last bin does, filled or not
+    marks = np.zeros((_TABLES, 2), dtype=np.int64), np.zeros(1, dtype=np.int64)
+    return Kept(np.full(_TABLES, np.nan), *marks, np.zeros((_TABLES, NODES)), nodes, polys)
 
 
 @kernel

@@ -1,0 +1,1 @@
+"""Contacts of more waves than are walked one by one."""

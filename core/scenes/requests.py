@@ -1,0 +1,81 @@
+"""What a call asks for, and how its scenes are cut into parts for threads."""
+
+import math
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from gradhesion.core.edge.pattern import rows_by_number
+from gradhesion.core.processors import processors
+from gradhesion.core.scenes.reduced import (
+    AMPLITUDE,
+    PATTERN_WAVELENGTH,
+    WAVELENGTH,
+    Punch,
+)
+from gradhesion.core.types import Floats
+
+_SCENES: Final = 1000
+"""Scenes of a part, at least: a millisecond or more."""
+_MOST_SCENES: Final = 4000
+"""And at most: a megabyte of results. (No powers of 2, by which all rows would share the same few lines of a cache.)"""
+
+
+class Request(NamedTuple):
+    """What a call asks for: the parameters of its scenes, and what all of them share, as `Punch` has it.
+
+    arrays      an array for each row of parameters (reduced.py), all broadcastable
+    pattern     the harmonics of the pattern of toughness, rows (n, cos, sin)
+    """
+
+    arrays: list[Floats]
+    exponent: float
+    waves: Floats
+    control: int
+    turn: int
+    pattern: Floats
+    of_work: bool
+
+
+def punch_of(request: Request) -> Punch:
+    """Return what the scenes of a request share."""
+    rows = rows_by_number(request.pattern)
+    return Punch(request.exponent, request.waves, request.control, request.turn, rows, request.of_work)
+
+
+def columns_of(request: Request) -> tuple[list[Floats], int]:
+    """Return each row of parameters, of one item or one a scene, and the number of scenes."""
+    shape = np.broadcast_shapes(*(array.shape for array in request.arrays))
+    columns = [a.reshape(1) if a.size == 1 else np.broadcast_to(a, shape).reshape(-1) for a in request.arrays]
+    return columns, math.prod(shape)
+
+
+def scenes_of(columns: list[Floats], first: int, last: int) -> Floats:
+    """Return the parameters of the scenes `first` to `last` - 1, (PARAMETER_ROWS, scenes)."""
+    scenes = np.empty((len(columns), last - first))
+    for row, column in enumerate(columns):
+        scenes[row] = column if column.size == 1 else column[first:last]
+    return scenes
+
+
+def set_lengths(punch: Punch, scenes: Floats) -> None:
+    """Give smooth punches on a pattern its wavelength, where that is shorter: another has no meaning for them."""
+    if punch.rows.shape[1] > 0:
+        smooth = (scenes[AMPLITUDE] == 0.0) & (scenes[PATTERN_WAVELENGTH] < scenes[WAVELENGTH])
+        smooth &= scenes[WAVELENGTH] < np.inf  # which is out of range
+        scenes[WAVELENGTH, smooth] = scenes[PATTERN_WAVELENGTH, smooth]
+
+
+def run_parts(count: int, work: Callable[[int, int], None], threads: int | None) -> None:
+    """Do the work on parts of `count` scenes, first to last, on threads that each take the next part."""
+    workers = 1 if count < 2 * _SCENES else min(threads or processors(), -(-count // _SCENES))
+    size = max(_SCENES, min(_MOST_SCENES, -(-count // (4 * workers)))) if workers > 1 else _MOST_SCENES
+    parts = [(first, min(first + size, count)) for first in range(0, count, size)]
+    if workers < 2:
+        for part in parts:
+            work(*part)
+        return
+    with ThreadPoolExecutor(workers) as pool:
+        list(pool.map(lambda part: work(*part), parts))
