@@ -147,8 +147,8 @@ def _of_optimum(own: Mapping[str, Any] | None, requirements: Mapping[str, Any]) 
     yield "## [optimum]"
     yield (
         'Required for `kind = "optimum"`: goal, searched inputs and requirements ([optima](../optima.md#optima)). '
-        "Such a study has no `outputs`. It has one goal or two: any output with one value per scene except counts, in SI "
-        "units with the suffix `_si`."
+        "Such a study has no `outputs`. It has one goal or two: any output with one value per scene except counts, in "
+        "SI units with the suffix `_si`."
     )
     yield table(HEADS, _rows(own))
     yield "The table `require`:"
