@@ -1,8 +1,8 @@
 PYTHON ?= python3
 sources := $(shell find api cli core twin -name '*.py')
 drawing := $(wildcard figures/*.py api/*.mplstyle)
-# Not the pictures that are drawn here: to check the sources would draw them anew, where a clone dates them before these.
-checked := $(sources) $(drawing) $(shell find tests benchmarks docs configs -type f -not -path '*/__pycache__/*' -not -name '*.png' -not -name '*.svg' 2>/dev/null) README.md CITATION.cff Makefile
+# Not the pages and pictures that are written here: to check the sources would draw them anew, where a clone dates them before these.
+checked := $(sources) $(drawing) $(shell find tests benchmarks docs configs -type f -not -path '*/__pycache__/*' -not -path 'docs/reference/*' -not -name '*.png' -not -name '*.svg' 2>/dev/null) README.md CITATION.cff Makefile
 pictures := $(addprefix fig,1 2a 2b 3a 3b 3c 4a 4b 4c 5a 5b 5c 6 7a 7b 7c 8 9)
 pictures += $(addprefix extra_,amplitudes rim energy_map energy_exponent energy_amplitude energy_wavelength roughness best_exponent best_wavelength error_bars front closing split speed)
 
