@@ -36,8 +36,8 @@ NOT_RUN = {
 }
 """Every page with blocks that are not run, and why: these are all."""
 
-IN_A_SHELL = (ROOT / "README.md", ROOT / "docs" / "first_steps.md")
-"""Pages for beginners, whose every command is that of the shell; a second each, so that others are spared it."""
+IN_A_SHELL = ROOT / "README.md"
+"""What is read first: its every command is that of the shell; a second each, so that the pages are spared it."""
 
 WHOLE = tomllib.loads(next(block.text for block in BLOCKS if block.language == "toml"))
 """The study of the README, which the parts of studies are added to."""
@@ -56,7 +56,7 @@ def _run_commands(block: Block, folder: Path) -> None:
     for command in commands_of(block):
         line = made_smaller(command.line, block)
         plain = line.startswith("gradhesion ") and not re.search(r"[|&;<>$`~]", line)
-        code, printed = _in_process(line) if plain and block.page not in IN_A_SHELL else _in_a_shell(line, folder)
+        code, printed = _in_process(line) if plain and block.page != IN_A_SHELL else _in_a_shell(line, folder)
         assert code == command.code, f"{block.place}: {line}\n{printed}"
         if command.printed.strip():
             assert same(command.printed, printed), f"{block.place}: {line}\n{printed}"
