@@ -1,40 +1,35 @@
 PYTHON ?= python3
 sources := $(shell find api cli core twin -name '*.py')
 drawing := $(wildcard figures/*.py api/*.mplstyle)
-# Not the pictures that are drawn here: to check the sources would draw them anew, where a clone dates them before these.
-checked := $(sources) $(drawing) $(shell find tests benchmarks docs configs -type f -not -path '*/__pycache__/*' -not -name '*.png' -not -name '*.svg' 2>/dev/null) README.md CITATION.cff Makefile
+# Not the pages and pictures that are written here: to check the sources would draw them anew, where a clone dates them before these.
+checked := $(sources) $(drawing) $(shell find tests benchmarks docs configs -type f -not -path '*/__pycache__/*' -not -path 'docs/reference/*' -not -name '*.png' -not -name '*.svg' 2>/dev/null) README.md CITATION.cff Makefile
 pictures := $(addprefix fig,1 2a 2b 3a 3b 3c 4a 4b 4c 5a 5b 5c 6 7a 7b 7c 8 9)
 pictures += $(addprefix extra_,amplitudes rim energy_map energy_exponent energy_amplitude energy_wavelength roughness best_exponent best_wavelength error_bars front closing split speed)
 
-help: ## show the targets
+help: # show the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST)
 
 maps: outputs/maps.png ## compute configs/maps.toml into outputs/maps.nc, and draw two maps of it as outputs/maps.png
 
 figures: $(foreach form,png pdf,$(pictures:%=outputs/figures/%.$(form))) ## draw the figures of the paper into outputs/figures/, .png and .pdf
 
-docs-figures: $(pictures:%=docs/figures/paper/%.png) docs/figures/paper/fig1.svg ## draw them small for docs/paper.md
+docs-figures: $(pictures:%=docs/figures/paper/%.png) docs/figures/paper/fig1.svg # draw them small for docs/paper.md
 
 test: build/tested ## lint, types and tests
-
-reference: .venv/complete ## write the generated pages of the manual, docs/reference/, anew
-	.venv/bin/python -m docs
 
 docs: .venv/complete ## build the manual into build/docs/, offline, a warning being an error
 	.venv/bin/python -m sphinx -E -a -q -W --keep-going -d build/doctrees docs build/docs
 
-lowest: build/lowest/tested build/before/tested ## the quick tests with the lowest versions of pyproject.toml, and with the numba before the newest
+lowest: build/lowest/tested build/before/tested # the quick tests with the lowest versions of pyproject.toml, and with the numba before the newest
 
-stress: .venv/complete ## the long form of the stress suite (minutes)
+stress: .venv/complete ## run what takes minutes: 100,000 hostile scenes, and runs killed at 200 random moments and at every rename
 	.venv/bin/python -m tests.stress.long
-
-faults: .venv/complete ## kill runs at 200 random moments and at every rename, and go on with them (a minute)
 	.venv/bin/python -m tests.faults.trials --random 200
 
 bench: .venv/complete ## measure time and error (minutes), and write docs/benchmarks.md and its figures
 	.venv/bin/python -m benchmarks
 
-clean: ## remove the virtual environment and what was built (outputs stay)
+clean: # remove the virtual environment and what was built (outputs stay)
 	rm -rf .venv build dist .mypy_cache .ruff_cache .pytest_cache
 
 # Modules are compiled when they are first imported: to compile all of them takes as long as the rest. Where none may be
@@ -101,4 +96,4 @@ build/lowest/tested build/before/tested: build/%/tested: $(sources) $(shell find
 	build/$*/.venv/bin/pytest -n auto --dist loadfile -m 'not slow' -W ignore::DeprecationWarning -W ignore::FutureWarning -W 'ignore:numpy.ndarray size changed:RuntimeWarning' tests/api tests/cli tests/core
 	touch $@
 
-.PHONY: docs lowest reference help maps figures docs-figures test stress faults bench clean
+.PHONY: docs lowest help maps figures docs-figures test stress bench clean

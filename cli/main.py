@@ -36,20 +36,21 @@ UNHEARD = 141
 
 
 SECTIONS: Final = {
-    "Study and run": (init, validate, plan, run, status),
-    "Results": (info, plot, explore, select),
-    "Check and join": (verify, merge),
-    "Other": (profile, warmup, completion, schema),
+    "Study and run": (init, validate, plan, run, status, profile),
+    "Results": (info, plot, explore, select, verify, merge),
 }
-"""Every command, in the order of the work."""
+"""The commands of a user, in the order of the work."""
+
+SET_UP: Final = (warmup, completion, schema)
+"""Commands for an installation, a shell and an editor, each needed once if at all: they have one line together."""
 
 EXITS: Final = (
     (0, "success"),
-    (2, "the command, the study or the dataset is wrong"),
-    (3, "written, but scenes failed; or values exceed their errors"),
+    (2, "wrong command, study or dataset"),
+    (3, "failed or doubtful scenes"),
     (4, "the output cannot be written"),
-    (INTERRUPTED, "interrupted; the same command resumes"),
-    (UNHEARD, "the reader of the output closed it, as with `| head`"),
+    (INTERRUPTED, "interrupted"),
+    (UNHEARD, "the reader of the output has closed it"),
 )
 """The exit codes in short."""
 
@@ -78,14 +79,16 @@ class Commands(click.Group):
         return list(self.commands)
 
     def format_commands(self, _context: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the sections."""
-        width = max(map(len, self.commands))
+        """Write the sections, and in short what stands beside them: help fits a screen."""
+        width = len("Exit codes:")
         for words, commands in SECTIONS.items():
             with formatter.section(words):
-                rows = [(f"{one.name:{width}}", one.get_short_help_str(formatter.width)) for one in commands]
+                rows = [(f"{one.name:{width - 2}}", one.get_short_help_str(formatter.width)) for one in commands]
                 formatter.write_dl(rows)
-        with formatter.section("Exit codes"):
-            formatter.write_dl([(f"{code:<{width}}", words) for code, words in EXITS])
+        formatter.write_paragraph()
+        set_up = ", ".join(str(command.name) for command in SET_UP)
+        exits = ", ".join(f"{code} {words}" for code, words in EXITS)
+        formatter.write_dl([("Set up:", set_up), ("Exit codes:", exits)])
 
 
 @click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
@@ -93,12 +96,11 @@ class Commands(click.Group):
 def cli() -> None:
     """Exact maps of the adhesion of wavy punches on power-law graded materials.
 
-    gradhesion reads a study in TOML, writes a dataset in NetCDF, checks it and draws it. `gradhesion COMMAND --help`
-    shows the options of a command, with an example.
+    A study in TOML becomes a dataset in NetCDF; COMMAND --help has an example.
     """
 
 
-for _commands in SECTIONS.values():
+for _commands in (*SECTIONS.values(), SET_UP):
     for _command in _commands:
         cli.add_command(_command)
 

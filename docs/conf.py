@@ -8,9 +8,9 @@ from pathlib import Path
 from sphinx.application import Sphinx
 
 FOLDER = Path(__file__).parent
-sys.path[:0] = [str(FOLDER), str(FOLDER.parent)]  # for mathml, and for docs.notebooks
+sys.path[:0] = [str(FOLDER), str(FOLDER.parent)]  # for mathml, and for docs.generated
 
-from docs import notebooks  # noqa: E402
+from docs import generated  # noqa: E402
 
 project = "gradhesion"
 author = "gradhesion developers"
@@ -49,23 +49,6 @@ def _math_font() -> str:
 html_static_path = ["static", _math_font()]
 
 
-def _with_notebook(app: Sphinx, page: str, text: list[str]) -> None:
-    """Put a link to the notebook of a page below its title."""
-    if page in notebooks.PAGES and app.builder.format == "html":
-        title, _, rest = text[0].partition("\n")
-        address = f"notebooks/{page}.ipynb"
-        text[0] = (
-            f'{title}\n\n<a class="notebook" href="{address}" download>Download this page as a notebook</a>\n{rest}'
-        )
-
-
-def _write_notebooks(app: Sphinx, error: Exception | None) -> None:
-    """Write the notebooks beside the pages."""
-    if error is None and app.builder.format == "html":
-        notebooks.write(Path(app.outdir) / "notebooks")
-
-
 def setup(app: Sphinx) -> None:
-    """Add what pages have on the site and not in the repository."""
-    app.connect("source-read", _with_notebook)
-    app.connect("build-finished", _write_notebooks)
+    """Write the pages that follow from the program before the others are read."""
+    app.connect("builder-inited", lambda _: generated.write())

@@ -51,9 +51,9 @@ def _sections() -> Iterator[str]:
     yield "# Python reference"
     yield (
         "This page is generated from the docstrings. `import gradhesion as gr` turns parameters or a study into an "
-        "`xarray.Dataset`. Names are imported on first use, so the import itself takes no time. [Datasets in a "
-        "notebook](../notebook.md) shows them at work. Behind it are two layers with the same names: `gradhesion.core` "
-        "takes and returns arrays, `gradhesion.cli` reads studies and makes datasets."
+        "`xarray.Dataset`. Names are imported on first use, so the import itself takes no time. [Scenes and "
+        "datasets](../scenes.md#in-python) shows them at work. Behind it are two layers with the same names: "
+        "`gradhesion.core` takes and returns arrays, `gradhesion.cli` reads studies and makes datasets."
     )
     yield "## Solve and draw scenes"
     for name in ("solve", "curves", "Profile", "Harmonic"):

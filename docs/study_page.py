@@ -42,7 +42,7 @@ def _sections() -> Iterator[str]:
     yield from _of_table("profile", tables["profile"])
     yield "The formula is under [other punches and machines](../punches.md). Each item of `harmonics`:"
     yield table(HEADS, _rows(schema["$defs"]["Harmonic"]))
-    yield "The table `spectrum` ([random roughness](../measured.md#random-roughness)):"
+    yield "The table `spectrum` ([random roughness](../punches.md#random-roughness)):"
     yield table(HEADS, _rows(schema["$defs"]["Spectrum"]))
     yield from _of_table("loading", tables["loading"])
     yield from _of_table("toughness", tables["toughness"])
@@ -102,7 +102,7 @@ def _of_parameters(own: Mapping[str, Any] | None, files: Mapping[str, Any]) -> I
     yield f"Required: {Form.model_fields['parameters'].description}."
     rows = [_row(name, own) for name in own["properties"] if name not in REDUCED]
     yield table(HEADS, rows)
-    yield "`points` as a table, instead of the name of the file ([scenes from a file](../measured.md)):"
+    yield "`points` as a table, instead of the name of the file ([more](../scenes.md#points-from-a-table)):"
     yield table(HEADS, _rows(files))
     yield "Reduced variables, each instead of another parameter:"
     yield table(
@@ -146,9 +146,9 @@ def _of_optimum(own: Mapping[str, Any] | None, requirements: Mapping[str, Any]) 
     assert own
     yield "## [optimum]"
     yield (
-        'Required for `kind = "optimum"`: goal, searched inputs and requirements ([optima](../optima.md)). Such a '
-        "study has no `outputs`. It has one goal or two: any output with one value per scene except counts, in SI "
-        "units with the suffix `_si`."
+        'Required for `kind = "optimum"`: goal, searched inputs and requirements ([optima](../optima.md#optima)). '
+        "Such a study has no `outputs`. It has one goal or two: any output with one value per scene except counts, in "
+        "SI units with the suffix `_si`."
     )
     yield table(HEADS, _rows(own))
     yield "The table `require`:"
@@ -159,7 +159,7 @@ def _of_uncertainty(own: Mapping[str, Any] | None) -> Iterator[str]:
     """Write the table of uncertain inputs."""
     assert own
     yield "## [uncertainty]"
-    yield f"{_opens('uncertainty')} ([uncertain inputs](../sensitivities.md#uncertain-inputs))."
+    yield f"{_opens('uncertainty')} ([uncertain inputs](../optima.md#uncertain-inputs))."
     yield (
         "Any key of `[parameters]`, `[physical]` or `[loading]` that the study gives: a percentage of the value of "
         'each scene (`modulus = "5 %"`), a standard deviation in the unit of the key (`A = 0.002`, `c0 = "1 nm"`), or '

@@ -19,6 +19,11 @@ def studies() -> dict[str, str]:
     return {file.name.removesuffix(".toml"): file.read_text("utf-8") for file in files if file.name.endswith(".toml")}
 
 
+def of_a_figure(name: str) -> bool:
+    """Tell whether a study is that of a figure: one of the paper, or an extra beside them."""
+    return name.startswith(("fig", "extra_"))
+
+
 def beside(text: str) -> dict[str, str]:
     """Read the files that a study names, which come with the program too."""
     files = resources.files("gradhesion.configs")
@@ -36,15 +41,20 @@ def _names(_context: click.Context, _parameter: click.Parameter, incomplete: str
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="File to write [NAME.toml].")
 @click.option("--overwrite", is_flag=True, help="Replace an existing file.")
 @click.option("--list", "listed", is_flag=True, help="List the studies and write nothing.")
-def init(name: str, output: Path | None, overwrite: bool, listed: bool) -> None:
+@click.option("--paper", is_flag=True, help="With --list: the studies of the figures of the paper instead.")
+def init(name: str, output: Path | None, overwrite: bool, listed: bool, paper: bool) -> None:
     """Write a commented study to start from.
 
-    NAME is map (the default), curve, optimum, fit, points, physical, or a figure such as fig4a; --list shows all.
+    NAME is map (the default), curve, optimum, fit, points, physical, or another that --list shows; --list --paper shows
+    those of figures, such as fig4a.
     """
     known = studies()
+    if paper and not listed:
+        raise click.UsageError("--paper goes with --list; a figure has its name: gradhesion init fig4a")
     if listed:
-        width = max(map(len, known))
-        for one, text in known.items():
+        shown = {one: text for one, text in known.items() if of_a_figure(one) == paper}
+        width = max(map(len, shown))
+        for one, text in shown.items():
             show(f"{one:{width}}  {text.splitlines()[0].removeprefix('# ')}")
         return
     if name not in known:

@@ -102,9 +102,15 @@ def test_a_file_is_named_by_its_option(gradhesion: Call, name: str, study: str) 
     )
 
 
-def test_the_list_names_them_all(gradhesion: Call) -> None:
-    lines = gradhesion("init", "--list").stdout.splitlines()
-    assert [line.split()[0] for line in lines] == sorted(studies())
+def test_the_lists_name_them_all_those_of_figures_apart(gradhesion: Call) -> None:
+    features, figures = (
+        [line.split()[0] for line in gradhesion("init", "--list", *more).stdout.splitlines()]
+        for more in ((), ["--paper"])
+    )
+    assert sorted(features + figures) == sorted(studies())
+    assert {"map", "curve", "fit"} <= {*features}
+    assert figures == [name for name in sorted(studies()) if name.startswith(("fig", "extra_"))]
+    assert gradhesion("init", "--paper").exit_code == 2
 
 
 def completed(shell: str, words: str, count: int) -> list[str]:

@@ -82,10 +82,8 @@ def test_make_draws_all() -> None:
 
 
 @pytest.mark.parametrize("name", PICTURES)
-def test_the_page_on_the_paper_shows_every_picture_and_its_command(name: str) -> None:
-    page = (ROOT / "docs" / "paper.md").read_text()
-    assert f"(figures/paper/{name}.png)" in page
-    assert f"outputs/figures/{name}.png" in page
+def test_the_page_on_the_paper_shows_every_picture(name: str) -> None:
+    assert f"(figures/paper/{name}.png)" in (ROOT / "docs" / "paper.md").read_text()
 
 
 def test_the_command_line_draws(computed: Compute, tmp_path: Path) -> None:

@@ -22,10 +22,11 @@ ROOT = Path(__file__).parents[2]
 
 
 def _in_order() -> tuple[Path, ...]:
-    """List the README and the pages of the manual, in the order of its table of contents."""
+    """List the README and the written pages of the manual, in the order of its table of contents."""
     index = ROOT / "docs" / "index.md"
     trees = re.findall(r"^```\{toctree\}(.*?)^```", index.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
     names = [line for tree in trees for line in tree.split() if (ROOT / "docs" / f"{line}.md").is_file()]
+    names = [name for name in names if not name.startswith("reference/")]  # generated, if they are there at all
     return (ROOT / "README.md", index, *(ROOT / "docs" / f"{name}.md" for name in names))
 
 

@@ -30,15 +30,14 @@ RUN = ("bash", "console", "python", "sh", "toml")
 
 NOT_RUN = {
     "README.md": {"sets up an environment of its own"},
-    "docs/cluster.md": {"needs several machines", "tests/repository/test_cluster.py runs the scripts"},
-    "docs/installation.md": {"installs", "compiles for a minute or more"},
-    "docs/pictures.md": {"for start-up files of shells"},
-    "docs/tutorial.md": {"installs"},
+    "docs/first_steps.md": {"installs"},
+    "docs/installation.md": {"installs", "compiles for a minute or more", "for start-up files of shells"},
+    "docs/large.md": {"needs several machines", "tests/repository/test_cluster.py runs the scripts"},
 }
 """Every page with blocks that are not run, and why: these are all."""
 
-IN_A_SHELL = (ROOT / "README.md", ROOT / "docs" / "tutorial.md")
-"""Pages for beginners, whose every command is that of the shell; a second each, so that others are spared it."""
+IN_A_SHELL = ROOT / "README.md"
+"""What is read first: its every command is that of the shell; a second each, so that the pages are spared it."""
 
 WHOLE = tomllib.loads(next(block.text for block in BLOCKS if block.language == "toml"))
 """The study of the README, which the parts of studies are added to."""
@@ -57,7 +56,7 @@ def _run_commands(block: Block, folder: Path) -> None:
     for command in commands_of(block):
         line = made_smaller(command.line, block)
         plain = line.startswith("gradhesion ") and not re.search(r"[|&;<>$`~]", line)
-        code, printed = _in_process(line) if plain and block.page not in IN_A_SHELL else _in_a_shell(line, folder)
+        code, printed = _in_process(line) if plain and block.page != IN_A_SHELL else _in_a_shell(line, folder)
         assert code == command.code, f"{block.place}: {line}\n{printed}"
         if command.printed.strip():
             assert same(command.printed, printed), f"{block.place}: {line}\n{printed}"
@@ -170,13 +169,3 @@ def test_no_paragraph_ends_within_a_sentence() -> None:
     for page in PAGES:
         text = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
         assert not re.search(r"^[^#|\n].*[\w-]\n\n[a-z]", text, flags=re.MULTILINE), page.name
-
-
-def test_the_waves_of_the_tutorial_are_as_high_as_it_says() -> None:
-    """From crest to trough a wave A lambda cos(2 pi r/lambda) is 2 A lambda."""
-    page = next(page for page in PAGES if page.stem == "tutorial")
-    (study,) = [tomllib.loads(block.text) for block in blocks_of(page) if block.language == "toml"]
-    (said,) = re.findall(
-        r"height, from crest to trough, is a (\w+) of\s+their length", page.read_text(encoding="utf-8")
-    )
-    assert 2.0 * study["parameters"]["A"] == {"tenth": 0.1, "twentieth": 0.05}[said]

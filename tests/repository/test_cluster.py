@@ -1,4 +1,4 @@
-"""The scripts of docs/cluster.md: an array of jobs and a Dask cluster give the same bytes as threads on one machine."""
+"""The scripts of docs/large.md: an array of jobs and a Dask cluster give the same bytes as threads on one machine."""
 
 import os
 import re
@@ -15,7 +15,7 @@ from click.testing import Result
 pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).parents[2]
-PAGE = (ROOT / "docs" / "cluster.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs" / "large.md").read_text(encoding="utf-8")
 
 STUDY = """\
 outputs = ["pull_off_force"]

@@ -1,4 +1,4 @@
-"""The page on upgrading names what exists: modules, studies, and the version of the changelog."""
+"""What the page on installation says of upgrading names what exists: modules, studies, and the version of the changelog."""
 
 import re
 import tomllib
@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PAGE = (ROOT / "docs" / "upgrade.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs" / "installation.md").read_text(encoding="utf-8")
 ROWS = [
     [re.findall(r"`([^`]+)`", cell) for cell in line.strip("| ").split(" | ")]
     for line in PAGE.splitlines()
