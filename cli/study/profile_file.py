@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.study.rules.mistakes import Mistake, example
+from gradhesion.cli.study.rules.mistakes import Mistake, line_of
 from gradhesion.cli.study.text.places import Path as Key
 from gradhesion.cli.study.text.quantities import si_value
 from gradhesion.cli.study.text.written import with_fingerprint
@@ -66,9 +66,7 @@ class Measured:
 
     def stored(self, data: Mapping[str, Any], text: str) -> tuple[dict[str, Any], str]:
         """Give the keys and the text of a study with the fingerprint of the file; no text where it is to be made."""
-        if not self.file or data["profile"].get("sha256"):
-            return dict(data), text
-        return with_fingerprint(data, text, "profile", self.sha256)
+        return with_fingerprint(data, text, ("profile",), self.sha256) if self.file else (dict(data), text)
 
 
 def measured_in(data: Mapping[str, Any], folder: Path) -> Measured:
@@ -206,4 +204,4 @@ def _mistakes_of_keys(data: Mapping[str, Any], table: Mapping[str, Any]) -> Iter
             yield Mistake((key.table, key.name), own[key.name], sentence)
     if "up_to" not in table and _up_to(data, table) is None:
         sentence = "unless a_max is one finite length, a profile needs the distance up to which it is fitted; "
-        yield Mistake(("profile", "up_to"), None, sentence + example(("profile", "up_to")))
+        yield Mistake(("profile", "up_to"), None, f"{sentence}write for example {line_of(('profile', 'up_to'))}")

@@ -1,0 +1,135 @@
+"""The columns of a measured loop in SI units, from a table of numbers or from an instrument's file."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.cli.study.rules.form import ColumnTable, DataTable
+from gradhesion.cli.study.text.quantities import si_value
+from gradhesion.cli.tables.columns import ColumnsError
+from gradhesion.cli.tables.reading import read_columns
+from gradhesion.cli.terminal.wording import did_you_mean, shown
+
+PAUSES: Final = ("pause", "hold", "dwell", "creep", "modulate")
+"""What instruments call a stretch between branches, in which the punch waits: such rows are left out."""
+PAUSE: Final = 2.0
+"""The number of a pause between branches."""
+BRANCHES: Final = {
+    **dict.fromkeys(("loading", "approach", "approaching", "extend", "forward", "false"), 0.0),
+    **dict.fromkeys(("unloading", "retract", "retracting", "withdraw", "backward", "true"), 1.0),
+}
+"""What a column of branches says, with the number for it, which may stand there as well."""
+_DIMENSIONS: Final = {"load": ("preload", "force", "nN")}
+"""For a key of [data] an input of its dimension, a word for it, and a unit to name; the others are lengths."""
+
+
+class LoopFileError(ValueError):
+    """A file has no loop: `key` is the key of [data] that is wrong; the message says why, and what to do."""
+
+    def __init__(self, key: str, sentence: str) -> None:
+        self.key = key
+        super().__init__(sentence)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Raw:
+    """The rows of a file, as they come; NaN where a number is missing."""
+
+    depth: NDArray[np.float64]
+    load: NDArray[np.float64]
+    sha256: str
+    branch: NDArray[np.float64] | None = None
+    """0 loading, 1 unloading, 2 a pause."""
+    cycle: NDArray[np.float64] | None = None
+    of: str = ""
+    """Which of the loops of a file it is; empty for the only one."""
+
+
+def read_table(path: Path, table: DataTable) -> Raw:
+    """
+    Read the columns of a loop.
+
+    Raises
+    ------
+    LoopFileError
+        The file cannot be read, or lacks a column.
+    """
+    depth, load = getattr(table, table.depths), table.load
+    assert load is not None  # noqa: S101 (the rules of a fit ask for it)
+    if depth.column == load.column:
+        sentence = f"the column {shown(load.column)} has the depths already; name the column of the loads"
+        raise LoopFileError("load", sentence)
+    if bool(depth.back) != bool(load.back) or (depth.back and (table.branch or table.cycle)):
+        sentence = "back names the columns of unloading, of depths and of loads, and then there is no branch or cycle"
+        raise LoopFileError("load" if depth.back else table.depths, f"{sentence}; write all of them so")
+    wanted = [(table.depths, depth.column), ("load", load.column), ("branch", table.branch), ("cycle", table.cycle)]
+    wanted += [(table.depths, depth.back), ("load", load.back)]
+    pauses = dict.fromkeys((*PAUSES, *(word.strip().lower() for word in table.leave_out)), PAUSE)
+    try:
+        found = read_columns(
+            path,
+            only=[name for _, name in wanted if name],
+            words={table.branch: BRANCHES | pauses} if table.branch else {},
+            whole=[table.cycle] if table.cycle else [],
+        )
+    except ColumnsError as error:
+        raise LoopFileError("file", str(error)) from None
+    for key, name in wanted:
+        if name and name not in found.values:
+            there = (*found.values, *found.others)
+            raise LoopFileError(key, f"the file has no column {shown(name)}; {did_you_mean(name, there)}")
+    columns = ((table.depths, depth), ("load", load))
+    rows = np.array([in_si(found.values, found.units, *one) for one in columns])
+    if not depth.back:
+        branch, cycle = (found.values[name] if name else None for name in (table.branch, table.cycle))
+        return Raw(depth=rows[0], load=rows[1], branch=branch, cycle=cycle, sha256=found.sha256)
+    backs = ((key, one.model_copy(update={"column": one.back})) for key, one in columns)
+    ways = [rows, np.array([in_si(found.values, found.units, *one) for one in backs])]
+    for back, points in enumerate(ways):  # unloading behind loading, in the order of a cycle; the shorter is padded
+        points = points[:, ~np.isnan(points).all(axis=0)]
+        falls = points.size > 0 and points[0, -1] < points[0, 0]
+        ways[back] = points if falls == bool(back) else points[:, ::-1]
+    branch = np.repeat([0.0, 1.0], [way.shape[1] for way in ways])
+    both = np.concatenate(ways, axis=1)
+    return Raw(depth=both[0], load=both[1], branch=branch, sha256=found.sha256)
+
+
+def in_si(
+    values: Mapping[str, NDArray[np.float64]], units: Mapping[str, str], key: str, requested: ColumnTable
+) -> NDArray[np.float64]:
+    """
+    Give a column of loads or of depths in SI units, with its sign.
+
+    Raises
+    ------
+    LoopFileError
+        It has no unit, one of another dimension, or another one than the file says.
+    """
+    own, dimension, unit = _DIMENSIONS.get(key, ("R", "length", "nm"))
+    name, above = requested.column, units.get(requested.column, "")
+    written = requested.unit or above
+    if not written:
+        remedy = f'write for example {key} = {{ column = "{name}", unit = "{unit}" }}, or its unit in brackets after '
+        raise LoopFileError(key, f"the column {shown(name)} has no unit; {remedy}its name in the header")
+    factor, of_file = (_factor(one, own) for one in (written, above or written))
+    if factor is None:
+        raise LoopFileError(key, f'the unit {shown(written)} is no {dimension}; write for example unit = "{unit}"')
+    if factor != of_file:
+        raise LoopFileError(
+            key,
+            f"the unit of the column {shown(name)} is {shown(written)} in the study and {shown(above)} in the file; "
+            "correct one of the two, or leave it out of the study",
+        )
+    return values[name] * (requested.sign * factor)
+
+
+def _factor(unit: str, name: str) -> float | None:
+    """Report how many of the unit of an input another one is; None if it is none of its dimension."""
+    try:
+        return si_value(f"1 {unit}", name)
+    except ValueError:
+        return None
