@@ -41,17 +41,7 @@ def schema() -> None:
     Editors use it to complete and check studies; `run` and `validate` use it too. What it cannot express (lists of
     unequal length, repeated values) is checked by `gradhesion validate`.
     """
-    from pydantic.json_schema import models_json_schema
-
-    from gradhesion.cli.study.fit.form import FitForm
     from gradhesion.cli.study.rules.form import Form
 
-    places, own = models_json_schema([(Form, "validation"), (FitForm, "validation")])
-    document = {
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "if": {"properties": {"kind": {"const": "fit"}}, "required": ["kind"]},
-        "then": places[FitForm, "validation"],
-        "else": places[Form, "validation"],
-        **own,
-    }
+    document = {"$schema": "https://json-schema.org/draft/2020-12/schema", **Form.model_json_schema()}
     show_block(json.dumps(document, indent=2))

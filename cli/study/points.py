@@ -94,10 +94,11 @@ def points_of(
         return Points(file=file, sha256=expected, columns=columns)
     try:
         found = read_columns(folder / file)
-        if expected and expected != found.sha256:
-            raise ColumnsError(changed(found.sha256, expected, f"write points = {value_of(file)}"))
     except ColumnsError as error:
         return Points(mistakes=(Mistake(KEY, written, str(error)),))
+    if expected and expected != found.sha256:
+        sentence = changed(found.sha256, expected, f"write points = {value_of(file)}")
+        return Points(mistakes=(Mistake(KEY, written, sentence),))
     sentences, own, wrong = [*_mistakes(data, found)], {}, []
     for name in (name for name in found.values if name in INPUTS):
         try:

@@ -226,7 +226,7 @@ def _between(asked: Asked, written: Mapping[str, Any], found: Iterable[tuple[str
     for key, words in found:
         path = steps_of(key)
         value = whole.at(path)
-        if value is not None or not {path, path[:1]} & (told | meant):
+        if value is not None or not (path in told | meant or path[:1] in asked.wrong):
             mistakes.append(Mistake(path, value, words))
     return mistakes
 

@@ -106,7 +106,7 @@ def read_loops(
     The loops, of a table one, of an instrument's file perhaps several; and why none of them can be fitted. One of
     several that cannot is kept with its problem.
     """
-    names = _names_of(folder, table.file)
+    names, how = _names_of(folder, table.file), {"average": average, "through_machine": through_machine}
     if not names or len(names) > MOST_FILES:
         what = f"{len(names):,} files are more than {MOST_FILES:,}" if names else "no file matches this pattern"
         remedy = 'write the path from the folder of the study, as "curves/*.csv"'
@@ -118,7 +118,7 @@ def read_loops(
         try:
             force = is_force_file(table.model_copy(update={"file": path.name}))
             raws = read_force_file(path, table, through_machine=through_machine) if force else [read_table(path, table)]
-            own = [_loop(raw, name, table, fitted, average, through_machine=through_machine) for raw in raws]
+            own = [_loop(raw, name, table, fitted, **how) for raw in raws]
         except LoopFileError as error:
             first = first or error
             own = [LoopFile(file=name, problem=str(error), sha256=_digest(path))]
@@ -160,7 +160,7 @@ def fingerprint(loops: Iterable[LoopFile]) -> str:
 
 
 def _loop(
-    raw: Raw, file: str, table: DataTable, fitted: list[str], average: bool, *, through_machine: bool  # noqa: FBT001
+    raw: Raw, file: str, table: DataTable, fitted: list[str], *, average: bool, through_machine: bool
 ) -> LoopFile:
     """Leave rows out, tell the branches, average, and refuse what is no loop."""
     branch = np.zeros(raw.depth.size) if raw.branch is None else raw.branch

@@ -62,15 +62,25 @@ def _columns(asked: Asked) -> Found:
     columns = [name for name in ("indentation", "displacement") if asked.has("data", name)]
     alone = is_force_file(data) and not columns and not asked.has("data", "load")
     if not alone and not columns:
-        yield "data.indentation", f"the column of the depths is required; write for example {line_of(('data', 'indentation'))}"
+        yield (
+            "data.indentation",
+            f"the column of the depths is required; write for example {line_of(('data', 'indentation'))}",
+        )
     if not alone and not asked.has("data", "load"):
         yield "data.load", required("data", "load")
     if len(columns) == 2:
         yield "data.displacement", "indentation gives the depths already; remove one of the two"
     if data.leave_out and not asked.has("data", "branch") and not alone:
-        yield "data.leave_out", f"rows are left out by the words of a column; write for example {line_of(('data', 'branch'))}"
+        yield (
+            "data.leave_out",
+            f"rows are left out by the words of a column; write for example {line_of(('data', 'branch'))}",
+        )
     depth = columns[0] if columns else "displacement" if control_of(asked.form) == "machine" else "indentation"
-    if noise is not None and (columns or alone) and [name for name in ("indentation", "displacement") if getattr(noise, name)] != [depth]:
+    if (
+        noise is not None
+        and (columns or alone)
+        and [name for name in ("indentation", "displacement") if getattr(noise, name)] != [depth]
+    ):
         yield "fit.noise", f"the data have {depth}; give the noise of {depth} and of load, and of nothing else"
 
 

@@ -124,7 +124,9 @@ def rate(asked: Asked) -> Found:
         count = float(np.min(asked.values[rim])) / float(np.max(asked.values[longest]))
         count *= max((wave.n for wave in form.profile.harmonics or ()), default=1)
         if MOST_WAVES < count < math.inf:
-            words = f"{count:,.0f} waves within the punch are more than the {MOST_WAVES:,.0f} that can be followed at a "
+            words = (
+                f"{count:,.0f} waves within the punch are more than the {MOST_WAVES:,.0f} that can be followed at a "
+            )
             yield home(rim), words + "speed; use a smaller punch or longer waves"
     if not asked.ends and not asked.wrong:
         words = f"an edge with a speed opens from a radius; give {asked.turn} or a finite radius of the punch"

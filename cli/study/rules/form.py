@@ -102,7 +102,13 @@ class Range(Table):
 
     start: float
     stop: float
-    num: int | None = said("the number of values; none where the input is searched", "50", None, ge=1)
+    num: int | None = said(
+        "the number of values, required unless the input is searched",
+        "50",
+        None,
+        ge=1,
+        json_schema_extra={"type": "integer", "minimum": 1},
+    )
     spacing: Literal["linear", "log"] = said("whether differences or ratios of neighbours are equal", '"log"', "linear")
 
 
@@ -239,7 +245,12 @@ def _exponent(value: object) -> object:
     raise ValueError(f"{words}; write for example exponent = 2.0")
 
 
-Words = Annotated[list[str], BeforeValidator(lambda value: [value] if isinstance(value, str) else value)]
+Words = Annotated[
+    list[str],
+    Field(min_length=1),
+    BeforeValidator(lambda value: [value] if isinstance(value, str) else value),
+    WithJsonSchema({"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 1}]}),
+]
 """One word, or a list of some."""
 if TYPE_CHECKING:  # made when this is run, which the types cannot show
     Parameters = Any
@@ -262,7 +273,10 @@ else:
     _about, *_ = dataclasses.fields(Rate)
     _least, _most = EXPONENTS
     _power = Annotated[float, Field(ge=_least, le=_most, allow_inf_nan=False)]
-    _power = _tagged(plain=_power, table=_ranged(Input("exponent", "", "", "0.3"), _power))
+    _power = Annotated[
+        _tagged(plain=_power, table=_ranged(Input("exponent", "", "", "0.3"), _power)),
+        WithJsonSchema({"anyOf": [{"type": "number"}, {"type": "object"}], "minimum": _least, "maximum": _most}),
+    ]
     RateTable = _table_of(Rate, exponent=(_power, said(_about.metadata["about"], _about.metadata["example"])))
     Deviations = create_model("Deviations", __base__=Table, **{one.name: _deviation(one) for one in INPUTS.values()})
 
@@ -315,10 +329,11 @@ class States(Table):
 class Method(Table):
     """How the scenes are solved."""
 
-    solver: Annotated[Words, Field(min_length=1)] = said(
+    solver: Words = said(
         "the exact solution, or an approximation for short waves; a list compares several",
         '["exact", "envelope"]',
-        ["exact"],
+        "exact",
+        validate_default=True,
     )
     check_contact: bool = said(
         "whether `status` reports that the contact on loading is not one disc", "false", default=True
@@ -435,7 +450,7 @@ class OffsetsTable(Table):
 
 def _offsets(value: object) -> object:
     """Read whether all zeros are fitted, or none."""
-    return {name: "free" if value else False for name in ("indentation", "load")} if isinstance(value, bool) else value
+    return dict.fromkeys(("indentation", "load"), "free" if value else False) if isinstance(value, bool) else value
 
 
 class Noise(Table):
@@ -449,10 +464,13 @@ class Noise(Table):
 class FitTable(Table):
     """What is fitted beside the parameters, and how."""
 
-    offsets: Annotated[OffsetsTable, BeforeValidator(_offsets)] = said(
+    offsets: Annotated[
+        OffsetsTable, BeforeValidator(_offsets), WithJsonSchema({"anyOf": [{"type": "boolean"}, {"type": "object"}]})
+    ] = said(
         "whether the zeros are also fitted; as a table `indentation`, `load` and, for a tilt, `slope`",
         '{ indentation = ["-1 um", "2 um"], load = "free", slope = true }',
-        OffsetsTable(),
+        default=True,
+        validate_default=True,
     )
     average: bool = said(
         "whether more than 2,000 points are averaged along the path, never across a jump", "false", default=True
@@ -486,12 +504,17 @@ class Form(Table):
     title: Annotated[str, AfterValidator(_one_line)] = said(
         "title of the dataset [name of the file]", '"Pull-off force against wavelength"', ""
     )
-    kind: Kind = said("one value per scene, curves of each scene, optima, or parameters from a measured loop", '"map"', "map")  # fmt: skip
+    kind: Kind = said(
+        "one value per scene, curves of each scene, optima, or parameters from a measured loop", '"map"', "map"
+    )
     layout: Literal["grid", "points"] = said(
         "every combination of the axes is a scene, or the lists are combined item by item", '"grid"', "grid"
     )
     outputs: list[str] = said(
-        "quantities to compute for each scene", '["pull_off_force", "dissipated_energy"]', [], min_length=1
+        "quantities to compute for each scene, required for maps and curves",
+        '["pull_off_force", "dissipated_energy"]',
+        [],
+        min_length=1,
     )
     parameters: Parameters = said("the parameters of a scene, each a number or an axis", "{ k = 0.5, nu = 0.3, .. }")
     physical: Physical | None = said("quantities with units instead of ratios", '{ R = "1 mm", .. }', None)

@@ -217,7 +217,9 @@ def waves(asked: Asked) -> Found:
     table = asked.form.profile
     numbers = [wave.n for wave in table.harmonics or ()]
     yield from each_once("profile", numbers)
-    flat = len({*numbers}) == len(numbers) > 0 and not any(one.cos or one.sin for one in table.made(exponent=2.0).harmonics)
+    flat = len({*numbers}) == len(numbers) > 0 and not any(
+        one.cos or one.sin for one in table.made(exponent=2.0).harmonics
+    )
     for name in asked.waved[:1] if flat else ():
         words = f"all cos and sin are zero, so that {name} has no effect; give one a value, or use {name} = 0"
         yield "profile.harmonics", words
@@ -261,7 +263,7 @@ def control(asked: Asked) -> Found:
     if not asked.right("loading.control"):
         return
     control, given = asked.form.loading.control, asked.of("machine")
-    for name in given if control != "machine" else ():
+    for name in (one for one in given if control != "machine" and one in asked.form.entries):
         words = f'control = "{control}" has no machine; remove this key, or write control = "machine" under [loading]'
         yield home(name), words
     if control == "machine" and not given:
@@ -289,7 +291,8 @@ def _range(asked: Asked) -> Found:
     """Check that the range of the attraction is not given where it has no effect."""
     known = [name for name, own in OUTPUTS.items() if own.needs == "range"]
     for name in asked.of("range"):
-        if asked.form.outputs and not {*known} & {*asked.form.outputs}:
+        alone = INPUTS[name].table == "parameters" and asked.units  # a ratio, which is refused as such
+        if asked.form.outputs and not alone and not {*known} & {*asked.form.outputs}:
             yield home(name), f"no output needs this key; remove it, or add {' or '.join(map(shown, known))} to outputs"
 
 
@@ -301,6 +304,6 @@ def _size(asked: Asked) -> Found:
     scenes *= 1 if spectrum is None else spectrum.realisations
     kind = "pareto" if asked.kind == "optimum" and table is not None and len(table.goals) > 1 else asked.kind
     if scenes > MOST_SCENES[kind]:
-        words = f"a {kind} study has at most {MOST_SCENES[kind]:,} scenes, and this one has {scenes:,}"
-        more = ' or write kind = "map"' if kind == "curve" else ""
-        yield "kind" if kind in ("curve", "pareto") else "parameters", f"{words}; use fewer values, split the study{more}"
+        words = f"a {kind} study has at most {MOST_SCENES[kind]:,} scenes, and this one has {scenes:,}; use fewer "
+        words += "values, split the study" + (' or write kind = "map"' if kind == "curve" else "")
+        yield "kind" if kind in ("curve", "pareto") else "parameters", words

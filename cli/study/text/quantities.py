@@ -128,8 +128,8 @@ def factor_of(written: str, name: str) -> Decimal:
     """
     factor = factor_between(written, QUANTITIES[name].unit)
     if not factor:
-        meant = next((usual for usual in _USUAL if usual.lower() == written.lower() != usual), "")
-        meant = f', did you mean "{meant}"?' if meant and meant != written else ""
+        like = [usual for usual in _USUAL if usual.lower() == written.lower() and usual != written]
+        meant = f', did you mean "{like[0]}"?' if like else ""
         unknown = f'the unit "{written}" is not known{meant}'
         problem = unknown if factor is None else f'"{written}" is not a unit of this quantity{meant}'
         raise ValueError(f"{problem}; {_expected(name)}")

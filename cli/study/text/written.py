@@ -4,9 +4,12 @@ import json
 import re
 import tomllib
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Final
 
 from gradhesion.cli.study.text.places import Path, lines_of
+
+_VALUE: Final = re.compile(r"""(?<==)(\s*)("[^"\\]*"|'[^']*')""")
+"""A string behind its key."""
 
 
 def value_of(value: Any) -> str:
@@ -55,7 +58,7 @@ def with_fingerprint(data: Mapping[str, Any], text: str, path: Path, sha256: str
         lines.insert(number, f"{dot}sha256 = {value_of(sha256)}")
     elif path in places:
         at = places[path] - 1
-        lines[at] = re.sub(r"""(?<==)(\s*)("[^"\\]*"|'[^']*')""", lambda old: old[1] + value_of(named), lines[at], count=1)
+        lines[at] = _VALUE.sub(lambda old: old[1] + value_of(named), lines[at], count=1)
     text = "\n".join(lines)
     try:
         return data, text if tomllib.loads(text) == data else ""
