@@ -11,9 +11,15 @@ from gradhesion.cli.terminal.examples import example
 from gradhesion.cli.terminal.output import show, show_block
 
 
+overriding = click.option(
+    "--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a key of the study; repeatable."
+)
+"""The option of every command that reads a study."""
+
+
 @click.command(epilog=example("validate study.toml", "validate study.toml --set parameters.A=0.02"))
 @click.argument("study", type=click.Path(path_type=Path))
-@click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a key of the study; repeatable.")
+@overriding
 def validate(study: Path, overrides: tuple[str, ...]) -> None:
     """Check a study and report every error.
 
