@@ -10,7 +10,6 @@ from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.examples import example
 from gradhesion.cli.terminal.output import show, show_block
 
-
 overriding = click.option(
     "--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a key of the study; repeatable."
 )

@@ -13,7 +13,7 @@ from gradhesion.cli.study.rules.asked import REQUIRED
 from gradhesion.cli.study.rules.axes import MOST_VALUES
 from gradhesion.cli.study.rules.mistakes import Mistake
 from gradhesion.cli.study.text.places import Path as Key
-from gradhesion.cli.study.text.quantities import in_si
+from gradhesion.cli.study.text.quantities import factor_of_column, scaled
 from gradhesion.cli.study.text.written import value_of, with_fingerprint
 from gradhesion.cli.tables.columns import Columns, ColumnsError, changed
 from gradhesion.cli.tables.reading import read_columns
@@ -134,14 +134,8 @@ def _column(name: str, found: Columns) -> NDArray[np.float64]:
     ColumnsError
         It has no unit, or one of another dimension; or its values are out of range.
     """
-    key, unit, given = INPUTS[name], found.units.get(name, ""), found.values[name]
-    if key.table == "physical" and not unit:
-        remedy = f"write it after the name in brackets, as {name} [{key.unit}]"
-        raise ColumnsError(f"its column {name} has no unit; {remedy}")
-    try:
-        values = in_si(given, unit or key.unit, name)
-    except ValueError as error:
-        raise ColumnsError(f"its column {name} [{unit}]: {error}") from None
+    key, given = INPUTS[name], found.values[name]
+    values = scaled(given, factor_of_column(found, name, name))
     rows = np.flatnonzero(~key.admits(values))
     if rows.size:
         more = f", and {rows.size - 1:,} more rows are as well" if rows.size > 1 else ""

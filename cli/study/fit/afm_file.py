@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.study.fit.columns import PAUSE, LoopFileError, Raw, in_si
 from gradhesion.cli.study.rules.form import ColumnTable, DataTable
+from gradhesion.cli.tables.columns import Columns
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 
 INSTRUMENTS: Final = (".ibw", ".jpk-force", ".jpk-force-map", ".jpk-qi-data", ".jpk-qi-series", ".zip")
@@ -88,7 +89,7 @@ def _raw(curve: Any, table: DataTable, sha256: str, *, through_machine: bool, of
         if name not in curve:
             raise LoopFileError(key, f"the file has no column {shown(name)}; {did_you_mean(name, curve.columns)}")
         units = {name: "N" if name == "force" else "m"}  # afmformats has SI units
-        return in_si({name: np.asarray(curve[name], dtype=np.float64)}, units, key, requested)
+        return in_si(Columns(values={name: known(name)}, units=units, sha256=sha256, place=str), key, requested)
 
     def known(name: str) -> NDArray[np.float64]:
         if name not in curve:

@@ -1,6 +1,5 @@
 """The columns of a measured loop in SI units, from a table of numbers or from an instrument's file."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -9,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.study.rules.form import ColumnTable, DataTable
-from gradhesion.cli.study.text.quantities import si_value
-from gradhesion.cli.tables.columns import ColumnsError
+from gradhesion.cli.study.text.quantities import factor_of_column
+from gradhesion.cli.tables.columns import Columns, ColumnsError
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 
@@ -23,8 +22,6 @@ BRANCHES: Final = {
     **dict.fromkeys(("unloading", "retract", "retracting", "withdraw", "backward", "true"), 1.0),
 }
 """What a column of branches says, with the number for it, which may stand there as well."""
-_DIMENSIONS: Final = {"load": ("preload", "force", "nN")}
-"""For a key of [data] an input of its dimension, a word for it, and a unit to name; the others are lengths."""
 
 
 class LoopFileError(ValueError):
@@ -83,12 +80,12 @@ def read_table(path: Path, table: DataTable) -> Raw:
             there = (*found.values, *found.others)
             raise LoopFileError(key, f"the file has no column {shown(name)}; {did_you_mean(name, there)}")
     columns = ((table.depths, depth), ("load", load))
-    rows = np.array([in_si(found.values, found.units, *one) for one in columns])
+    rows = np.array([in_si(found, *one) for one in columns])
     if not depth.back:
         branch, cycle = (found.values[name] if name else None for name in (table.branch, table.cycle))
         return Raw(depth=rows[0], load=rows[1], branch=branch, cycle=cycle, sha256=found.sha256)
     backs = ((key, one.model_copy(update={"column": one.back})) for key, one in columns)
-    ways = [rows, np.array([in_si(found.values, found.units, *one) for one in backs])]
+    ways = [rows, np.array([in_si(found, *one) for one in backs])]
     for back, points in enumerate(ways):  # unloading behind loading, in the order of a cycle; the shorter is padded
         points = points[:, ~np.isnan(points).all(axis=0)]
         falls = points.size > 0 and points[0, -1] < points[0, 0]
@@ -98,9 +95,7 @@ def read_table(path: Path, table: DataTable) -> Raw:
     return Raw(depth=both[0], load=both[1], branch=branch, sha256=found.sha256)
 
 
-def in_si(
-    values: Mapping[str, NDArray[np.float64]], units: Mapping[str, str], key: str, requested: ColumnTable
-) -> NDArray[np.float64]:
+def in_si(found: Columns, key: str, requested: ColumnTable) -> NDArray[np.float64]:
     """
     Give a column of loads or of depths in SI units, with its sign.
 
@@ -109,27 +104,9 @@ def in_si(
     LoopFileError
         It has no unit, one of another dimension, or another one than the file says.
     """
-    own, dimension, unit = _DIMENSIONS.get(key, ("R", "length", "nm"))
-    name, above = requested.column, units.get(requested.column, "")
-    written = requested.unit or above
-    if not written:
-        remedy = f'write for example {key} = {{ column = "{name}", unit = "{unit}" }}, or its unit in brackets after '
-        raise LoopFileError(key, f"the column {shown(name)} has no unit; {remedy}its name in the header")
-    factor, of_file = (_factor(one, own) for one in (written, above or written))
-    if factor is None:
-        raise LoopFileError(key, f'the unit {shown(written)} is no {dimension}; write for example unit = "{unit}"')
-    if factor != of_file:
-        raise LoopFileError(
-            key,
-            f"the unit of the column {shown(name)} is {shown(written)} in the study and {shown(above)} in the file; "
-            "correct one of the two, or leave it out of the study",
-        )
-    return values[name] * (requested.sign * factor)
-
-
-def _factor(unit: str, name: str) -> float | None:
-    """Report how many of the unit of an input another one is; None if it is none of its dimension."""
+    own = "load" if key == "load" else "indentation"
     try:
-        return si_value(f"1 {unit}", name)
-    except ValueError:
-        return None
+        factor = factor_of_column(found, requested.column, own, requested.unit)
+    except ColumnsError as error:
+        raise LoopFileError(key, str(error)) from None
+    return found.values[requested.column] * (requested.sign * float(factor))

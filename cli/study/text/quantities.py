@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.cli.tables.columns import Columns, ColumnsError
 from gradhesion.core.problem.inputs import ANY, INPUTS, PHYSICAL, Input
 
 if TYPE_CHECKING:
@@ -134,6 +135,30 @@ def factor_of(written: str, name: str) -> Decimal:
         problem = unknown if factor is None else f'"{written}" is not a unit of this quantity{meant}'
         raise ValueError(f"{problem}; {_expected(name)}")
     return factor
+
+
+def factor_of_column(found: Columns, name: str, key: str, written: str = "") -> Decimal:
+    """
+    Report how many of the unit of a key the unit of a column is: the one written in a study, or in the file.
+
+    Raises
+    ------
+    ColumnsError
+        There is none, it has another dimension, or the two differ; the message says what to write.
+    """
+    of_file, own = found.units.get(name, ""), QUANTITIES[key].unit
+    unit = written or of_file or (own if own == "1" else "")
+    if not unit:
+        remedy = f"write it after the name in the header in brackets, as {name} [{own}]"
+        raise ColumnsError(f"the column {name} has no unit; {remedy}")
+    try:
+        factors = {factor_of(one, key) for one in (unit, of_file) if one}
+    except ValueError as error:
+        raise ColumnsError(f"the column {name} [{unit}]: {error}") from None
+    if len(factors) > 1:
+        words = f'the unit of the column {name} is "{unit}" in the study and "{of_file}" in the file'
+        raise ColumnsError(f"{words}; correct one of the two, or leave it out of the study")
+    return factors.pop()
 
 
 def scaled(numbers: NDArray[Any], factor: Decimal) -> NDArray[np.float64]:
