@@ -177,7 +177,5 @@ def _mistakes_of_keys(data: Mapping[str, Any], table: Mapping[str, Any]) -> Iter
             sentence = "this comes from the fit of the profile; remove it, or remove file under [profile]"
             yield Mistake((key.table, key.name), own[key.name], sentence)
     if "up_to" not in table and _up_to(data, table) is None:
-        sentence = (
-            "unless a_max is one finite length, a profile needs the distance up to which it is fitted; write "
-        )
+        sentence = "unless a_max is one finite length, a profile needs the distance up to which it is fitted; write "
         yield Mistake(("profile", "up_to"), None, f"{sentence}for example {line_of(('profile', 'up_to'))}")

@@ -144,7 +144,7 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
             values.flags.writeable = False
     solver = tuple(form.method.solver) if asked.lists_solvers else form.method.solver[0]
     spectrum = form.profile.spectrum.made() if form.profile.spectrum else None
-    profile = random_profile(spectrum, 0, form.profile.exponent) if spectrum else shape_of(form.profile)
+    profile = random_profile(spectrum, 0, float(form.profile.exponent)) if spectrum else shape_of(form.profile)
     data, text = measured.stored(*points.stored(source.data, source.text))
     return Study(
         name=source.name,

@@ -31,9 +31,9 @@ def expanded(entry: Entry) -> Values:
             return np.array([entry.start, entry.stop]) + 0.0
         values = (np.geomspace if entry.spacing == "log" else np.linspace)(entry.start, entry.stop, entry.num)
         values = _shortest(values, np.abs(values) if entry.spacing == "log" else max(abs(entry.start), abs(entry.stop)))
-        values = np.clip(values, *sorted((entry.start, entry.stop)))
+        values = np.clip(values, min(entry.start, entry.stop), max(entry.start, entry.stop))
         values[0], values[-1] = entry.start, entry.stop
-        return values + 0.0  # no negative zeros
+        return np.asarray(values + 0.0)  # no negative zeros
     return np.array(entry, dtype=np.float64) + 0.0 if isinstance(entry, list) else float(entry) + 0.0
 
 

@@ -151,12 +151,14 @@ def _ranged(own: Input, number: Any) -> Any:
 def _entry(own: Input) -> tuple[Any, Any]:
     """Make the key of an input: a number, a list of numbers, or a range table; quantities become numbers in SI."""
     number: Any
+    end: Any
+    limits: dict[str, Any] = {"strict": True, **own.bounds}
     if own.table == "physical":
         number = _quantity(own.name)
         end = Annotated[number, Field(allow_inf_nan=False)]
     else:
-        number = Annotated[float, Field(strict=True, allow_inf_nan=own.infinite, **own.bounds)]
-        end = Annotated[float, Field(strict=True, allow_inf_nan=False, **own.bounds)]
+        number = Annotated[float, Field(allow_inf_nan=own.infinite, **limits)]
+        end = Annotated[float, Field(allow_inf_nan=False, **limits)]
     plain: Any = number
     if own.name == "indentation_max":
         read = BeforeValidator(lambda value: value if value == DATA else si_value(value, own.name))
@@ -237,14 +239,6 @@ def _deviation(own: Input) -> tuple[Any, Any]:
 # The punch, its loading and what its edge meets.
 
 
-def _exponent(value: object) -> object:
-    """Check the power of a punch."""
-    if value == "fit" or (isinstance(value, int | float) and not isinstance(value, bool) and 1.0 <= value < math.inf):
-        return float(value) if isinstance(value, int) else value
-    words = "the power of the punch is a number of 1 or more, and finite (1 is a cone)"
-    raise ValueError(f"{words}; write for example exponent = 2.0")
-
-
 Words = Annotated[
     list[str],
     Field(min_length=1),
@@ -293,7 +287,7 @@ class Uncertainty(Deviations):  # type: ignore[misc]
 class ProfileTable(Shape):  # type: ignore[misc]
     """The shape of the punch: that of a series, of random waves or of heights in a file."""
 
-    exponent: Annotated[float | Literal["fit"], BeforeValidator(_exponent)] = said(
+    exponent: Annotated[float, Field(ge=1.0, allow_inf_nan=False)] | Literal["fit"] = said(
         dataclasses.fields(Profile)[0].metadata["about"], "2.0", 2.0, json_schema_extra={"minimum": 1.0}
     )
     spectrum: SpectrumTable | None = said(

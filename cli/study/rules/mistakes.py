@@ -157,8 +157,8 @@ def _unknown_key(path: Path, absent: Collection[str]) -> tuple[Path, str]:
         homes["uncertainty",] = ["samples", "seed"]
     for other, keys in homes.items():
         if other != table and key in keys:
-            place = f"under [{dotted(other)}]" if other else "at the top, before the first [table]"
-            return (*other, key), f"this key belongs {place}; move it there"
+            where = f"under [{dotted(other)}]" if other else "at the top, before the first [table]"
+            return (*other, key), f"this key belongs {where}; move it there"
     if "num" in known and key in ("step", "by", "increment", "delta"):
         sentence = "a range has no step; give the number of its values instead, for example num = 11"
         return (*table, "num"), f'{sentence}, evenly spaced unless spacing = "log"'

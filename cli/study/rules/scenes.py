@@ -62,7 +62,7 @@ def _axes(asked: Asked) -> Found:
 
 def _outputs(asked: Asked) -> Found:
     """Check that each output belongs to the kind of the study, is asked for once, and is known of its scenes."""
-    names, known = asked.data.get("outputs"), OUTPUTS_OF.get(asked.kind)
+    names, known = asked.data.get("outputs"), OUTPUTS_OF.get(asked.kind, ())
     if known and names is None:
         yield "outputs", required("outputs")
     listed = names if isinstance(names, list) and known else []

@@ -8,6 +8,7 @@ import numpy as np
 from gradhesion.cli.names.outputs import OF_LINEAR, SI, SPREADABLE
 from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.rules.asked import Asked, Found, home
+from gradhesion.cli.study.rules.form import Optimum
 from gradhesion.cli.study.rules.mistakes import line_of
 from gradhesion.cli.terminal.wording import did_you_mean, nearest, shown
 from gradhesion.core.problem.inputs import INPUTS
@@ -61,9 +62,9 @@ def search(asked: Asked) -> Found:
         if asked.kind == "optimum" and "optimum" not in asked.data:
             yield "optimum", f"this table is required; write for example {line_of(('optimum',))}"
         return
-    yield from _goals(asked)
+    yield from _goals(asked, table.goals)
     if asked.right("optimum.over"):
-        yield from _over(asked)
+        yield from _over(asked, table)
     known = tuple(name for name in OUTPUTS if name not in SENSITIVITIES)
     for word in ("minimum", "maximum"):
         for name, value in getattr(table.require, word).items():
@@ -78,9 +79,9 @@ def search(asked: Asked) -> Found:
         yield "method.solver", "an optimum has one solver; choose one of these"
 
 
-def _goals(asked: Asked) -> Found:
+def _goals(asked: Asked, goals: list[tuple[str, str]]) -> Found:
     """Check that one goal or two are named, each an output with one value a scene."""
-    goals, right = asked.form.optimum.goals, asked.right("optimum.maximise", "optimum.minimise")
+    right = asked.right("optimum.maximise", "optimum.minimise")
     meant = {("optimum", "maximise"), ("optimum", "minimise")} & {mistake.meant for mistake in asked.mistakes}
     if not goals and right and not meant:
         yield "optimum.maximise", f"there is no goal; write for example {line_of(('optimum', 'maximise'))}"
@@ -96,9 +97,8 @@ def _goals(asked: Asked) -> Found:
             yield f"optimum.{way}", f"{shown(name)} cannot be a goal; {words}{did_you_mean(name, known)}"
 
 
-def _over(asked: Asked) -> Found:
+def _over(asked: Asked, table: Optimum) -> Found:
     """Check that all that is searched has bounds, and that the other axes have values."""
-    table, points = asked.form.optimum, 2 * asked.form.optimum.resolution - 1
     if not table.over:
         yield "optimum.over", f"no input is searched; write for example {line_of(('optimum', 'over'))}"
     for i, name in enumerate(table.over):
@@ -117,7 +117,7 @@ def _over(asked: Asked) -> Found:
             yield home(name), "the bounds are the same; write another stop, or a number"
     if len(table.over) > MOST_SEARCHED:
         yield "optimum.over", f"at most {MOST_SEARCHED} inputs are searched at once; fix the others"
-    elif points ** len(table.over) > MOST_POINTS:
+    elif (2 * table.resolution - 1) ** len(table.over) > MOST_POINTS:
         most = int(0.5 * (1 + MOST_POINTS ** (1.0 / len(table.over))))
         words = f"a sweep over {len(table.over)} inputs has a resolution of at most {most}; use that or less"
         yield "optimum.resolution", words
