@@ -79,7 +79,7 @@ def _draw(study: Study, block: Block) -> Drawing:
             parts[name] = values
         else:
             values = values if values.size else np.array([blank_of(name)])
-            parts[name] = values.reshape(*front, *values.shape).astype(INTEGERS.get(name, values.dtype), copy=False)
+            parts[name] = values.reshape((*front, *values.shape)).astype(INTEGERS.get(name, values.dtype), copy=False)
     scales = scales_of(study, given)
     parts |= {name + SI: parts[name] * scales[UNITS[name]].item() for name in study.in_si}
     parts["status"] = np.full(front, status, dtype=study.status_type)

@@ -174,7 +174,7 @@ FILES = {
     "x [um],height [nm]\n1,2\n": 'there is no column "r"',
     "r [um],hight [nm]\n1,2\n": 'rename "hight"?',
     "r,height [nm]\n1,2\n": "the column r has no unit",
-    "r [um],height [V]\n1,2\n": "the unit of height [V] is not a length",
+    "r [um],height [V]\n1,2\n": 'height [V]: "V" is not a unit',
     "r [um],height [nm]\n1,2\n": "too few",
     "r [um],height [nm]\n1,nan\n": "no row has two numbers",
     "r [um],height [nm]\n1,two\n": 'line 2: height = "two"',
