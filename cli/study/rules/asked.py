@@ -22,29 +22,18 @@ Found = Iterator[tuple[str, str]]
 """Dotted keys, and what is wrong with each."""
 REQUIRED: Final = {"k": 0.5, "nu": 0.3}
 """The parameters that a form needs, with valid values: they stand for wrong ones, so that all else can be read."""
-_FIT: Final = 'this belongs to a fit; write kind = "fit" at the top, or remove it'
-_NO_FIT: Final = "a fit does not use this key; remove it"
-_OF_MAPS: Final = 'only maps have uncertain inputs; write kind = "map", or remove it'
-_OPTIMUM: Final = 'the study is of another kind; write kind = "optimum", or remove it'
-_FOREIGN: Final[Mapping[str, Mapping[str, str]]] = {
-    "map": {"optimum": _OPTIMUM, "data": _FIT, "fit": _FIT},
-    "curve": {"optimum": _OPTIMUM, "uncertainty": _OF_MAPS, "data": _FIT, "fit": _FIT},
-    "optimum": {
-        "outputs": "[optimum] names the outputs; remove this key",
-        "uncertainty": _OF_MAPS,
-        "data": _FIT,
-        "fit": _FIT,
-    },
-    "fit": {
-        "outputs": "a fit gives the parameters that have a range; remove this key",
-        "layout": "a fit has no scenes; remove this key",
-        "states": "a fit draws no states; run a curve study with what it finds, and remove this table",
-        "method": "a loop is fitted by the exact solver; remove this table",
-        "optimum": _NO_FIT,
-        "uncertainty": _NO_FIT,
-    },
+_SCENES: Final = ("map", "curve", "optimum")
+_KINDS_OF: Final = {
+    "outputs": ("map", "curve"),
+    "layout": _SCENES,
+    "states": _SCENES,
+    "method": _SCENES,
+    "optimum": ("optimum",),
+    "uncertainty": ("map",),
+    "data": ("fit",),
+    "fit": ("fit",),
 }
-"""The keys that studies of a kind do not have, and what to do about them."""
+"""The kinds of study that have a key, where not all have it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -180,9 +169,10 @@ def kind_of(data: Mapping[str, Any]) -> str:
     return (isinstance(kind, str) and nearest(kind, KINDS)) or "map"
 
 
-def foreign_to(kind: str) -> Mapping[str, str]:
+def foreign_to(kind: str) -> dict[str, str]:
     """Give the keys at the top that a kind of study does not have, and what to do about them."""
-    return _FOREIGN[kind]
+    words = 'a study of kind "{}" does not have this; remove it, or write kind = "{}"'
+    return {key: words.format(kind, kinds[0]) for key, kinds in _KINDS_OF.items() if kind not in kinds}
 
 
 def home(name: str) -> str:

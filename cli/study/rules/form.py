@@ -444,7 +444,12 @@ class OffsetsTable(Table):
 
 def _offsets(value: object) -> object:
     """Read whether all zeros are fitted, or none."""
-    return dict.fromkeys(("indentation", "load"), "free" if value else False) if isinstance(value, bool) else value
+    if isinstance(value, bool):
+        return dict.fromkeys(("indentation", "load"), "free" if value else False)
+    if not isinstance(value, Mapping | Table):
+        what = "this must be true or false, or a table; write for example offsets = { slope = true }"
+        raise ValueError(what)  # noqa: TRY004 (pydantic hears no other)
+    return value
 
 
 class Noise(Table):

@@ -40,24 +40,20 @@ def _axes(asked: Asked) -> Found:
         if isinstance(entry, Mapping) and "num" not in entry and name not in asked.over:
             yield f"{home(name)}.num", required(own.table, name, "num")
     k, nu = (np.atleast_1d(asked.axes.get(name, 0.5)) for name in ("k", "nu"))
+    soft = np.any(k == 1.0) and np.any(nu != 0.5)
     if not asked.points:
         for name, values in asked.values.items():
             yield from repeated(name, values)
-        others = nu[nu != 0.5]
-        if others.size and np.any(k == 1.0):
-            yield "parameters.k", f"with k = 1 and nu = {others[0]} {_STIFF}"
-        return
+    elif soft:  # in one scene, unless the lists differ in length, as is said below
+        soft = (1 in (k.size, nu.size) or k.size == nu.size) and np.any((k == 1.0) & (nu != 0.5))
+    if soft:
+        yield "parameters.k", f"with k = 1 and nu other than 0.5 {_STIFF}"
     lengths = {name: values.size for name, values in asked.axes.items() if isinstance(values, np.ndarray)}
     first = next(iter(lengths), "")
-    for name, length in lengths.items():
+    for name, length in lengths.items() if asked.points else ():
         if length != lengths[first]:
             words = f'it has {length} values, but {first} has {lengths[first]}; with layout = "points" all lists have '
             yield home(name), words + "one length (a single number applies to all scenes)"
-    if 1 in (k.size, nu.size) or k.size == nu.size:
-        scenes = np.flatnonzero((k == 1.0) & (nu != 0.5))
-        if scenes.size:
-            where = f"in scene {scenes[0]}" + (f" (and {scenes.size - 1} more)" if scenes.size > 1 else "")
-            yield "parameters.k", f"with k = 1 and nu below 0.5 {where}, counted from 0, {_STIFF}"
 
 
 def _outputs(asked: Asked) -> Found:
@@ -171,7 +167,7 @@ def _ways(asked: Asked, own: Input, kin: list[str]) -> Found:
     if apart and asked.given(own.name):
         there = asked.given(*(name for name in physical if INPUTS[name].follows))
         remedy = f"remove it: {there[0]} is given" if there else f"remove it and give {', '.join(physical)} there"
-        yield home(own.name), f"a ratio, where [physical] has quantities with units; {remedy}, or remove [physical]"
+        yield home(own.name), f"a ratio, where [physical] gives quantities with units; {remedy}, or remove [physical]"
         if own.name != "modulus":
             return
     united = [name for name in physical if INPUTS[name].follows and asked.units]

@@ -150,13 +150,13 @@ def factor_of_column(found: Columns, name: str, key: str, written: str = "") -> 
     unit = written or of_file or (own if own == "1" else "")
     if not unit:
         remedy = f"write it after the name in the header in brackets, as {name} [{own}]"
-        raise ColumnsError(f"the column {name} has no unit; {remedy}")
+        raise ColumnsError(f'the column "{name}" has no unit; {remedy}')
     try:
         factors = {factor_of(one, key) for one in (unit, of_file) if one}
     except ValueError as error:
-        raise ColumnsError(f"the column {name} [{unit}]: {str(error).partition('; write')[0]}") from None
+        raise ColumnsError(f'the column "{name}": {str(error).partition("; write")[0]}') from None
     if len(factors) > 1:
-        words = f'the unit of the column {name} is "{unit}" in the study and "{of_file}" in the file'
+        words = f'the unit of the column "{name}" is "{unit}" in the study and "{of_file}" in the file'
         raise ColumnsError(f"{words}; correct one of the two, or leave it out of the study")
     return factors.pop()
 

@@ -107,7 +107,7 @@ def test_units_are_those_of_the_header(study: Path, tmp_path: Path) -> None:
         found = load_study(study).parameters
         np.testing.assert_array_equal(found["R"], [25e-6, 2.5e-6])
         np.testing.assert_array_equal(found["A"], [0.0, 0.01])
-    for header, words in {"R,A": "R has no unit", "R [um],A [m]": '"m" is not', "R [N],A": '"N" is not'}.items():
+    for header, words in {"R,A": '"R" has no unit', "R [um],A [m]": '"m" is not', "R [N],A": '"N" is not'}.items():
         (tmp_path / "samples.csv").write_text(f"{header}\n5,0.0\n")
         assert any(words in line for line in mistakes(study)), header
 
