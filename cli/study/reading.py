@@ -114,7 +114,7 @@ def _fit(source: Source) -> FitStudy:
     mistakes += _between(asked, source.data, broken_in_fit(asked))
     if asked.form.data and not any("data" in (*one.path[:1], *one.meant[:1]) for one in mistakes):
         found = fit_from(source, asked)
-        if isinstance(found, FitStudy) and not mistakes:
+        if isinstance(found, FitStudy) and not mistakes and not source.mistakes:
             return found
         mistakes += [found] if isinstance(found, Mistake) else []
     raise _refused(source, mistakes)
