@@ -25,7 +25,7 @@ from pydantic import (
 )
 
 from gradhesion.cli.study.rules.answers import Deviation
-from gradhesion.cli.study.text.quantities import QUANTITIES, si_value
+from gradhesion.cli.study.text.quantities import QUANTITIES, ratio_sentence, si_value
 from gradhesion.core.answers.spectrum import Spectrum
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.inputs import INPUTS, Input
@@ -203,7 +203,7 @@ def deviation_of(value: object, name: str) -> Deviation:
             return si_value(one, name)
         if isinstance(one, int | float) and not isinstance(one, bool):
             return float(one)
-        raise ValueError(f"not a deviation; {forms}")
+        raise ValueError((isinstance(one, str) and ratio_sentence(one, name)) or f"not a deviation; {forms}")
 
     if isinstance(value, Mapping):
         if {*value} != {"low", "high"}:

@@ -152,13 +152,13 @@ def factor_of_column(found: Columns, name: str, key: str, written: str = "") -> 
         remedy = f"write it after the name in the header in brackets, as {name} [{own}]"
         raise ColumnsError(f'the column "{name}" has no unit; {remedy}')
     try:
-        factors = {factor_of(one, key) for one in (unit, of_file) if one}
+        factor = factor_of(unit, key)
     except ValueError as error:
         raise ColumnsError(f'the column "{name}": {str(error).partition("; write")[0]}') from None
-    if len(factors) > 1:
-        words = f'the unit of the column "{name}" is "{unit}" in the study and "{of_file}" in the file'
+    if of_file and of_file != unit and factor_between(of_file, own) != factor:
+        words = f'the unit of the column "{name}" is "{unit}" in the study and "{of_file}" in the header of the file'
         raise ColumnsError(f"{words}; correct one of the two, or leave it out of the study")
-    return factors.pop()
+    return factor
 
 
 def scaled(numbers: NDArray[Any], factor: Decimal) -> NDArray[np.float64]:

@@ -239,7 +239,7 @@ def test_a_column_is_named_in_any_case_or_with_its_unit(folder: Path) -> None:
         np.testing.assert_array_equal(loop.depth, plain.depth)
         np.testing.assert_array_equal(loop.load, plain.load)
     told = refused(data__indentation={"column": "Height", "unit": "um"}, data__load="load")
-    assert '"um" in the study and "nm" in the file' in told
+    assert '"um" in the study and "nm" in the header' in told
 
 
 def test_wrong_signs_are_refused_with_the_remedy(folder: Path) -> None:
