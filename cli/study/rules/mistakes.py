@@ -67,7 +67,7 @@ def _path(detail: ErrorDetails, data: Mapping[str, Any]) -> Path:
     value: Any = data
     *_, last = steps = detail["loc"]
     for step in steps:
-        if (isinstance(value, list) and isinstance(step, int)) or (isinstance(value, Mapping) and step in value):
+        if isinstance(value, list) if isinstance(step, int) else isinstance(value, Mapping) and step in value:
             path.append(step)
             value = value[step]
     return (*path, last) if detail["type"] == "missing" else tuple(path)

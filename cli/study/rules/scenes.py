@@ -40,12 +40,12 @@ def _axes(asked: Asked) -> Found:
         if isinstance(entry, Mapping) and "num" not in entry and name not in asked.over:
             yield f"{home(name)}.num", required(own.table, name, "num")
     k, nu = (np.atleast_1d(asked.axes.get(name, 0.5)) for name in ("k", "nu"))
-    soft = np.any(k == 1.0) and np.any(nu != 0.5)
+    soft = bool(np.any(k == 1.0) and np.any(nu != 0.5))
     if not asked.points:
         for name, values in asked.values.items():
             yield from repeated(name, values)
     elif soft:  # in one scene, unless the lists differ in length, as is said below
-        soft = (1 in (k.size, nu.size) or k.size == nu.size) and np.any((k == 1.0) & (nu != 0.5))
+        soft = (1 in (k.size, nu.size) or k.size == nu.size) and bool(np.any((k == 1.0) & (nu != 0.5)))
     if soft:
         yield "parameters.k", f"with k = 1 and nu other than 0.5 {_STIFF}"
     lengths = {name: values.size for name, values in asked.axes.items() if isinstance(values, np.ndarray)}
