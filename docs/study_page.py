@@ -6,7 +6,7 @@ from typing import Any, Final
 
 from docs.tables import code, table
 from gradhesion.cli.names.outputs import OUTPUTS
-from gradhesion.cli.study.rules.form import Form
+from gradhesion.cli.study.rules.form import Form, OffsetsTable
 from gradhesion.cli.study.text.quantities import WORDS
 from gradhesion.core import SOLVERS
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL, REDUCED
@@ -85,6 +85,10 @@ def _of_fits() -> Iterator[str]:
     yield "### [fit]"
     yield f"Optional: {Form.model_fields['fit'].description}."
     yield table(HEADS, _rows(own["FitTable"]))
+    yield "The table `offsets`, in place of `true` or `false`:"
+    yield table(HEADS, _rows(OffsetsTable.model_json_schema()))
+    yield "The table `noise`, with the depth or the displacement, as the data have it:"
+    yield table(HEADS, _rows(own["Noise"]))
 
 
 def _target(entry: Mapping[str, Any], schema: Mapping[str, Any]) -> Mapping[str, Any] | None:

@@ -17,10 +17,8 @@ PAUSES: Final = ("pause", "hold", "dwell", "creep", "modulate")
 """What instruments call a stretch between branches, in which the punch waits: such rows are left out."""
 PAUSE: Final = 2.0
 """The number of a pause between branches."""
-BRANCHES: Final = {
-    **dict.fromkeys(("loading", "approach", "approaching", "extend", "forward", "false"), 0.0),
-    **dict.fromkeys(("unloading", "retract", "retracting", "withdraw", "backward", "true"), 1.0),
-}
+_WAYS: Final = "loading unloading approach retract approaching retracting extend withdraw forward backward false true"
+BRANCHES: Final = {word: float(i % 2) for i, word in enumerate(_WAYS.split())}
 """What a column of branches says, with the number for it, which may stand there as well."""
 
 

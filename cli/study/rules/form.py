@@ -431,7 +431,7 @@ def _zero(name: str, *words: str) -> Any:
             raise ValueError("the ends of a range must rise; exchange the two")
         return low, high
 
-    return _checked_by(read, {"type": ["string", "boolean", "array"]})
+    return _checked_by(read, {"anyOf": [{"type": one} for one in ("string", "boolean", "array")]})
 
 
 class OffsetsTable(Table):
@@ -455,9 +455,9 @@ def _offsets(value: object) -> object:
 class Noise(Table):
     """Standard deviations of the measured load, and of depth or displacement."""
 
-    load: _quantity("load") = said("of the load", '"0.5 nN"', gt=0.0)  # type: ignore[valid-type]
-    indentation: _quantity("indentation") | None = said("of the depth", '"0.1 nm"', None, gt=0.0)  # type: ignore[valid-type]
-    displacement: _quantity("indentation") | None = said("of the displacement", '"0.1 nm"', None, gt=0.0)  # type: ignore[valid-type]
+    load: _quantity("load", type="string") = said("of the load", '"0.5 nN"', gt=0.0)  # type: ignore[valid-type]
+    indentation: _quantity("indentation", type="string") | None = said("of the depth", '"0.1 nm"', None, gt=0.0)  # type: ignore[valid-type]
+    displacement: _quantity("indentation", type="string") | None = said("of the displacement", '"0.1 nm"', None, gt=0.0)  # type: ignore[valid-type]
 
 
 class FitTable(Table):
