@@ -99,7 +99,6 @@ def _source(data: Mapping[str, Any], name: str, folder: str | Path) -> Source:
     home = Path(folder).absolute()
     try:
         own = as_written(data)
-        toml_of(own)
     except RecursionError:
         raise StudyError(f"{name}: {DEEP}") from None
     if "include" in own:
@@ -265,7 +264,10 @@ def _refused(source: Source, mistakes: Iterable[Mistake]) -> StudyError:
     """Put what is wrong with a study into sentences, in the order of its lines."""
     sentences = []
     for mistake in mistakes:
-        value = "" if mistake.value is None else f" = {shown(mistake.value)}"
+        try:
+            value = "" if mistake.value is None else f" = {shown(mistake.value)}"
+        except RecursionError:
+            return StudyError(f"{source.name}: {DEEP}")
         place, key, sentence = source.place(mistake.path), dotted(mistake.path), mistake.sentence
         if place.startswith(f"--set {key}=") and mistake.meant[-1:] == mistake.path[-1:]:
             right = f"{dotted(mistake.meant)}={place.partition('=')[2].strip()}"
