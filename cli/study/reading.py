@@ -24,7 +24,7 @@ from gradhesion.cli.study.rules.scenes import broken, left_out, shape_of
 from gradhesion.cli.study.study import Method, Study
 from gradhesion.cli.study.text.foreign import as_written
 from gradhesion.cli.study.text.places import dotted, steps_of
-from gradhesion.cli.study.text.source import DEEP, Source, included, read_source
+from gradhesion.cli.study.text.source import DEEP, Source, included, is_deep, read_source
 from gradhesion.cli.study.text.written import toml_of
 from gradhesion.cli.terminal.wording import nearest, shown
 from gradhesion.core.answers.spectrum import random_profile
@@ -96,11 +96,9 @@ def text_of(data: Mapping[str, Any], study: Study) -> str:
 
 def _source(data: Mapping[str, Any], name: str, folder: str | Path) -> Source:
     """Make the source of a study that is a mapping."""
-    home = Path(folder).absolute()
-    try:
-        own = as_written(data)
-    except RecursionError:
-        raise StudyError(f"{name}: {DEEP}") from None
+    if is_deep(data):
+        raise StudyError(f"{name}: not a study, tables or lists are {DEEP}")
+    home, own = Path(folder).absolute(), as_written(data)
     if "include" in own:
         own, _ = included(own, home, f"{name}: include = {shown(own['include'])}")
     return Source(name=name, data=own, text="", place=lambda _: name, folder=home)
@@ -264,10 +262,7 @@ def _refused(source: Source, mistakes: Iterable[Mistake]) -> StudyError:
     """Put what is wrong with a study into sentences, in the order of its lines."""
     sentences = []
     for mistake in mistakes:
-        try:
-            value = "" if mistake.value is None else f" = {shown(mistake.value)}"
-        except RecursionError:
-            return StudyError(f"{source.name}: {DEEP}")
+        value = "" if mistake.value is None else f" = {shown(mistake.value)}"
         place, key, sentence = source.place(mistake.path), dotted(mistake.path), mistake.sentence
         if place.startswith(f"--set {key}=") and mistake.meant[-1:] == mistake.path[-1:]:
             right = f"{dotted(mistake.meant)}={place.partition('=')[2].strip()}"

@@ -18,7 +18,11 @@ from gradhesion.cli.terminal.wording import shown
 
 MOST_BYTES: Final = 2**28
 """The longest study that is read: far above any that is meant as one."""
-DEEP: Final = "not a study, tables or lists are nested too deep; remove some levels"
+_DEEPEST: Final = 32
+"""Levels of tables and lists: a study has four."""
+DEEP: Final = f"nested more than {_DEEPEST} deep; remove some levels"
+_DOTS: Final = re.compile(r"(?:[\w\"'-]+\s*\.\s*){100}")
+"""A key far too deep: the parser takes a time that grows with the square of its length."""
 _COMMA: Final = re.compile(r"=\s*([+-]?\d+),(\d+)")
 _Lines = Callable[[], Mapping[places.Path, str]]
 """Finds the file and the line of each key."""
@@ -79,13 +83,16 @@ def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) ->
 def _read(path: Path, most: int, above: tuple[Path, ...]) -> tuple[dict[str, Any], _Lines, str]:
     """Read the keys of a file and of what it includes, their places, and a text of just these keys if there is one."""
     text = _text(path, most)
+    deep = f"{path}: not a study, tables or lists are {DEEP}"
     try:
-        data = tomllib.loads(text)
+        data = {} if _DOTS.search(text) else tomllib.loads(text)
     except RecursionError:
-        raise StudyError(f"{path}: {DEEP}") from None
+        raise StudyError(deep) from None
     except ValueError as error:
         _check_kind(path)
         raise StudyError(_syntax_sentence(path, text, str(error))) from None
+    if _DOTS.search(text) or is_deep(data):
+        raise StudyError(deep)
     lines = cache(lambda: {key: f"{path}:{line}" for key, line in places.lines_of(text).items()})
     if "include" not in data:
         return data, lines, text
@@ -201,6 +208,8 @@ def _set(data: dict[str, Any], override: str) -> places.Path:
             right = f"[{value}]" if several else json.dumps(value, ensure_ascii=False)
             raise ValueError(f"the value is not TOML; {remedy}, as in --set '{key}={right}'")
         parsed = whole["value"]
+    if len(steps) > _DEEPEST or is_deep(parsed):
+        raise ValueError(DEEP)
     table: Any = data
     for depth, step in enumerate(steps[:-1], 1):
         table = table.setdefault(step, {})
@@ -209,6 +218,20 @@ def _set(data: dict[str, Any], override: str) -> places.Path:
             raise ValueError(f"{parent} is not a table; set it as a whole, --set '{parent}=...'")  # noqa: TRY004
     table[steps[-1]] = parsed
     return steps
+
+
+def is_deep(data: Any) -> bool:
+    """
+    Check whether tables and lists are nested more deeply than in any study, without going down them all.
+
+    >>> is_deep({"parameters": {"k": [0.0, 0.5]}}), is_deep(eval(40 * '[' + 40 * ']'))
+    (False, True)
+    """
+    level = [data]
+    for _ in range(_DEEPEST):
+        nested = (one.values() if isinstance(one, Mapping) else one for one in level if isinstance(one, Mapping | list))
+        level = [item for items in nested for item in items if isinstance(item, Mapping | list)]
+    return bool(level)
 
 
 def _parsed(text: str) -> dict[str, Any]:
