@@ -7,7 +7,7 @@ import xarray
 
 from gradhesion.cli.dataset.read.doubtful import doubts_of
 from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by, is_cone
-from gradhesion.cli.dataset.read.reader import check_ours, is_turned
+from gradhesion.cli.dataset.read.reader import check_ours
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.terminal.wording import did_you_mean
 from gradhesion.core.answers.flags import FLAGS
@@ -77,8 +77,7 @@ class Accessor:
             known = [str(name) for name in self._dataset.data_vars if name != "status"]
             if variable not in known:
                 raise DatasetError(f"{variable}: not a variable of this dataset; {did_you_mean(variable, known)}")
-            sampled = any(name.removesuffix("_si").endswith("_std_linear") for name in known)
-            bits |= doubts_of(variable, turned=is_turned(self._dataset), sampled=sampled) | POOR_FIT | ANOTHER_MINIMUM
+            bits |= doubts_of(variable, self._dataset) | POOR_FIT | ANOTHER_MINIMUM
         return (self._dataset["status"].astype(np.int16) & bits) == 0
 
     def flagged(self, flag: str) -> xarray.DataArray:

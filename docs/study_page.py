@@ -6,8 +6,7 @@ from typing import Any, Final
 
 from docs.tables import code, table
 from gradhesion.cli.names.outputs import OUTPUTS
-from gradhesion.cli.study.fit.form import FitForm
-from gradhesion.cli.study.rules.form import Form
+from gradhesion.cli.study.rules.form import Form, OffsetsTable
 from gradhesion.cli.study.text.quantities import WORDS
 from gradhesion.core import SOLVERS
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL, REDUCED
@@ -68,7 +67,7 @@ def _sections() -> Iterator[str]:
 
 def _of_fits() -> Iterator[str]:
     """Write the tables of studies of kind "fit"."""
-    own = FitForm.model_json_schema()["$defs"]
+    own = Form.model_json_schema()["$defs"]
     yield '## Studies of `kind = "fit"`'
     yield (
         "[Fit a loop](../fit.md) describes them. Besides `title`, `kind` and `profile` they have the tables "
@@ -79,13 +78,17 @@ def _of_fits() -> Iterator[str]:
         "because a fit has no axes."
     )
     yield "### [data]"
-    yield f"Required: {FitForm.model_fields['data'].description}."
+    yield f"Required: {Form.model_fields['data'].description}."
     yield table(HEADS, _rows(own["DataTable"]))
     yield "A column as a table, instead of its name only:"
     yield table(HEADS, _rows(own["ColumnTable"]))
     yield "### [fit]"
-    yield f"Optional: {FitForm.model_fields['fit'].description}."
+    yield f"Optional: {Form.model_fields['fit'].description}."
     yield table(HEADS, _rows(own["FitTable"]))
+    yield "The table `offsets`, in place of `true` or `false`:"
+    yield table(HEADS, _rows(OffsetsTable.model_json_schema()))
+    yield "The table `noise`, with the depth or the displacement, as the data have it:"
+    yield table(HEADS, _rows(own["Noise"]))
 
 
 def _target(entry: Mapping[str, Any], schema: Mapping[str, Any]) -> Mapping[str, Any] | None:

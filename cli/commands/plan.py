@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from gradhesion.cli.commands.validate import overriding
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted, duration
 from gradhesion.cli.terminal.examples import example
 from gradhesion.cli.terminal.given_up import given_up
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 @click.command(epilog=example("plan study.toml"))
 @click.argument("study", type=click.Path(path_type=Path))
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Output of the run.")
-@click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a key of the study; repeatable.")
+@overriding
 @click.option("--threads", type=click.IntRange(min=1), help="Threads of the run [all available to the process].")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 @given_up("--chunk", "the size of blocks is chosen by itself")

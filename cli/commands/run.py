@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from gradhesion.cli.commands.validate import overriding
 from gradhesion.cli.errors import ScenesFailedError
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
@@ -45,7 +46,7 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
     callback=dataset_to_write,
     help="Dataset to write [outputs/<study name>.nc].",
 )
-@click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a key of the study; repeatable.")
+@overriding
 @click.option("--overwrite", is_flag=True, help="Replace an existing dataset.")
 @click.option("--fresh", is_flag=True, help="Discard the finished blocks of an earlier run.")
 @click.option("--shard", metavar="I/N", callback=_shard, help="Compute every N-th block, for `merge`.")

@@ -10,10 +10,15 @@ from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.examples import example
 from gradhesion.cli.terminal.output import show, show_block
 
+overriding = click.option(
+    "--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a key of the study; repeatable."
+)
+"""The option of every command that reads a study."""
+
 
 @click.command(epilog=example("validate study.toml", "validate study.toml --set parameters.A=0.02"))
 @click.argument("study", type=click.Path(path_type=Path))
-@click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a key of the study; repeatable.")
+@overriding
 def validate(study: Path, overrides: tuple[str, ...]) -> None:
     """Check a study and report every error.
 
@@ -41,17 +46,7 @@ def schema() -> None:
     Editors use it to complete and check studies; `run` and `validate` use it too. What it cannot express (lists of
     unequal length, repeated values) is checked by `gradhesion validate`.
     """
-    from pydantic.json_schema import models_json_schema
-
-    from gradhesion.cli.study.fit.form import FitForm
     from gradhesion.cli.study.rules.form import Form
 
-    places, own = models_json_schema([(Form, "validation"), (FitForm, "validation")])
-    document = {
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "if": {"properties": {"kind": {"const": "fit"}}, "required": ["kind"]},
-        "then": places[FitForm, "validation"],
-        "else": places[Form, "validation"],
-        **own,
-    }
+    document = {"$schema": "https://json-schema.org/draft/2020-12/schema", **Form.model_json_schema()}
     show_block(json.dumps(document, indent=2))

@@ -9,7 +9,6 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read.doubtful import DOUBTS, doubts_of
-from gradhesion.cli.dataset.read.reader import is_turned
 from gradhesion.cli.dataset.read.sensitivities import PLAIN, part_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.plain import in_order, symbol, title, words
@@ -200,14 +199,14 @@ def _variable(dataset: xarray.Dataset, name: str, units: Mapping[str, Unit]) -> 
     flat = rounded(values.ravel())
     finite = flat[np.isfinite(flat)]
     positive = finite[finite > 0]
-    curve, turned = curve_of(name) or "", is_turned(dataset)
+    curve = curve_of(name) or ""
     part = part_of(name)
     return named | {
         "sensitivity": part and {"of": part[0], "to": symbol(part[1]), "plain": part[1] in PLAIN},
         "values": flat,
         "length": values.shape[-1] if curve else 1,
         "curve": curve,
-        "doubts": doubts_of(name, turned=turned),
+        "doubts": doubts_of(name, dataset),
         "least": float(finite.min()) if finite.size else None,
         "greatest": float(finite.max()) if finite.size else None,
         "gaps": bool(finite.size < flat.size),

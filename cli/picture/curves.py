@@ -270,7 +270,8 @@ def _scene(scene: xarray.Dataset, label: str, colour: Colour | None, item: int =
     if label and not any(np.isfinite(scene[name].values).any() for name in names if name in scene):
         label, colour = f"{label} (no value)", to_rgb(CROSS)
     scene = scene.load()
-    return Scene(label=label, colour=colour, values=scene, doubts=doubts_in(scene["status"].values, "path"), item=item)
+    doubts = doubts_in(scene["status"].values, "path", scene)
+    return Scene(label=label, colour=colour, values=scene, doubts=doubts, item=item)
 
 
 def _draw_panel(

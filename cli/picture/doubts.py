@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from gradhesion.cli.dataset.read import doubtful
 from gradhesion.cli.dataset.read.doubtful import doubts_of
 from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by
-from gradhesion.cli.dataset.read.reader import is_turned
 from gradhesion.cli.names.outputs import BEST, ON_BOUND
 from gradhesion.core.answers.flags import FLAG_WORDS, FLAGS
 
@@ -71,10 +70,10 @@ Marks = list[tuple[Doubt, xarray.DataArray]]
 """Doubts, each with the scenes that have it."""
 
 
-def doubts_in(status: NDArray[Any], variable: str, *, turned: bool = False) -> list[Doubt]:
-    """List the flags of some scenes that cast doubt on a variable; none on `status` itself."""
+def doubts_in(status: NDArray[Any], variable: str, dataset: xarray.Dataset) -> list[Doubt]:
+    """List the flags of some scenes of a dataset that cast doubt on a variable; none on `status` itself."""
     there = 0 if variable == "status" else np.bitwise_or.reduce(np.ravel(status).astype(np.int16), initial=0)
-    return [doubt for doubt in DOUBTS if doubt.bit & doubts_of(variable, turned=turned) & there]
+    return [doubt for doubt in DOUBTS if doubt.bit & doubts_of(variable, dataset) & there]
 
 
 def marks_of(dataset: xarray.Dataset, values: xarray.DataArray, status: xarray.DataArray, name: str) -> Marks:
@@ -84,7 +83,7 @@ def marks_of(dataset: xarray.Dataset, values: xarray.DataArray, status: xarray.D
     A validity number shows its own limit alone. What is taken over an axis is marked if any scene on it is; what has no
     value is not.
     """
-    there = doubts_in(status.where(values.notnull(), 0).values, name, turned=is_turned(dataset))
+    there = doubts_in(status.where(values.notnull(), 0).values, name, dataset)
     found: list[tuple[Doubt, xarray.DataArray | None]] = [(doubt, (status & doubt.bit) != 0) for doubt in there]
     numbers = [number for number in BEYOND if name not in BEYOND or number == name]
     found += [(BEYOND[number], beyond_by(number, dataset)) for number in numbers]

@@ -1,8 +1,5 @@
 """Points from a file: the scenes of a study are the rows of a table, a column a parameter."""
 
-import json
-import re
-import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,36 +9,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.names.outputs import OUTPUTS, SI
+from gradhesion.cli.study.rules.asked import REQUIRED
 from gradhesion.cli.study.rules.axes import MOST_VALUES
 from gradhesion.cli.study.rules.mistakes import Mistake
-from gradhesion.cli.study.text import places
-from gradhesion.cli.study.text.quantities import in_si
+from gradhesion.cli.study.text.places import Path as Key
+from gradhesion.cli.study.text.quantities import factor_of_column, scaled
+from gradhesion.cli.study.text.written import value_of, with_fingerprint
 from gradhesion.cli.tables.columns import Columns, ColumnsError, changed
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 from gradhesion.core.problem.inputs import INPUTS
 
-KEY: Final[places.Path] = ("parameters", "points")
-
+KEY: Final[Key] = ("parameters", "points")
 COMMENT: Final = "a column of "
 """How the comment of a coordinate begins that is a column of a file."""
-
-_ANY: Final = {"k": 0.5, "nu": 0.3}
-"""Valid values of parameters of which 1 is none."""
-
-OURS: Final = frozenset({*OUTPUTS, *(name + SI for name in OUTPUTS), "status"})
+_OURS: Final = frozenset({*OUTPUTS, *(name + SI for name in OUTPUTS), "status"})
 """Names that a dataset has, and a file of points may not."""
-
-_LINE: Final = re.compile(r"""(\s*(?:parameters\.)?points\s*=\s*)("[^"\\]*"|'[^']*')(\s*(?:\#.*)?)""")
-"""The key on a line of its own, with what stands behind it."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Points:
     """The points of a study; without a file there are none."""
 
-    written: Any = None
-    """What the study has for them."""
     file: str = ""
     sha256: str = ""
     columns: Mapping[str, NDArray[np.float64]] = field(default_factory=dict)
@@ -56,16 +45,16 @@ class Points:
 
         So that all that is known of a key is asked of what the study gives beside the file.
         """
-        if self.written is None:
+        if not self.file and not self.mistakes:
             return dict(data)
         whole = {**data, "layout": "points" if data.get("layout") == "grid" else data.get("layout", "points")}
         for name in (*self.columns, *self.wrong):
-            key, values = INPUTS[name], self.columns.get(name)
-            value = _ANY.get(name, 1.0) if values is None else float(values[0])
+            key = INPUTS[name]
+            value = float(self.columns[name][0]) if name in self.columns else REQUIRED.get(name, 1.0)
+            unit = f" {key.unit}" if np.isfinite(value) else ""
             table = whole.get(key.table, {})
             if isinstance(table, Mapping):
-                entry = f"{value!r} {key.unit}" if key.table == "physical" and np.isfinite(value) else value
-                whole[key.table] = {**table, name: str(entry) if key.table == "physical" else entry}
+                whole[key.table] = {**table, name: f"{value!r}{unit}" if key.table == "physical" else value}
         return whole
 
     @property
@@ -75,20 +64,7 @@ class Points:
 
     def stored(self, data: Mapping[str, Any], text: str) -> tuple[dict[str, Any], str]:
         """Give the keys and the text of a study with the fingerprint of the file; no text where it is to be made."""
-        if not self.file:
-            return dict(data), text
-        named = {"file": self.file, "sha256": self.sha256}
-        data = {**data, "parameters": {**data["parameters"], "points": named}}
-        if text and self.written != named:
-            number = places.lines_of(text).get(KEY, 0)
-            lines = text.split("\n")
-            found = _LINE.fullmatch(lines[number - 1]) if number else None
-            table = f"{{ file = {json.dumps(self.file, ensure_ascii=False)}, sha256 = {json.dumps(self.sha256)} }}"
-            lines[number - 1] = f"{found[1]}{table}{found[3]}" if found else ""
-            text = "\n".join(lines)
-            if not found or tomllib.loads(text) != data:
-                text = ""
-        return data, text
+        return with_fingerprint(data, text, KEY, self.sha256) if self.file else (dict(data), text)
 
 
 def points_of(
@@ -109,45 +85,35 @@ def points_of(
     table = data.get("parameters")
     written = table.get("points") if isinstance(table, Mapping) else None
     named = {"file": written} if isinstance(written, str) else written
-    if not isinstance(named, Mapping) or not all(isinstance(value, str) for value in named.values()):
-        return Points()
-    if named.keys() - {"file", "sha256"} or not named.get("file"):
+    if not isinstance(named, Mapping) or not named.get("file") or not {*named} <= {"file", "sha256"}:
         return Points()  # their form is refused
     file, expected = named["file"], named.get("sha256", "")
+    if not isinstance(file, str) or not isinstance(expected, str):
+        return Points()
     if columns is not None:
-        return Points(written=written, file=file, sha256=expected, columns=columns)
+        return Points(file=file, sha256=expected, columns=columns)
     try:
         found = read_columns(folder / file)
     except ColumnsError as error:
-        return Points(written=written, mistakes=(Mistake(KEY, written, str(error)),))
+        return Points(mistakes=(Mistake(KEY, written, str(error)),))
     if expected and expected != found.sha256:
-        remedy = f"write points = {json.dumps(file, ensure_ascii=False)}"
-        sentence = changed(found.sha256, expected, remedy)
-        return Points(written=written, mistakes=(Mistake(KEY, written, sentence),))
-    mistakes = [Mistake(KEY, written, sentence) for sentence in _mistakes(data, found)]
-    columns, wrong = {}, []
-    for name, values in found.values.items():
-        if name not in INPUTS:
-            continue
+        sentence = changed(found.sha256, expected, f"write points = {value_of(file)}")
+        return Points(mistakes=(Mistake(KEY, written, sentence),))
+    sentences, own, wrong = [*_mistakes(data, found)], {}, []
+    for name in (name for name in found.values if name in INPUTS):
         try:
-            columns[name] = _column(name, values, found)
+            own[name] = _column(name, found)
         except ColumnsError as error:
-            mistakes.append(Mistake(KEY, written, str(error)))
+            sentences.append(str(error))
             wrong.append(name)
-    return Points(
-        written=written,
-        file=file,
-        sha256=found.sha256,
-        columns=columns,
-        wrong=tuple(wrong),
-        mistakes=tuple(mistakes),
-    )
+    mistakes = tuple(Mistake(KEY, written, sentence) for sentence in sentences)
+    return Points(file=file, sha256=found.sha256, columns=own, wrong=tuple(wrong), mistakes=mistakes)
 
 
 def _mistakes(data: Mapping[str, Any], found: Columns) -> Iterator[str]:
     """Check that the columns are parameters, each given once, and that the study has points."""
     for name in found.values:
-        if name in OURS:
+        if name in _OURS:
             yield f"its column {shown(name)} is an output, not a parameter; leave it out"
         elif name not in INPUTS:
             yield f"its column {shown(name)} is not a parameter; {did_you_mean(name, tuple(INPUTS))}"
@@ -159,7 +125,7 @@ def _mistakes(data: Mapping[str, Any], found: Columns) -> Iterator[str]:
         yield f"the file has {found.rows:,} rows, but at most {MOST_VALUES:,} are read; split it"
 
 
-def _column(name: str, given: NDArray[np.float64], found: Columns) -> NDArray[np.float64]:
+def _column(name: str, found: Columns) -> NDArray[np.float64]:
     """
     Give a column in the unit of its key.
 
@@ -168,15 +134,8 @@ def _column(name: str, given: NDArray[np.float64], found: Columns) -> NDArray[np
     ColumnsError
         It has no unit, or one of another dimension; or its values are out of range.
     """
-    key, unit = INPUTS[name], found.units.get(name, "")
-    if key.table == "physical" and not unit:
-        raise ColumnsError(
-            f"its column {name} has no unit; write it after the name in brackets, as {name} [{key.unit}]"
-        )
-    try:
-        values = in_si(given, unit or key.unit, name)
-    except ValueError as error:
-        raise ColumnsError(f"its column {name} [{unit}]: {error}") from None
+    key, given = INPUTS[name], found.values[name]
+    values = scaled(given, factor_of_column(found, name, name))
     rows = np.flatnonzero(~key.admits(values))
     if rows.size:
         more = f", and {rows.size - 1:,} more rows are as well" if rows.size > 1 else ""

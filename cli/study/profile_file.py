@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.study.rules.mistakes import Mistake, example
+from gradhesion.cli.study.rules.mistakes import Mistake, line_of
 from gradhesion.cli.study.text.places import Path as Key
-from gradhesion.cli.study.text.quantities import si_value
+from gradhesion.cli.study.text.quantities import factor_of_column, si_value
 from gradhesion.cli.study.text.written import with_fingerprint
-from gradhesion.cli.tables.columns import Columns, ColumnsError, changed
+from gradhesion.cli.tables.columns import ColumnsError, changed
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 from gradhesion.core.problem.inputs import INPUTS
@@ -27,8 +27,6 @@ COLUMNS: Final = ("r", "height")
 """The columns of a measured profile."""
 TERMS: Final = 16
 """Harmonics that are fitted where a study does not say how many."""
-GIVEN: Final = ("lambda_over_R", "A")
-"""The parameters that come from the fit; with units so does R."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -53,12 +51,11 @@ class Measured:
             return dict(data)
         fit = self.fit
         radius, wavelength, amplitude = (fit.radius, fit.wavelength, fit.amplitude) if fit else (1.0, 1.0, 1.0)
+        own: dict[str, Any] = {"lambda_over_R": wavelength / radius, "A": amplitude / wavelength}
         if isinstance(data.get("physical"), Mapping):
             own = {"R": f"{radius!r} m", "wavelength": f"{wavelength!r} m", "amplitude": f"{amplitude!r} m"}
-            return {**data, "physical": {**own, **data["physical"]}}
-        ratios = {"lambda_over_R": wavelength / radius, "A": amplitude / wavelength}
-        table = data.get("parameters")
-        return {**data, "parameters": {**ratios, **table}} if isinstance(table, Mapping) else dict(data)
+        name = "physical" if "R" in own else "parameters"
+        return {**data, name: {**own, **data[name]}} if isinstance(data.get(name), Mapping) else dict(data)
 
     def profile(self) -> Profile | None:
         """Give the shape of the punch."""
@@ -66,40 +63,28 @@ class Measured:
 
     def stored(self, data: Mapping[str, Any], text: str) -> tuple[dict[str, Any], str]:
         """Give the keys and the text of a study with the fingerprint of the file; no text where it is to be made."""
-        if not self.file or data["profile"].get("sha256"):
-            return dict(data), text
-        return with_fingerprint(data, text, "profile", self.sha256)
+        return with_fingerprint(data, text, ("profile",), self.sha256) if self.file else (dict(data), text)
 
 
 def measured_in(data: Mapping[str, Any], folder: Path) -> Measured:
-    """
-    Fit the profile of a study, if it comes from a file.
-
-    Parameters
-    ----------
-    data
-        The keys of the study.
-    folder
-        Where the file is looked for.
-    """
+    """Fit the profile of a study, if it comes from a file, which is looked for in a folder."""
     table = data.get("profile")
     file = table.get("file") if isinstance(table, Mapping) else None
     if not isinstance(table, Mapping) or not isinstance(file, str) or not file:
         return Measured()
-    mistakes = list(_mistakes_of_keys(data, table))
-    up_to = _up_to(data, table)
+    mistakes, up_to = list(_mistakes_of_keys(data, table)), _up_to(data, table)
     terms, exponent, expected = table.get("terms", TERMS), table.get("exponent", 2.0), table.get("sha256", "")
     numbers = isinstance(terms, int) and (exponent == "fit" or isinstance(exponent, int | float))
     if up_to is None or not numbers or not isinstance(expected, str):  # whose form is refused, or in what is missing
         return Measured(file=file, mistakes=tuple(mistakes))
     try:
-        places_, heights, sha256, dropped = read_profile(folder / file)
-        if expected and expected != sha256:
+        places, heights, sha256, dropped = read_profile(folder / file)
+        if not expected or expected == sha256:
+            fit = fitted(places, heights, up_to=up_to, terms=terms, exponent=exponent)
+        else:
             mistakes.append(Mistake(KEY, file, changed(sha256, expected, "remove sha256")))
-            return Measured(file=file, mistakes=tuple(mistakes))
-        fit = fitted(places_, heights, up_to=up_to, terms=terms, exponent=exponent)
     except ValueError as error:
-        return Measured(file=file, mistakes=(*mistakes, Mistake(KEY, file, str(error))))
+        mistakes.append(Mistake(KEY, file, str(error)))
     if mistakes:
         return Measured(file=file, mistakes=tuple(mistakes))
     return Measured(file=file, sha256=sha256, fit=fit, dropped=dropped)
@@ -159,36 +144,23 @@ def read_profile(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float64], 
         It cannot be read, or is no profile.
     """
     found = read_columns(path, only=COLUMNS)
-    values = [_in_metres(found, name) for name in COLUMNS]
-    sound = np.isfinite(values[0]) & np.isfinite(values[1])
+    for name in COLUMNS:
+        if name not in found.values:
+            near = did_you_mean(name, (*found.values, *found.others)).replace("did you mean", "rename")
+            raise ColumnsError(f"there is no column {shown(name)}, and a profile has {' and '.join(COLUMNS)}; {near}")
+    r, height = (found.values[name] * float(factor_of_column(found, name, "up_to")) for name in COLUMNS)
+    sound = np.isfinite(r) & np.isfinite(height)
     if not sound.any():
         raise ColumnsError("no row has two numbers; name a file with r and height in each row")
-    return values[0][sound], values[1][sound], found.sha256, int(np.count_nonzero(~sound))
-
-
-def _in_metres(found: Columns, name: str) -> NDArray[np.float64]:
-    """Give a column of lengths in m."""
-    if name not in found.values:
-        raise ColumnsError(
-            f"there is no column {shown(name)}, and a profile has {' and '.join(COLUMNS)}; "
-            f"{did_you_mean(name, (*found.values, *found.others)).replace('did you mean', 'rename')}"
-        )
-    unit = found.units.get(name)
-    if unit is None:
-        raise ColumnsError(f"the column {name} has no unit; write it after the name in brackets, as {name} [nm]")
-    try:
-        return found.values[name] * si_value(f"1 {unit}", "up_to")
-    except ValueError:
-        raise ColumnsError(f"the unit of {name} [{unit}] is not a length; write for example {name} [nm]") from None
+    return r[sound], height[sound], found.sha256, int(np.count_nonzero(~sound))
 
 
 def _up_to(data: Mapping[str, Any], table: Mapping[str, Any]) -> float | None:
     """Find the distance up to which a profile is fitted: that of the study, or the radius of its punch."""
     physical = data.get("physical")
     rim = physical.get("a_max") if isinstance(physical, Mapping) else None
-    name = "up_to" if "up_to" in table else "a_max"
     try:
-        value = si_value(table.get("up_to", rim), name)
+        value = si_value(table.get("up_to", rim), "up_to" if "up_to" in table else "a_max")
     except ValueError:
         return None
     return value if math.isfinite(value) else None
@@ -201,9 +173,9 @@ def _mistakes_of_keys(data: Mapping[str, Any], table: Mapping[str, Any]) -> Iter
         yield Mistake(("profile", "harmonics"), table["harmonics"], sentence)
     for key in INPUTS.values():
         own = data.get(key.table)
-        if isinstance(own, Mapping) and key.name in own and (key.gives in GIVEN or key.name == "R"):
+        if isinstance(own, Mapping) and key.name in own and (key.gives in ("lambda_over_R", "A") or key.name == "R"):
             sentence = "this comes from the fit of the profile; remove it, or remove file under [profile]"
             yield Mistake((key.table, key.name), own[key.name], sentence)
     if "up_to" not in table and _up_to(data, table) is None:
-        sentence = "unless a_max is one finite length, a profile needs the distance up to which it is fitted; "
-        yield Mistake(("profile", "up_to"), None, sentence + example(("profile", "up_to")))
+        sentence = "unless a_max is one finite length, a profile needs the distance up to which it is fitted; write "
+        yield Mistake(("profile", "up_to"), None, f"{sentence}for example {line_of(('profile', 'up_to'))}")

@@ -3,6 +3,7 @@
 import re
 import shlex
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
@@ -10,22 +11,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.study.fit.study import FitStudy
+from gradhesion.cli.study.fit.rules import broken as broken_in_fit
+from gradhesion.cli.study.fit.study import FitStudy, fit_from
 from gradhesion.cli.study.points import points_of
 from gradhesion.cli.study.profile_file import measured_in
 from gradhesion.cli.study.rules.answers import Search, Searched, Uncertainty
-from gradhesion.cli.study.rules.asked import Asked, steps_of
+from gradhesion.cli.study.rules.asked import Asked, checked, foreign_to, kind_of
 from gradhesion.cli.study.rules.axes import expanded, range_mistakes
-from gradhesion.cli.study.rules.form import KINDS, OUTPUTS_OF, Range
-from gradhesion.cli.study.rules.mistakes import Checked, Mistake, checked
+from gradhesion.cli.study.rules.form import OUTPUTS_OF, Form, Range
+from gradhesion.cli.study.rules.mistakes import Mistake
 from gradhesion.cli.study.rules.scenes import broken, left_out, shape_of
 from gradhesion.cli.study.study import Method, Study
-from gradhesion.cli.study.text import places
 from gradhesion.cli.study.text.foreign import as_written
-from gradhesion.cli.study.text.source import Source, included, read_source
+from gradhesion.cli.study.text.places import dotted, steps_of
+from gradhesion.cli.study.text.source import DEEP, Source, included, is_deep, read_source
 from gradhesion.cli.study.text.written import toml_of
-from gradhesion.cli.terminal import wording
-from gradhesion.cli.terminal.wording import nearest
+from gradhesion.cli.terminal.wording import nearest, shown
 from gradhesion.core.answers.spectrum import random_profile
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.inputs import INPUTS
@@ -44,7 +45,7 @@ def load_study(path: str | Path, overrides: Iterable[str] = ()) -> Study:
     StudyError
         The file cannot be read, or the study is wrong; the error has all mistakes.
     """
-    return _study(read_source(Path(path), overrides))
+    return _of_scenes(read_source(Path(path), overrides))
 
 
 def study_from(
@@ -73,7 +74,19 @@ def study_from(
     StudyError
         The study is wrong; the error has all mistakes.
     """
-    return _study(_source(data, name, folder), columns)
+    return _of_scenes(_source(data, name, folder), columns)
+
+
+def load_any(path: str | Path, overrides: Iterable[str] = ()) -> Study | FitStudy:
+    """Read a study of scenes, or one of a fit, from a file; as `load_study`."""
+    source = read_source(Path(path), overrides)
+    return _fit(source) if kind_of(source.data) == "fit" else _of_scenes(source)
+
+
+def any_from(data: Mapping[str, Any], name: str = "study", *, folder: str | Path = "") -> Study | FitStudy:
+    """Make a study of scenes, or one of a fit, from a mapping; as `study_from`."""
+    source = _source(data, name, folder)
+    return _fit(source) if kind_of(source.data) == "fit" else _of_scenes(source)
 
 
 def text_of(data: Mapping[str, Any], study: Study) -> str:
@@ -81,73 +94,55 @@ def text_of(data: Mapping[str, Any], study: Study) -> str:
     return toml_of(study.measured.stored(as_written(data), "")[0])
 
 
-def load_any(path: str | Path, overrides: Iterable[str] = ()) -> Study | FitStudy:
-    """Read a study of scenes, or one of a fit, from a file; as `load_study`."""
-    source = read_source(Path(path), overrides)
-    return _fit(source) if is_fit(source.data) else _study(source)
-
-
-def any_from(data: Mapping[str, Any], name: str = "study", *, folder: str | Path = "") -> Study | FitStudy:
-    """Make a study of scenes, or one of a fit, from a mapping; as `study_from`."""
-    source = _source(data, name, folder)
-    return _fit(source) if is_fit(source.data) else _study(source)
-
-
-def is_fit(data: Mapping[str, Any]) -> bool:
-    """Report whether the keys are meant to be those of a fit."""
-    kind = data.get("kind")
-    return isinstance(kind, str) and nearest(kind, KINDS) == "fit"
+def _source(data: Mapping[str, Any], name: str, folder: str | Path) -> Source:
+    """Make the source of a study that is a mapping."""
+    if is_deep(data):
+        raise StudyError(f"{name}: not a study, tables or lists are {DEEP}")
+    home, own = Path(folder).absolute(), as_written(data)
+    if "include" in own:
+        own, _ = included(own, home, f"{name}: include = {shown(own['include'])}")
+    return Source(name=name, data=own, text="", place=lambda _: name, folder=home)
 
 
 def _fit(source: Source) -> FitStudy:
     """Check a fit as a whole and read its data."""
-    from gradhesion.cli.study.fit.reading import fit_from  # noqa: PLC0415 (its form, which no study of scenes needs)
-
-    fit, mistakes = fit_from(source)
-    _refuse(source, mistakes)
-    assert fit is not None  # noqa: S101 (it has no mistakes)
-    return fit
-
-
-def _source(data: Mapping[str, Any], name: str, folder: str | Path) -> Source:
-    """Make the source of a study that is a mapping."""
-    if places.is_deep(data):
-        raise StudyError(
-            f"{name}: not a study, tables or lists are nested more than {places.DEEPEST} deep; remove some levels"
-        )
-    home, own = Path(folder).absolute(), as_written(data)
-    if "include" in own:
-        own, _ = included(own, home, f"{name}: include = {wording.shown(own['include'])}")
-    return Source(name=name, data=own, text="", place=lambda _: name, folder=home)
+    data, mistakes = _own_keys(source.data)
+    asked = _expanded(checked(data), {})
+    mistakes += _between(asked, source.data, broken_in_fit(asked))
+    if asked.form.data and not any("data" in (*one.path[:1], *one.meant[:1]) for one in mistakes):
+        found = fit_from(source, asked)
+        if isinstance(found, FitStudy) and not mistakes and not source.mistakes:
+            return found
+        mistakes += [found] if isinstance(found, Mistake) else []
+    raise _refused(source, mistakes)
 
 
-def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = None) -> Study:
-    """Check a study as a whole and expand it."""
-    if is_fit(source.data):
+def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = None) -> Study:
+    """Check a study of scenes as a whole and expand it."""
+    if kind_of(source.data) == "fit":
         raise StudyError(f"{source.place(('kind',))}: a fit has no scenes; `gradhesion run` and gradhesion.run fit it")
-    points = points_of(source.data, source.folder, columns)
-    measured = measured_in(source.data, source.folder)
-    over = _searched(source.data)
-    found = checked(measured.beside(points.beside(_with_ends(source.data, over))))
-    asked, between = _asked(found, source.data, points.columns, over)
-    mistakes = [
-        mistake
-        for mistake in (*points.mistakes, *measured.mistakes, *found.mistakes, *between)
-        if mistake.value is not None or not (points.unread or (measured.unread and mistake not in measured.mistakes))
-    ]
-    _refuse(source, mistakes)
-    form, absent = found.form, left_out(asked.values, with_units="physical" in found.form.model_fields_set)
+    own, mistakes = _own_keys(source.data)
+    points, measured = points_of(own, source.folder, columns), measured_in(own, source.folder)
+    asked = _expanded(checked(measured.beside(points.beside(own))), points.columns, _searched(own))
+    mistakes += [*points.mistakes, *measured.mistakes]
+    unread = points.unread or measured.unread  # and what a file would give is not missing
+    between = _between(asked, source.data, broken(asked))
+    mistakes += [one for one in between if not unread or one.value is not None]
+    if mistakes or source.mistakes:
+        raise _refused(source, mistakes)
+    form = asked.form
+    absent = left_out(asked.values, with_units=form.physical is not None)
     given = {**asked.values, **absent}
-    parameters = {name: given[name] for name in INPUTS if name in given and name not in over}
+    parameters = {name: given[name] for name in INPUTS if name in given and name not in asked.over}
     for values in parameters.values():
         if isinstance(values, np.ndarray):
             if form.layout == "grid" and not (np.all(np.diff(values) > 0) or np.all(np.diff(values) < 0)):
                 values.sort()  # CF wants coordinates that rise or fall
             values.flags.writeable = False
-    solver, spectrum = form.method.solver, form.profile.spectrum.made() if form.profile.spectrum else None
-    profile = random_profile(spectrum, 0, form.profile.exponent) if spectrum else shape_of(form.profile)
-    data, text = points.stored(source.data, source.text)
-    data, text = measured.stored(data, text)
+    solver = tuple(form.method.solver) if asked.lists_solvers else form.method.solver[0]
+    spectrum = form.profile.spectrum.made() if form.profile.spectrum else None
+    profile = random_profile(spectrum, 0, float(form.profile.exponent)) if spectrum else shape_of(form.profile)
+    data, text = measured.stored(*points.stored(source.data, source.text))
     return Study(
         name=source.name,
         title=form.title or source.name,
@@ -155,16 +150,14 @@ def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = N
         layout=form.layout,
         outputs=() if form.kind == "optimum" else variables_of(form.kind, form.outputs),
         parameters=parameters,
-        method=Method(
-            solver=solver if isinstance(solver, str) else tuple(solver), check_contact=form.method.check_contact
-        ),
+        method=Method(solver=solver, check_contact=form.method.check_contact),
         profile=measured.profile() or profile,
         spectrum=spectrum,
         loading=Loading(control=form.loading.control),
         toughness=form.toughness.made() if form.toughness else None,
         rate=form.rate.made() if form.rate else None,
         states=tuple(form.states.contact_radius_over_R or ()),
-        search=_search(form, over),
+        search=_search(form, asked.over),
         uncertainty=_uncertainty(form.uncertainty),
         text=text or toml_of(data),
         left_out=frozenset(absent.keys() - {"a_max", "a_max_over_R"}),
@@ -192,10 +185,17 @@ def variables_of(kind: str, requested: Iterable[str]) -> tuple[str, ...]:
     )
 
 
+def _own_keys(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[Mistake]]:
+    """Leave out the keys of studies of other kinds, with what is wrong about them."""
+    foreign = foreign_to(kind_of(data))
+    mistakes = [Mistake((name,), data[name], words) for name, words in foreign.items() if name in data]
+    return {name: value for name, value in data.items() if name not in foreign}, mistakes
+
+
 def _searched(data: Mapping[str, Any]) -> tuple[str, ...]:
     """Name the inputs of an optimum that have bounds alone and are searched, also those whose names are misspelt."""
     table = data.get("optimum")
-    if data.get("kind") != "optimum" or not isinstance(table, Mapping) or not isinstance(table.get("over"), list):
+    if kind_of(data) != "optimum" or not isinstance(table, Mapping) or not isinstance(table.get("over"), list):
         return ()
     tables = {name: data.get(own.table) for name, own in INPUTS.items()}
     entries = {name: own[name] for name, own in tables.items() if isinstance(own, Mapping) and name in own}
@@ -205,51 +205,45 @@ def _searched(data: Mapping[str, Any]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(name for name in meant if name in bounded))
 
 
-def _with_ends(data: Mapping[str, Any], over: Iterable[str]) -> dict[str, Any]:
-    """Give the keys of an optimum as those of a map: inputs that are searched are axes of two values, their bounds."""
-    found = {**data}
-    if found.get("kind") == "optimum":
-        found.setdefault("outputs", ["pull_off_force"])
-    for name in over:
-        table = INPUTS[name].table
-        found[table] = {**found[table], name: {**found[table][name], "num": 2}}
-    return found
-
-
-def _asked(
-    found: Checked, written: Mapping[str, Any], columns: Mapping[str, Any], over: tuple[str, ...]
-) -> tuple[Asked, list[Mistake]]:
-    """Expand the inputs that are right, columns of a file in their place, and list what is wrong between keys."""
-    wrong, values = [], {}
-    for name, entry in found.form.entries.items():
-        if {(INPUTS[name].table, name), (INPUTS[name].table,)} & found.wrong:
-            continue
-        own = list(range_mistakes(name, entry, searched=name in over))
-        wrong += own
-        if not own:
+def _expanded(asked: Asked, columns: Mapping[str, Any], over: tuple[str, ...] = ()) -> Asked:
+    """Expand the inputs that are right, columns of a file in their place."""
+    values, wrong = {}, [*asked.mistakes]
+    for name, entry in asked.form.entries.items():
+        own = [] if asked.kind == "fit" else list(range_mistakes(name, entry, searched=name in over))
+        wrong += [Mistake(steps_of(path), asked.at(steps_of(path)), words) for path, words in own]
+        if not own and entry != "data" and asked.right(f"{INPUTS[name].table}.{name}"):
             values[name] = columns.get(name, expanded(entry))
-    asked = Asked(checked=found, values=values, over=over, written=written)
-    whole = Checked(form=found.form, data=written)
-    paths = [(steps_of(path), words) for path, words in (*wrong, *broken(asked))]
-    return asked, [Mistake(path, whole.at(path), words) for path, words in paths]
+    return replace(asked, values=values, over=over, mistakes=tuple(wrong))
 
 
-def _search(form: Any, over: tuple[str, ...]) -> Search:
+def _between(asked: Asked, written: Mapping[str, Any], found: Iterable[tuple[str, str]]) -> list[Mistake]:
+    """List all mistakes of keys, alone and together; none is missing that is misspelt, or in a table that is wrong."""
+    told, meant = {one.path for one in asked.mistakes}, {one.meant for one in asked.mistakes}
+    whole, mistakes = replace(asked, data=written), [*asked.mistakes]
+    for key, words in found:
+        path = steps_of(key)
+        value = whole.at(path)
+        if value is not None or not (path in told | meant or path[:1] in asked.wrong):
+            mistakes.append(Mistake(path, value, words))
+    return mistakes
+
+
+def _search(form: Form, over: tuple[str, ...]) -> Search:
     """Read what is sought."""
     table = form.optimum
-    if form.kind != "optimum" or table is None:
+    if table is None:
         return Search()
-    ends = [(name, form.entries[name]) for name in INPUTS if name in over]
-    assert all(isinstance(entry, Range) for _, entry in ends)  # noqa: S101 (what is searched is one)
+    inputs = []
+    for name in (name for name in INPUTS if name in over):
+        entry = form.entries[name]
+        assert isinstance(entry, Range)  # noqa: S101 (what is searched is one)
+        low, high = sorted((entry.start, entry.stop))
+        inputs.append(Searched(name=name, low=low, high=high, log=entry.spacing == "log"))
     least, most = table.require.minimum, table.require.maximum
     return Search(
         goals=tuple(name for _, name in table.goals),
         signs=tuple(1 if way == "maximise" else -1 for way, _ in table.goals),
-        inputs=tuple(
-            Searched(name=name, low=low, high=high, log=entry.spacing == "log")
-            for name, entry in ends
-            for low, high in [sorted((entry.start, entry.stop))]
-        ),
+        inputs=tuple(inputs),
         resolution=table.resolution,
         one_disc=table.require.one_disc,
         limits=tuple((name, least.get(name, -np.inf), most.get(name, np.inf)) for name in {**least, **most}),
@@ -264,24 +258,20 @@ def _uncertainty(table: Any) -> Uncertainty:
     return Uncertainty(deviations=given, samples=table.samples, seed=table.seed)
 
 
-def _refuse(source: Source, mistakes: Iterable[Mistake]) -> None:
-    """Raise what is wrong with a study, if anything is."""
+def _refused(source: Source, mistakes: Iterable[Mistake]) -> StudyError:
+    """Put what is wrong with a study into sentences, in the order of its lines."""
     sentences = []
     for mistake in mistakes:
-        value = "" if mistake.value is None else f" = {wording.shown(mistake.value)}"
-        place, sentence = source.place(mistake.path), mistake.sentence
-        written, _, given = place.partition("=")
-        if written == f"--set {places.dotted(mistake.path)}" and mistake.meant[-1:] == mistake.path[-1:]:
-            right = shlex.quote(f"{places.dotted(mistake.meant)}={given.strip()}")
-            sentence = f"{sentence.partition(';')[0]}; write --set {right}"
-        sentences.append(f"{place}: {places.dotted(mistake.path)}{value}: {sentence}")
-    sentences.sort(key=_line)
-    found = [*source.mistakes, *sentences]
+        value = "" if mistake.value is None else f" = {shown(mistake.value)}"
+        place, key, sentence = source.place(mistake.path), dotted(mistake.path), mistake.sentence
+        if place.startswith(f"--set {key}=") and mistake.meant[-1:] == mistake.path[-1:]:
+            right = f"{dotted(mistake.meant)}={place.partition('=')[2].strip()}"
+            sentence = f"{sentence.partition(';')[0]}; write --set {shlex.quote(right)}"
+        sentences.append(f"{place}: {key}{value}: {sentence}")
+    found = [*source.mistakes, *sorted(sentences, key=_line)]
     if len(found) > MOST_MISTAKES:
-        more = f"... and {len(found) - MOST_MISTAKES} more mistakes; fix these first"
-        found = [*found[:MOST_MISTAKES], more]
-    if found:
-        raise StudyError(found)
+        found[MOST_MISTAKES:] = [f"... and {len(found) - MOST_MISTAKES} more mistakes; fix these first"]
+    return StudyError(found)
 
 
 def _line(sentence: str) -> tuple[str, int]:

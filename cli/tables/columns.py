@@ -1,6 +1,6 @@
 """What is read from a table of numbers: which of its columns, and what they are then."""
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -24,6 +24,21 @@ class Wanted:
     """Of columns of words: the number for each word that they may have (or which they have in its place)."""
     whole: Collection[str] = ()
     """The columns of whole numbers."""
+
+    def named(self, names: Sequence[str], heads: Sequence[str] = ()) -> tuple[str, ...]:
+        """
+        Give the columns of a file the names that are wanted of them, where they differ in case or have their unit.
+
+        >>> Wanted(only=("height", "Load (nN)")).named(["Height", "Load"], ["Height (nm)", "Load (nN)"])
+        ('height', 'Load (nN)')
+        """
+        found = [*names]
+        for wanted in self.only or ():
+            both = ((name.lower(), head.lower()) for name, head in zip(names, heads or names, strict=True))
+            alike = [i for i, own in enumerate(both) if wanted.lower() in own]
+            if wanted not in names and len(alike) == 1:
+                found[alike[0]] = wanted
+        return tuple(found)
 
     def reader(self, name: str) -> Callable[[str], float]:
         """Give what reads a cell of a column."""

@@ -26,15 +26,16 @@ def of_netcdf(content: bytes, sha256: str, wanted: Wanted) -> Columns:
     only = wanted.only
     try:
         with netCDF4.Dataset("columns", memory=content) as file:
-            others = tuple(name for name in file.variables if only is not None and name not in only)
+            variables = dict(zip(wanted.named([*file.variables]), file.variables.values(), strict=True))
+            others = tuple(name for name in variables if only is not None and name not in only)
             found = {
                 name: variable[...]
-                for name, variable in file.variables.items()
+                for name, variable in variables.items()
                 if variable.ndim == 1
                 and name not in others
                 and (getattr(variable.dtype, "kind", "") in tuple("iuf") or name in wanted.words)
             }
-            units = {name: tidy(str(getattr(file.variables[name], "units", ""))) for name in found}
+            units = {name: tidy(str(getattr(variables[name], "units", ""))) for name in found}
     except (OSError, RuntimeError, ValueError, AttributeError, MemoryError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise ColumnsError(f"the file cannot be read as NetCDF ({reason}); write it again") from None

@@ -147,7 +147,7 @@ def _header_of(text: str, wanted: Wanted) -> Header:
     if len(cells) > MOST_COLUMNS:
         raise ColumnsError(f"line {place} has {len(cells):,} columns, and {MOST_COLUMNS:,} are read; leave some out")
     heads = [_HEAD.fullmatch(cell) for cell in cells]
-    names = tuple(head[1] if head else cell for head, cell in zip(heads, cells, strict=True))
+    names = wanted.named([head[1] if head else cell for head, cell in zip(heads, cells, strict=True)], cells)
     units = {name: tidy(head[2] or "") for name, head in zip(names, heads, strict=True) if head}
     read = tuple(i for i, name in enumerate(names) if wanted.only is None or name in wanted.only)
     rows = [row for row in islice(_lines(text), 4) if row[0] > place]

@@ -7,7 +7,6 @@ from pathlib import Path
 
 from click.testing import Result
 
-from gradhesion.cli.study.fit.form import FitForm
 from gradhesion.cli.study.rules.form import Form
 from gradhesion.core.problem.inputs import INPUTS
 
@@ -33,21 +32,11 @@ def test_all_mistakes_of_a_study(gradhesion: Call, study_file: Path) -> None:
 def test_the_schema_is_that_of_validation(gradhesion: Call, root: Path) -> None:
     told = json.loads(gradhesion("schema").stdout)
     assert told.pop("$schema").startswith("https://json-schema.org/")
-    assert told["else"] == {"$ref": "#/$defs/Form"}
-    assert told["then"] == {"$ref": "#/$defs/FitForm"}
-    own = told["$defs"]
-    for form in (Form, FitForm):
-        expected = form.model_json_schema()
-        assert {name: own[name] for name in expected.pop("$defs")} | {form.__name__: own[form.__name__]} == (
-            form.model_json_schema()["$defs"] | {form.__name__: expected}
-        )
-    assert set(own["Parameters"]["properties"]) == {
-        "points",
-        *(name for name, one in INPUTS.items() if one.table == "parameters"),
-    }
-    assert own["Parameters"]["additionalProperties"] is False
+    assert told == Form.model_json_schema()
+    own = told["$defs"]["Parameters"]
+    assert set(own["properties"]) == {"points", *(name for name, one in INPUTS.items() if one.table == "parameters")}
+    assert own["additionalProperties"] is False
     for config in (root / "configs").glob("*.toml"):
         keys = tomllib.loads(config.read_text())
-        of_a_fit = keys.get("kind") == "fit"
-        assert keys.keys() <= own["FitForm" if of_a_fit else "Form"]["properties"].keys()
-        assert keys["parameters"].keys() <= own["FitParameters" if of_a_fit else "Parameters"]["properties"].keys()
+        assert keys.keys() <= told["properties"].keys()
+        assert keys["parameters"].keys() <= own["properties"].keys()

@@ -14,9 +14,8 @@ import pytest
 from click.testing import CliRunner
 
 from gradhesion.cli.main import cli
-from gradhesion.cli.study.fit.form import REQUIRED, FitForm
 from gradhesion.cli.study.reading import study_from
-from gradhesion.cli.study.rules.mistakes import checked
+from gradhesion.cli.study.rules.asked import checked
 
 from .pages import PAGES, ROOT, Block, blocks_of, commands_of, made_smaller, same
 from .plain import HIDE, hidden
@@ -99,7 +98,7 @@ def _check_study(block: Block) -> None:
     if "physical" in table and "parameters" not in table:
         study["parameters"] = {"k": 0.3, "nu": 0.3, "A": 0.02}
     if study.get("kind") == "fit":  # a whole one: its form is checked, its file is that of the page
-        assert checked(table, FitForm, REQUIRED).mistakes == (), block.place
+        assert checked(table).mistakes == (), block.place
     else:
         assert study_from(study).scenes >= 1, block.place
 

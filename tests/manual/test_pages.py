@@ -19,7 +19,6 @@ from gradhesion.cli import errors, main  # noqa: E402
 from gradhesion.cli.names.curves import CURVES  # noqa: E402
 from gradhesion.cli.names.fits import FIT, FIT_POINTS  # noqa: E402
 from gradhesion.cli.names.outputs import OUTPUTS  # noqa: E402
-from gradhesion.cli.study.fit.form import FitForm  # noqa: E402
 from gradhesion.cli.study.rules.form import Form  # noqa: E402
 from gradhesion.cli.study.rules.mistakes import tables_of  # noqa: E402
 from gradhesion.core import FLAGS  # noqa: E402
@@ -56,8 +55,7 @@ def test_every_key_output_and_flag_stands_in_the_manual() -> None:
         "method",
     )
     of_a_fit = ("data", "fit")
-    of_forms = [*tables_of(Form).values(), *tables_of(FitForm).values()]
-    keys = {key for table in of_forms for key in table.model_fields} - {*tables, *of_a_fit}
+    keys = {key for table in tables_of(Form).values() for key in table.model_fields} - {*tables, *of_a_fit}
     assert keys >= {*INPUTS}
     assert all(f"\n| `{key}` |" in study for key in keys)
     assert all(f"\n## [{name}]\n" in study for name in tables)

@@ -249,7 +249,7 @@ SHIPPED_BEYOND = {"fig4a": "unbounded", "cone": "cone"}
 def test_shipped_studies_stay_where_slopes_are_small_or_say_why_not() -> None:
     from gradhesion.cli.study.fit.study import FitStudy
     from gradhesion.cli.study.reading import load_any
-    from gradhesion.cli.work.solve.given import scenes_of
+    from gradhesion.cli.work.solve.given import scenes_from
     from gradhesion.core import VALIDITY, solve
 
     for path in sorted((ROOT / "configs").glob("*.toml")):
@@ -265,7 +265,7 @@ def test_shipped_studies_stay_where_slopes_are_small_or_say_why_not() -> None:
                 for name, values in study.parameters.items()
             }
             given = replace(study, parameters=few)
-            scenes = scenes_of(given, given.apart(tuple(slice(0, size) for size in given.shape))[1])
+            scenes = scenes_from(given.parameters_of(given.apart(tuple(slice(0, size) for size in given.shape))[1]))
             own: dict[str, Any] = {
                 "profile": study.profile,
                 "loading": study.loading,

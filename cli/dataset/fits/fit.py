@@ -12,7 +12,7 @@ from gradhesion.cli.dataset.select import write_dataset
 from gradhesion.cli.names.fits import FIT_WORDS, LOOP, OTHER_PARAMETER, PARAMETER_UNITS
 from gradhesion.cli.names.outputs import PARAMETER
 from gradhesion.cli.names.scenes import STEEP
-from gradhesion.cli.study.fit.loop_files import fingerprint
+from gradhesion.cli.study.fit.loop_file import fingerprint
 from gradhesion.cli.study.fit.study import FitStudy, unit_of_parameter
 from gradhesion.cli.study.shape_words import rate_in_words, shape_in_words, toughness_in_words
 from gradhesion.cli.work.compiling import prepare

@@ -1,37 +1,41 @@
-"""A measured loop: depth and load in SI units, which way the points go, how noisy they are, and their means."""
+"""Measured loops: depth and load in SI units, which way the points go, how noisy they are, and their means."""
 
+import hashlib
+from collections.abc import Iterable
 from dataclasses import dataclass, field
+from glob import glob
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.study.fit.afm_file import is_force_file, read_force_file
-from gradhesion.cli.study.fit.fault_words import refuse_faults, refuse_order
-from gradhesion.cli.study.fit.loop_columns import PAUSE, LoopFileError, Raw, read_table
-from gradhesion.cli.study.fit.rules import control_of
+from gradhesion.cli.study.fit.columns import PAUSE, LoopFileError, Raw, read_table
+from gradhesion.cli.study.rules.form import DataTable
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.loops.measured import points as loop_points
 from gradhesion.core.loops.measured.averaging import MOST, averaged
 from gradhesion.core.loops.measured.noise import noise_of
+from gradhesion.core.loops.measured.plausible import fault_of
 
-if TYPE_CHECKING:
-    from gradhesion.cli.study.fit.form import DataTable, FitForm
+MOST_FILES: Final = 10_000
+"""Files of one study: each is a fit."""
+_NONE: Final = np.zeros(0)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class LoopFile:
     """The points of a measured loop, or means of many."""
 
-    depth: NDArray[np.float64]
+    depth: NDArray[np.float64] = field(default_factory=_NONE.copy)
     """In m: of the contact, or of the machine."""
-    load: NDArray[np.float64]
+    load: NDArray[np.float64] = field(default_factory=_NONE.copy)
     """In N; positive presses."""
-    unloading: NDArray[np.bool_]
-    cycle: NDArray[np.int64]
+    unloading: NDArray[np.bool_] = field(default_factory=lambda: _NONE.astype(bool))
+    cycle: NDArray[np.int64] = field(default_factory=lambda: _NONE.astype(np.int64))
     """The number of the cycle of each point, from 1 unless the file has them."""
-    counts: NDArray[np.float64]
+    counts: NDArray[np.float64] = field(default_factory=_NONE.copy)
     """How many points of the file each is the mean of."""
     file: str = ""
     """The name of the file, from the folder of the study; behind # which of its loops this is."""
@@ -62,59 +66,120 @@ class LoopFile:
         """Whether its points are means of several."""
         return self.points > self.depth.size
 
+    @property
+    def notes(self) -> list[str]:
+        """What was left out of it, and what was averaged."""
+        if self.problem:
+            return [f"{self.file}: {self.problem}"]
+        sentences = [
+            f"{self.file}: {counted(count, 'row')} {what} {'was' if count == 1 else 'were'} left out"
+            for count, what in ((self.dropped, "without a number"), (self.paused, "of pauses"))
+            if count
+        ]
+        if self.is_averaged:
+            points = counted(self.points, "point")
+            sentences.append(f"{self.file}: {points} averaged along the path; {self.depth.size:,} kept")
+        return sentences
 
-def nothing(file: str, problem: str, sha256: str = "") -> LoopFile:
-    """Give a loop without points, and why it has none."""
-    none = np.zeros(0)
-    return LoopFile(
-        depth=none,
-        load=none,
-        counts=none,
-        unloading=np.zeros(0, bool),
-        cycle=np.zeros(0, np.int64),
-        file=file,
-        sha256=sha256,
-        problem=problem,
-    )
 
-
-def read_loops(path: Path, file: str, form: "FitForm") -> list[LoopFile]:
+def read_loops(
+    folder: Path, table: DataTable, fitted: list[str], *, average: bool, through_machine: bool
+) -> tuple[tuple[LoopFile, ...], LoopFileError | None]:
     """
-    Read the loops of a file: of a table one, of an instrument's file perhaps several.
+    Read all loops of a study, sorted by the names of their files.
 
-    Raises
-    ------
-    LoopFileError
-        The file cannot be read, lacks a column, or is no loop.
+    Parameters
+    ----------
+    folder
+        Where the files are looked for.
+    table
+        Which files, and their columns.
+    fitted
+        The names of what is fitted, for which there must be points enough.
+    average
+        Whether many points are averaged.
+    through_machine
+        Whether depths are displacements of a machine.
+
+    Returns
+    -------
+    The loops, of a table one, of an instrument's file perhaps several; and why none of them can be fitted. One of
+    several that cannot is kept with its problem.
     """
-    table, through_machine = form.data, control_of(form) == "machine"
-    if is_force_file(path.name, table):
-        raws = read_force_file(path, table, through_machine=through_machine)
-    else:
-        raws = [read_table(path, table)]
-    more = {"average": form.fit.average, "through_machine": through_machine}
-    return [_loop(raw, f"{file}#{raw.of}" if raw.of else file, table, **more) for raw in raws]
+    names, how = _names_of(folder, table.file), {"average": average, "through_machine": through_machine}
+    if not names or len(names) > MOST_FILES:
+        what = f"{len(names):,} files are more than {MOST_FILES:,}" if names else "no file matches this pattern"
+        remedy = 'write the path from the folder of the study, as "curves/*.csv"'
+        return (), LoopFileError("file", f"{what}; {remedy}")
+    loops: list[LoopFile] = []
+    first: LoopFileError | None = None
+    for name in names:
+        path = folder / name
+        try:
+            force = is_force_file(table.model_copy(update={"file": path.name}))
+            raws = read_force_file(path, table, through_machine=through_machine) if force else [read_table(path, table)]
+            own = [_loop(raw, name, table, fitted, **how) for raw in raws]
+        except LoopFileError as error:
+            first = first or error
+            own = [LoopFile(file=name, problem=str(error), sha256=_digest(path))]
+        loops += own
+    if first and all(loop.problem for loop in loops):
+        several = f" (and so with each of the {counted(len(loops), 'loop')})"
+        words = str(first) if len(loops) == 1 else f"{loops[0].file}: {first}{several}"
+        return tuple(loops), LoopFileError(first.key, words)
+    return tuple(loops), None
 
 
-def _loop(raw: Raw, file: str, table: "DataTable", *, average: bool, through_machine: bool) -> LoopFile:
-    """Leave rows out, tell the branches, and average."""
-    paused = np.zeros(raw.depth.size, bool) if raw.branch is None else raw.branch == PAUSE
+def _names_of(folder: Path, file: str) -> list[str]:
+    """
+    Name the files that a pattern means, sorted; a file that has the name is meant itself.
+
+    >>> _names_of(Path("no such folder"), "loop.csv"), _names_of(Path("no such folder"), "*.csv")
+    (['loop.csv'], [])
+    """
+    if not any(mark in file for mark in "*?[") or (folder / file).exists():
+        return [file]
+    found = glob(file, root_dir=folder, recursive=True)  # noqa: PTH207 (patterns may be absolute)
+    return sorted(name for name in found if (folder / name).is_file())
+
+
+def _digest(path: Path) -> str:
+    """Give the fingerprint of a file that is no loop; empty where it cannot be read."""
+    try:  # to open a pipe would wait for who writes into it
+        return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
+    except OSError:
+        return ""
+
+
+def fingerprint(loops: Iterable[LoopFile]) -> str:
+    """Give the SHA-256 of the file, or of the names and fingerprints of several."""
+    own = {loop.file.partition("#")[0]: loop.sha256 for loop in loops}
+    if len(own) == 1:
+        return next(iter(own.values()))
+    return hashlib.sha256("".join(f"{name} {sha256}\n" for name, sha256 in own.items()).encode()).hexdigest()
+
+
+def _loop(
+    raw: Raw, file: str, table: DataTable, fitted: list[str], *, average: bool, through_machine: bool
+) -> LoopFile:
+    """Leave rows out, tell the branches, average, and refuse what is no loop."""
     branch = np.zeros(raw.depth.size) if raw.branch is None else raw.branch
-    sound = np.isfinite(raw.depth) & np.isfinite(raw.load) & np.isfinite(branch)
+    numbers = np.zeros(raw.depth.size) if raw.cycle is None else raw.cycle
+    paused = branch == PAUSE
+    sound = np.isfinite(raw.depth) & np.isfinite(raw.load) & np.isfinite(branch) & np.isfinite(numbers)
     use = sound & ~paused
     if not use.any():
         why = "every row belongs to a pause" if sound.any() else "no row has numbers in all of its columns"
         raise LoopFileError("file", f"{why}; name a file with some")
-    depth, load = raw.depth[use], raw.load[use]
-    cycle = None if raw.cycle is None else raw.cycle[use]
-    rank = None if cycle is None else np.unique(cycle, return_inverse=True)[1].astype(np.int32)
+    depth, load, cycle = raw.depth[use], raw.load[use], numbers[use].astype(np.int64)
+    rank = None if raw.cycle is None else np.unique(cycle, return_inverse=True)[1].astype(np.int32)
     if raw.branch is not None:
         unloading = branch[use] == 1.0
         rank = np.ones(depth.size, np.int32) if rank is None else rank
     else:
-        refuse_order(depth, rank)
+        _refuse_order(depth, rank)
         unloading, rank = loop_points.ways(depth, rank)
-    cycle = rank.astype(np.int64) if cycle is None else cycle
+    cycle = rank.astype(np.int64) if raw.cycle is None else cycle
     if table.which is not None:
         own = unloading == (table.which == "unloading")
         if not own.any():
@@ -122,34 +187,67 @@ def _loop(raw: Raw, file: str, table: "DataTable", *, average: bool, through_mac
         depth, load, unloading, rank, cycle = (row[own] for row in (depth, load, unloading, rank, cycle))
     found = noise_of(depth, load, unloading, rank)
     kept = averaged(depth, load, unloading, rank, found, most=MOST if average else depth.size)
-    refuse_faults(kept.depth, kept.load, kept.noise[1] / np.sqrt(kept.counts), kept.unloading, table)
     first = dict(zip(rank.tolist(), cycle.tolist(), strict=True)) if kept.depth.size < depth.size else {}
-    return LoopFile(
+    loop = LoopFile(
         depth=kept.depth,
         load=kept.load,
         unloading=kept.unloading,
         cycle=np.array([first[one] for one in kept.cycle.tolist()], np.int64) if first else cycle,
         counts=kept.counts,
-        file=file,
+        file=f"{file}#{raw.of}" if raw.of else file,
         through_machine=through_machine,
         sha256=raw.sha256,
         dropped=int(np.count_nonzero(~sound & ~paused)),
         paused=int(np.count_nonzero(paused)),
         noise=kept.noise,
     )
+    _refuse_faults(loop, table)
+    _refuse_few(loop, fitted)
+    return loop
 
 
-def notes_of(loop: LoopFile) -> list[str]:
-    """Say what was left out of a loop, and what was averaged."""
-    if loop.problem:
-        return [f"{loop.file}: {loop.problem}"]
-    sentences = []
-    for count, what in ((loop.dropped, "without a number"), (loop.paused, "of pauses")):
-        if count:
-            were = "was" if count == 1 else "were"
-            sentences.append(f"{loop.file}: {counted(count, 'row')} {what} {were} left out")
-    if loop.is_averaged:
-        sentences.append(
-            f"{loop.file}: {counted(loop.points, 'point')} averaged along the path; {loop.depth.size:,} kept"
-        )
-    return sentences
+def _refuse_order(depth: NDArray[np.float64], cycle: NDArray[np.int32] | None) -> None:
+    """Refuse points whose order tells no branches."""
+    if not loop_points.has_order(depth, cycle):
+        turns = int(loop_points.ways(depth)[1].max())
+        what = f"the branches cannot be recognised from the order of the points ({turns:,} turns of the depth among "
+        remedy = 'name a column that has them, branch = "branch", or sort the rows as they were measured'
+        raise LoopFileError("file", f"{what}{depth.size:,} points); {remedy}")
+
+
+def _refuse_faults(loop: LoopFile, table: DataTable) -> None:
+    """Refuse points without contact, and with a sign that is wrong."""
+    fault = fault_of(loop.depth, loop.load, loop.noise[1] / np.sqrt(loop.counts), loop.unloading)
+    depth = table.depths or "indentation"
+    if fault == "straight":
+        words = "the load is linear in the depth within its noise: the data show no contact"
+        raise LoopFileError("load", f"{words}; name a file or a column that does")
+    if fault == "depth":
+        words = "the load rises towards the shallowest points, so that the sign of the depth is wrong: it grows into "
+        raise LoopFileError(depth, f"{words}the half-space; write {_turned(depth, table)}")
+    if fault:
+        where, more = ("deepest", "") if fault == "load" else ("shallowest", ", as is that of the depth")
+        words = f"the load falls towards the {where} points and is farthest from the base line there, so that its sign "
+        turned = " and ".join(_turned(key, table) for key in (("load", depth) if more else ("load",)))
+        raise LoopFileError("load", f"{words}is wrong{more}: positive loads press; write {turned}")
+
+
+def _turned(key: str, table: DataTable) -> str:
+    """Write a column with the other sign."""
+    column = getattr(table, key)
+    if column is None:
+        return f'{key} = {{ column = "...", sign = -1 }}'
+    unit = f', unit = "{column.unit}"' if column.unit else ""
+    sign = "" if column.sign == -1 else ", sign = -1"
+    return f'{key} = {{ column = "{column.column}"{unit}{sign} }}'
+
+
+def _refuse_few(loop: LoopFile, fitted: list[str]) -> None:
+    """Refuse points that are too few for what is fitted, or all the same."""
+    if loop.depth.size <= len(fitted):
+        words = f"{loop.depth.size} points are too few for {len(fitted)} fitted values ({', '.join(fitted)})"
+        raise LoopFileError("file", f"{words}; measure more points, or fix some")
+    for row, values in (("depth", loop.depth), ("load", loop.load)):
+        if np.ptp(values) == 0.0:
+            words = f"all values of the {row} are the same, so that there is no loop; name another column"
+            raise LoopFileError("file", words)

@@ -1,14 +1,19 @@
-"""A study of kind "fit": parameters from measured loops. It has no scenes.
-
-Its form and its rules stand apart (form.py, rules.py): a study of scenes loads neither.
-"""
+"""A study of kind "fit": parameters from measured loops. It has no scenes."""
 
 import hashlib
-from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
-from gradhesion.cli.study.fit.loop_file import LoopFile, notes_of
+from gradhesion.cli.study.fit.loop_file import LoopFile, fingerprint, read_loops
+from gradhesion.cli.study.fit.rules import NUMBER_ALONE, control_of, given_in
+from gradhesion.cli.study.rules.asked import Asked
+from gradhesion.cli.study.rules.form import Range
+from gradhesion.cli.study.rules.mistakes import Mistake
+from gradhesion.cli.study.rules.scenes import shape_of
+from gradhesion.cli.study.text.source import Source
+from gradhesion.cli.study.text.written import toml_of, with_fingerprint
+from gradhesion.cli.tables.columns import changed
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.loops.paths.offsets import Offsets
@@ -30,9 +35,9 @@ class FitStudy:
     """The file of the loop, or the pattern of several, as the study names them."""
     loops: tuple[LoopFile, ...]
     """The loops, one fit each, sorted by the names of their files."""
-    fixed: Mapping[str, float]
+    fixed: dict[str, float]
     """What is given as a number, in SI units."""
-    free: Mapping[str, tuple[float, float]]
+    free: dict[str, tuple[float, float]]
     """What is searched, with the ends of its range."""
     offsets: Offsets
     average: bool
@@ -96,16 +101,55 @@ class FitStudy:
     @property
     def notes(self) -> tuple[str, ...]:
         """What there is to say of the data before they are fitted."""
-        return tuple(sentence for loop in self.loops for sentence in (*notes_of(loop), *self._of_noise(loop)))
+        sentences = []
+        for loop in self.loops:
+            sentences += loop.notes
+            if not self.noise_is_given and not loop.problem:
+                noise = "{:.3g} nm, {:.3g} nN".format(*(1e9 * one for one in loop.noise))
+                words = f"{loop.file}: noise estimated from differences of neighbours: {noise}"
+                sentences.append(f"{words}; give it under [fit] where it is known")
+        return tuple(sentences)
 
-    def _of_noise(self, loop: LoopFile) -> Iterator[str]:
-        """Say that noise was estimated."""
-        if not self.noise_is_given and not loop.problem:
-            depth, load = loop.noise
-            yield (
-                f"{loop.file}: noise estimated from differences of neighbours: {depth * 1e9:.3g} nm, "
-                f"{load * 1e9:.3g} nN; give it under [fit] where it is known"
-            )
+
+def fit_from(source: Source, asked: Asked) -> FitStudy | Mistake:
+    """Read the loops of a fit whose keys are right; a mistake where there is none to be fitted."""
+    form = asked.form
+    table, noise, given, control = form.data, form.fit.noise, given_in(form), control_of(form)
+    assert table is not None  # noqa: S101 (the rules ask for it)
+    free = {name: (entry.start, entry.stop) for name, entry in given.items() if isinstance(entry, Range)}
+    fixed = {name: float(entry) for name, entry in given.items() if isinstance(entry, int | float)}
+    offsets = Offsets(**dict(form.fit.offsets))
+    own = {"average": form.fit.average, "through_machine": control == "machine"}
+    loops, error = read_loops(source.folder, table, [*free, *offsets.names], **own)
+    sha256 = fingerprint(loops) if loops else ""
+    if error:
+        return Mistake(("data", error.key), asked.at(("data", error.key)), str(error))
+    if table.sha256 and table.sha256 != sha256:
+        several = table.file not in {loop.file.partition("#")[0] for loop in loops}
+        return Mistake(("data", "file"), table.file, changed(sha256, table.sha256, "remove sha256", several=several))
+    data, text = with_fingerprint(source.data, source.text, ("data",), sha256)
+    exponent = fixed.pop("exponent", 0.0) or sum(free.get("exponent", ())) / 2.0
+    made: dict[str, Any] = {"rate": form.rate.made(exponent=exponent)} if form.rate else {}
+    return FitStudy(
+        name=source.name,
+        title=form.title or source.name,
+        text=text or toml_of(data),
+        file=table.file,
+        loops=loops,
+        fixed={name: value for name, value in fixed.items() if name not in NUMBER_ALONE},
+        free=free,
+        offsets=offsets,
+        average=form.fit.average,
+        given_noise=None if noise is None else (noise.indentation or noise.displacement or 0.0, noise.load),
+        intervals=form.fit.intervals,
+        starts=form.fit.starts,
+        profile=shape_of(form.profile),
+        loading=Loading(control=control),
+        toughness=form.toughness.made() if form.toughness else None,
+        adhesion_range=fixed.get("adhesion_range"),
+        folder=source.folder,
+        **made,
+    )
 
 
 def unit_of_parameter(name: str) -> str:

@@ -11,17 +11,10 @@ from gradhesion.core.problem.inputs import INPUTS
 
 Values = float | NDArray[np.float64]
 """The values of a parameter: a float is fixed, an array is an axis."""
-Found = Iterator[tuple[str, str]]
-"""Dotted keys, and what is wrong with each."""
 MOST_VALUES: Final = 10_000_000
 """Values of one axis: it is held in memory, and so are its kin."""
 DIGITS: Final = 12
 """Significant digits of the decimals that the values of a range are moved to, where these are within rounding."""
-
-
-def home(name: str) -> str:
-    """Write an input with its table."""
-    return f"{INPUTS[name].table}.{name}"
 
 
 def expanded(entry: Entry) -> Values:
@@ -34,16 +27,14 @@ def expanded(entry: Entry) -> Values:
     array([0.01, 0.1 , 1.  ])
     """
     if isinstance(entry, Range):
-        space = np.geomspace if entry.spacing == "log" else np.linspace
-        low, high = sorted((entry.start, entry.stop))
-        values = space(entry.start, entry.stop, entry.num)
+        if entry.num is None:  # searched
+            return np.array([entry.start, entry.stop]) + 0.0
+        values = (np.geomspace if entry.spacing == "log" else np.linspace)(entry.start, entry.stop, entry.num)
         values = _shortest(values, np.abs(values) if entry.spacing == "log" else max(abs(entry.start), abs(entry.stop)))
-        values = np.clip(values, low, high)
+        values = np.clip(values, min(entry.start, entry.stop), max(entry.start, entry.stop))
         values[0], values[-1] = entry.start, entry.stop
-        return values + 0.0  # no negative zeros
-    if isinstance(entry, list):
-        return np.array(entry, dtype=np.float64) + 0.0
-    return float(entry) + 0.0
+        return np.asarray(values + 0.0)  # no negative zeros
+    return np.array(entry, dtype=np.float64) + 0.0 if isinstance(entry, list) else float(entry) + 0.0
 
 
 def _shortest(values: NDArray[np.float64], size: NDArray[np.float64] | float) -> NDArray[np.float64]:
@@ -64,26 +55,28 @@ def _shortest(values: NDArray[np.float64], size: NDArray[np.float64] | float) ->
     return moved if np.unique(moved).size == np.unique(values).size else values
 
 
-def range_mistakes(name: str, entry: Entry, *, searched: bool) -> Found:
+def range_mistakes(name: str, entry: Entry, *, searched: bool) -> Iterator[tuple[str, str]]:
     """Check that a range makes sense as a whole, and that an axis can be held in memory."""
-    at = home(name)
+    at = f"{INPUTS[name].table}.{name}"
     if isinstance(entry, list) and len(entry) > MOST_VALUES:
         yield at, f"more than {MOST_VALUES:,} values in one list; split the study"
     if not isinstance(entry, Range):
         return
     start, stop = entry.start, entry.stop
-    if entry.num > MOST_VALUES:
+    if entry.num is None and not searched:
+        yield f"{at}.num", "this key is required; write for example num = 50"
+    elif entry.num and entry.num > MOST_VALUES:
         yield f"{at}.num", f"more than {MOST_VALUES:,} values in one axis; split the study"
     elif entry.num == 1 and start != stop:
         yield f"{at}.num", "one value cannot be at both start and stop; use num = 2 or more, or a list of one value"
-    elif entry.num > 1 and start == stop and not searched:
+    elif start == stop and entry.num != 1 and not searched:
         yield at, f"start and stop are the same, so that the value repeats; write [{start:g}] or another stop"
     elif entry.spacing == "log" and min(start, stop) <= 0.0:
         end = "start" if start <= 0.0 else "stop"
         yield f"{at}.{end}", 'log spacing needs values > 0; raise it, or use spacing = "linear"'
 
 
-def repeated(name: str, values: Values) -> Found:
+def repeated(name: str, values: Values) -> Iterator[tuple[str, str]]:
     """Check that an axis has no value twice."""
     if isinstance(values, np.ndarray):
         unique, counts = np.unique(values, return_counts=True)
@@ -91,4 +84,5 @@ def repeated(name: str, values: Values) -> Found:
             value = float(unique[np.argmax(counts > 1)])
             first, second = np.flatnonzero(values == value)[:2].tolist()
             unit = "" if INPUTS[name].unit == "1" else f" {INPUTS[name].unit}"
-            yield home(name), f"the axis repeats the value {value!r}{unit} (items {first} and {second}); remove one"
+            words = f"the axis repeats the value {value!r}{unit} (items {first} and {second}); remove one"
+            yield f"{INPUTS[name].table}.{name}", words

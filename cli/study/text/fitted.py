@@ -23,20 +23,16 @@ def fitted_value(path: Path, key: str) -> float | str:
             if not {"value", "parameter_units", "chi_square"} <= file.variables.keys():
                 raise ValueError("the dataset is not that of a fit; name one that a study of kind fit gave")
             if "loop" in file.dimensions:
-                raise ValueError(
-                    f"fits of several loops; take one with `gradhesion select {path} --at loop=0 -o one.nc`"
-                )
+                one = f"`gradhesion select {path} --at loop=0 -o one.nc`"
+                raise ValueError(f"fits of several loops; take one with {one}")
             names, units = (list(map(str, file[name][:])) for name in ("parameter", "parameter_units"))
-            values = file["value"][:].tolist()
-            doubtful = int(file["status"][...]) & (FAILED | POOR_FIT | ANOTHER_MINIMUM) or not int(
-                file["converged"][...]
-            )
+            values, status, converged = file["value"][:].tolist(), int(file["status"][...]), int(file["converged"][...])
     except OSError as error:
         what = kind_of(path) or error.strerror or "it cannot be read"
         raise ValueError(f"not the dataset of a fit ({what}); name one, or give a value") from None
     if key not in names:
         raise ValueError(f"the fit has no {key}; {did_you_mean(key, names)}")
-    if doubtful:
+    if status & (FAILED | POOR_FIT | ANOTHER_MINIMUM) or not converged:
         raise ValueError("the fit is flagged, as `gradhesion info` reports; give the value as a number if it will do")
     value, unit = values[names.index(key)], units[names.index(key)]
     return value if unit == "1" else f"{value!r} {unit}"

@@ -102,7 +102,7 @@ def as_written(value: Any, path: tuple[str, ...] = (), *, bare: bool = True) -> 
     if type(value) in _PLAIN:
         return value
     if isinstance(value, Mapping):
-        return {key: as_written(item, (*path, str(key)), bare=bare) for key, item in value.items()}
+        return {str(key): as_written(item, (*path, str(key)), bare=bare) for key, item in value.items()}
     if isinstance(value, list | tuple):
         return [as_written(item, path, bare=bare) for item in value]
     numbers, unit = apart(value)

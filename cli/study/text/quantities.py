@@ -4,43 +4,29 @@ Units are those of pint. Numbers are converted in decimal arithmetic and rounded
 to 10^-6, as if it had been written in metres.
 """
 
-import math
 import re
 from decimal import Decimal
 from functools import cache
-from tokenize import TokenError
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.cli.tables.columns import Columns, ColumnsError
 from gradhesion.core.problem.inputs import ANY, INPUTS, PHYSICAL, Input
 
 if TYPE_CHECKING:
     from pint import UnitRegistry
 
+_UP_TO: Final = "distance from the centre up to which heights are fitted [a_max]"
 QUANTITIES: Final = INPUTS | {
-    "up_to": Input(
-        "up_to",
-        "distance from the centre up to which heights are fitted [a_max]",
-        "",
-        '"2 um"',
-        unit="m",
-        table="profile",
-    ),
+    "up_to": Input("up_to", _UP_TO, "", '"2 um"', unit="m", table="profile"),
     "indentation": Input("indentation", "a depth", "", '"1 um"', ANY, unit="m", table="data"),
     "load": Input("load", "a load", "", '"1 nN"', ANY, unit="N", table="data"),
 }
 """Every quantity that a study may have: its inputs, and those of files."""
 LONGEST: Final = 60
 """Characters of a quantity: above any that is meant as one."""
-
-_QUANTITY: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,4})?|[+-]?inf|nan)\s*\*?\s*(.*)")
-_COMMA: Final = re.compile(r"([+-]?\d+),(\d+)")
-_THOUSANDS: Final = re.compile(r"([+-]?[1-9]\d{0,2}(?:,\d{3})+(?![\d,]))(\.\d*)?")
-"""A number that may have commas between its thousands, and its decimals after a point."""
-_POWER: Final = re.compile(r"([^\W\d_])([+-]?\d)")
-"""A power as UDUNITS and astropy write it, `m-2`."""
 WORDS: Final = {
     "1": "a number without a unit",
     "m": "a length (m)",
@@ -51,22 +37,13 @@ WORDS: Final = {
     "m/s": "a speed (m/s)",
 }
 """What is expected of a quantity, by its unit in SI."""
-_NO_UNIT: Final = (
-    ArithmeticError,
-    AssertionError,
-    AttributeError,
-    LookupError,
-    RecursionError,
-    SyntaxError,
-    TokenError,
-    TypeError,
-    ValueError,
-)
-"""What pint raises where it is given no unit."""
-_EXACT: Final = 10.0 ** np.arange(23)
-"""The powers of ten that are doubles."""
-_DIGITS: Final = 15
-"""Decimals of so many digits are each the only one of their double."""
+_USUAL: Final = ("m", "mm", "um", "nm", "Pa", "kPa", "MPa", "GPa", "N", "mN", "uN", "nN", "J/m^2", "mJ/m^2", "N/m",
+                 "mN/m", "m/s", "mm/s", "um/s", "nm/s")  # fmt: skip
+"""Units as they are usually written, for those who write "Mpa"."""
+_QUANTITY: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,4})?|[+-]?inf|nan)\s*\*?\s*(.*)")
+_COMMA: Final = re.compile(r"([+-]?\d+),(\d+)")
+_POWER: Final = re.compile(r"([^\W\d_])([+-]?\d)")
+"""A power as UDUNITS and astropy write it, `m-2`."""
 
 
 def si_value(value: object, name: str) -> float:
@@ -82,20 +59,13 @@ def si_value(value: object, name: str) -> float:
     (1e-06, 0.02, 0.02)
     """
     key = QUANTITIES[name]
-    text = str(value) if isinstance(value, str | float) else ""
-    parts = _QUANTITY.fullmatch(text.strip()) if len(text) <= LONGEST else None
-    number, written = parts.groups() if parts else ("", "")
-    comma = _comma_in(text.strip())
-    if isinstance(value, int | float) and not isinstance(value, bool) and "inf" not in number:
-        problem = WORDS["1"]
-    elif comma:
-        problem = comma
-    elif not parts:
-        problem = "not a number with its unit, in quotes"
-    else:
-        problem = WORDS["1"] if not written and "inf" not in number else ""
-    if problem:
-        raise ValueError(f"{problem}; {_expected(name)}")
+    number, written = _parts_of(value if isinstance(value, str) else str(value) if isinstance(value, float) else "")
+    plain = isinstance(value, int | float) and not isinstance(value, bool)
+    if "inf" not in number and (plain or not written):
+        what = WORDS["1"] if plain or number else "not a number with its unit, in quotes"
+        raise ValueError(f"{what}; {_expected(name)}")
+    if comma := _comma_in(str(value)):
+        raise ValueError(f"{comma}; {_expected(name)}")
     result = float(Decimal(number) * (factor_of(written, name) if written else 1)) + 0.0
     if not key.admits(result):
         allowed = f"{WORDS[key.unit]} with {key.allowed}" if key.bounds else f"{WORDS[key.unit]} that is finite"
@@ -104,21 +74,32 @@ def si_value(value: object, name: str) -> float:
     return result
 
 
-def _comma_in(text: str) -> str:
-    """
-    Describe the comma in a number, and how to write the number without it; "" without one.
+def _parts_of(text: str) -> tuple[str, str]:
+    """Take a number and its unit apart; nothing of what begins with no number."""
+    parts = _QUANTITY.fullmatch(text.strip()) if len(text) <= LONGEST else None
+    return (parts[1], parts[2]) if parts else ("", "")
 
-    >>> _comma_in("300,5 nm"), _comma_in("1,000 nm"), _comma_in("1,234.5 nm")  # doctest: +NORMALIZE_WHITESPACE
-    ('a decimal comma; write a point, 300.5', 'a comma of decimals or between thousands; write 1.000 or 1000',
-    'a comma between thousands; write 1234.5')
-    """
-    thousands, comma = _THOUSANDS.match(text), _COMMA.match(text)
-    if thousands:
-        plain = thousands[0].replace(",", "")
-        if thousands[2] or thousands[1].count(",") > 1:
-            return f"a comma between thousands; write {plain}"
-        return f"a comma of decimals or between thousands; write {thousands[1].replace(',', '.')} or {plain}"
-    return f"a decimal comma; write a point, {comma[1]}.{comma[2]}" if comma else ""
+
+def _comma_in(text: str) -> str:
+    """Describe a comma in a number, and how to write it without; nothing where there is none."""
+    comma = _COMMA.match(text.strip())
+    return f"a comma in a number; write a decimal point, {comma[1]}.{comma[2]}, and none at thousands" if comma else ""
+
+
+def ratio_sentence(text: str, name: str) -> str:
+    """Say that a quantity, or a number with a comma, stands where a ratio is expected; nothing if it is neither."""
+    written = _parts_of(text)[1]
+    if comma := _comma_in(text):
+        return f"{comma}, without quotes"
+    return f'"{written}" is not a unit of this quantity; {_expected(name)}' if written else ""
+
+
+def _expected(name: str) -> str:
+    """Say what is expected of a key, and under which other one a quantity would stand."""
+    key = QUANTITIES[name]
+    sentence = f"{WORDS[key.unit]} is expected; write for example {key.example}"
+    others = [one for one in PHYSICAL.values() if key.unit == "1" and one.gives == name]
+    return f"{sentence}, or give {others[0].name} in {others[0].unit}" if len(others) == 1 else sentence
 
 
 def in_si(numbers: NDArray[Any], written: str, name: str) -> NDArray[np.float64]:
@@ -148,9 +129,35 @@ def factor_of(written: str, name: str) -> Decimal:
     """
     factor = factor_between(written, QUANTITIES[name].unit)
     if not factor:
-        unknown = factor is None
-        problem = f'the unit "{written}" is not known' if unknown else f'"{written}" is not a unit of this quantity'
+        like = [usual for usual in _USUAL if usual.lower() == written.lower() and usual != written]
+        meant = f', did you mean "{like[0]}"?' if like else ""
+        unknown = f'the unit "{written}" is not known{meant}'
+        problem = unknown if factor is None else f'"{written}" is not a unit of this quantity{meant}'
         raise ValueError(f"{problem}; {_expected(name)}")
+    return factor
+
+
+def factor_of_column(found: Columns, name: str, key: str, written: str = "") -> Decimal:
+    """
+    Report how many of the unit of a key the unit of a column is: the one written in a study, or in the file.
+
+    Raises
+    ------
+    ColumnsError
+        There is none, it has another dimension, or the two differ; the message says what to write.
+    """
+    of_file, own = found.units.get(name, ""), QUANTITIES[key].unit
+    unit = written or of_file or (own if own == "1" else "")
+    if not unit:
+        remedy = f"write it after the name in the header in brackets, as {name} [{own}]"
+        raise ColumnsError(f'the column "{name}" has no unit; {remedy}')
+    try:
+        factor = factor_of(unit, key)
+    except ValueError as error:
+        raise ColumnsError(f'the column "{name}": {str(error).partition("; write")[0]}') from None
+    if of_file and of_file != unit and factor_between(of_file, own) != factor:
+        words = f'the unit of the column "{name}" is "{unit}" in the study and "{of_file}" in the header of the file'
+        raise ColumnsError(f"{words}; correct one of the two, or leave it out of the study")
     return factor
 
 
@@ -161,46 +168,8 @@ def scaled(numbers: NDArray[Any], factor: Decimal) -> NDArray[np.float64]:
     So that 25 um is 2.5e-05 m, which the product of 25.0 and 1e-06 is not.
     """
     given = np.asarray(numbers, dtype=np.float64)
-    values = given.ravel()
-    results, left = np.empty_like(values), np.isfinite(values)
-    _, digits, power = factor.normalize().as_tuple()
-    if digits != (1,) or not isinstance(power, int):
-        results = np.array([float(Decimal(repr(value)) * factor) for value in values.tolist()])
-        return results.reshape(given.shape) + 0.0  # no negative zeros
-    for places in range(min(_DIGITS, 22 + power) + 1):  # of decimals, as long as each step is exact
-        whole = np.rint(np.where(left, values, 0.0) * _EXACT[places])
-        found = left & (whole / _EXACT[places] == values) & (np.abs(whole) < 10.0**_DIGITS)
-        up = power - places
-        if up <= 22:
-            results[found] = whole[found] * _EXACT[up] if up >= 0 else whole[found] / _EXACT[-up]
-            left &= ~found
-        if not left.any():
-            break
-    rest = left | ~np.isfinite(values)
-    results[rest] = [_shifted(value, power) for value in values[rest].tolist()]
-    return results.reshape(given.shape) + 0.0
-
-
-def _shifted(value: float, power: int) -> float:
-    """Multiply a number by a power of ten, in its text."""
-    digits, _, own = repr(value).partition("e")
-    return float(f"{digits}e{int(own or 0) + power}") if math.isfinite(value) else value
-
-
-def ratio_sentence(text: str, name: str) -> str:
-    """Say that a quantity stands where a ratio is expected; nothing if the text is no quantity."""
-    parts = _QUANTITY.fullmatch(text.strip()) if len(text) <= LONGEST else None
-    if not parts or not parts[2]:
-        return ""
-    return f'"{parts[2]}" is not a unit of this quantity; {_expected(name)}'
-
-
-def _expected(name: str) -> str:
-    """Say what is expected of a key, and under which other one a quantity would stand."""
-    key = QUANTITIES[name]
-    sentence = f"{WORDS[key.unit]} is expected; write for example {key.example}"
-    others = [one for one in PHYSICAL.values() if key.unit == "1" and one.gives == name]
-    return f"{sentence}, or give {others[0].name} in {others[0].unit}" if len(others) == 1 else sentence
+    products = [float(Decimal(repr(value)) * factor) for value in given.ravel().tolist()]
+    return np.reshape(products, given.shape) + 0.0  # no negative zeros
 
 
 @cache
@@ -229,6 +198,6 @@ def factor_between(written: str, unit: str) -> Decimal | None:
             if registry.Quantity(Decimal(0), meant).to(wanted).magnitude:  # decibels, which are no multiples
                 return None
             return Decimal(registry.Quantity(Decimal(1), meant).to(wanted).magnitude)
-        except _NO_UNIT:
+        except Exception:  # noqa: BLE001, S112 (whatever pint raises where it is given no unit)
             continue
     return None

@@ -14,10 +14,18 @@ from gradhesion.cli.errors import StudyError
 from gradhesion.cli.files import kind_of
 from gradhesion.cli.study.text import places
 from gradhesion.cli.study.text.fitted import fitted_value
-from gradhesion.cli.terminal import wording
+from gradhesion.cli.terminal.wording import shown
 
 MOST_BYTES: Final = 2**28
 """The longest study that is read: far above any that is meant as one."""
+_DEEPEST: Final = 32
+"""Levels of tables and lists: a study has four."""
+DEEP: Final = f"nested more than {_DEEPEST} deep; remove some levels"
+_DOTS: Final = re.compile(r"(?:[\w\"'-]+\s*\.\s*){100}")
+"""A key far too deep: the parser takes a time that grows with the square of its length."""
+_COMMA: Final = re.compile(r"=\s*([+-]?\d+),(\d+)")
+_Lines = Callable[[], Mapping[places.Path, str]]
+"""Finds the file and the line of each key."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,52 +54,49 @@ def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) ->
         The file cannot be read, or is not TOML.
     """
     data, lines, text = _read(path, most, ())
-    sources, mistakes = _override(data, overrides)
+    sources: dict[places.Path, str] = {}
+    mistakes = []
+    for override in overrides:
+        try:
+            sources[_set(data, override)] = override
+        except ValueError as error:
+            mistakes.append(f"--set {override}: {error}")
 
     def place(key: places.Path) -> str:
         above = [key[:depth] for depth in range(len(key), 0, -1)]
-        for origin in above:
-            if origin in sources:
-                return f"--set {sources[origin]}"
-        for origin in above:
-            if origin in lines():
-                return lines()[origin]
-        made = next((source for steps, source in sources.items() if steps[: len(key)] == key), None)
-        return f"--set {made}" if made else str(path)
+        found = next((lines()[steps] for steps in above if steps in lines()), "")
+        made = next((steps for steps in above if steps in sources), None)
+        if made is None and not found:  # a table that only overrides have made
+            made = next((steps for steps in sources if steps[: len(key)] == key), None)
+        return f"--set {sources[made]}" if made else found or str(path)
 
-    unchanged = "" if sources else text
-    name = os.fsencode(path.stem).decode("utf-8", "replace")
     return Source(
-        name=name,
+        name=os.fsencode(path.stem).decode("utf-8", "replace"),
         data=data,
-        text=unchanged,
+        text="" if sources else text,
         place=place,
         mistakes=tuple(mistakes),
         folder=path.absolute().parent,
     )
 
 
-_Lines = Callable[[], Mapping[places.Path, str]]
-"""Finds the file and the line of each key."""
-
-
 def _read(path: Path, most: int, above: tuple[Path, ...]) -> tuple[dict[str, Any], _Lines, str]:
     """Read the keys of a file and of what it includes, their places, and a text of just these keys if there is one."""
     text = _text(path, most)
-    deep = f"{path}: not a study, tables or lists are nested more than {places.DEEPEST} deep; remove some levels"
+    deep = f"{path}: not a study, tables or lists are {DEEP}"
     try:
-        data = {} if places.is_deep_text(text) else tomllib.loads(text)
+        data = {} if _DOTS.search(text) else tomllib.loads(text)
     except RecursionError:
         raise StudyError(deep) from None
     except ValueError as error:
         _check_kind(path)
-        raise StudyError([_syntax_sentence(path, text, str(error))]) from None
-    if places.is_deep_text(text) or places.is_deep(data):
+        raise StudyError(_syntax_sentence(path, text, str(error))) from None
+    if _DOTS.search(text) or is_deep(data):
         raise StudyError(deep)
     lines = cache(lambda: {key: f"{path}:{line}" for key, line in places.lines_of(text).items()})
     if "include" not in data:
         return data, lines, text
-    where = f"{lines().get(('include',), path)}: include = {wording.shown(data['include'])}"
+    where = f"{lines().get(('include',), path)}: include = {shown(data['include'])}"
     merged, below = included(data, path.parent, where, (*above, path), most)
     return merged, cache(lambda: {**below(), **lines()}), ""
 
@@ -122,9 +127,8 @@ def included(
     """
     name = data["include"]
     if not isinstance(name, str) or not name:
-        raise StudyError(
-            f'{where}: this must be the path of a study in quotes; write for example include = "base.toml"'
-        )
+        what = 'this must be the path of a study in quotes; write for example include = "base.toml"'
+        raise StudyError(f"{where}: {what}")
     base = folder / name
     if base.resolve() in {path.resolve() for path in above}:
         raise StudyError(f"{where}: {base} includes {above[-1]} in turn; remove one of the two")
@@ -139,21 +143,19 @@ def included(
 def _text(path: Path, most: int) -> str:
     """Read the text of a study file."""
     try:
-        content = bytearray()
-        with path.open("rb") as file:  # bit by bit: memory for the most that it may be is not always there
-            while len(content) <= most and (piece := file.read(2**20)):
-                content += piece
+        with path.open("rb") as file:
+            content = file.read(most + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise StudyError([f"{path}: cannot be read ({reason}); name a study in TOML"]) from None
+        raise StudyError(f"{path}: cannot be read ({reason}); name a study in TOML") from None
     if len(content) > most:
-        raise StudyError([f"{path}: larger than {most >> 20} MiB, too large for a study; name a study in TOML"])
+        raise StudyError(f"{path}: larger than {most >> 20} MiB, too large for a study; name a study in TOML")
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         _check_kind(path)
         line = content[: error.start].count(b"\n") + 1
-        raise StudyError([f"{path}:{line}: not text in UTF-8; name a study in TOML, saved as UTF-8"]) from None
+        raise StudyError(f"{path}:{line}: not text in UTF-8; name a study in TOML, saved as UTF-8") from None
 
 
 def _check_kind(path: Path) -> None:
@@ -161,16 +163,7 @@ def _check_kind(path: Path) -> None:
     kind = kind_of(path)
     if kind and path.suffix.lower() != ".toml":
         remedy = ", which `gradhesion info` and `gradhesion.open` read" if kind.startswith("a dataset") else ""
-        raise StudyError([f"{path}: is {kind}{remedy}, not a study; name a study in TOML"]) from None
-
-
-_REMEDIES: Final = {
-    "Cannot overwrite a value": "the key is given twice, remove one",
-    "Cannot declare": "the table is given twice, join the two",
-}
-"""What to do about problems of TOML that no single line has, by what the parser calls them."""
-
-_COMMA: Final = re.compile(r"=\s*([+-]?\d+),(\d+)")
+        raise StudyError(f"{path}: is {kind}{remedy}, not a study; name a study in TOML") from None
 
 
 def _syntax_sentence(path: Path, text: str, problem: str) -> str:
@@ -179,69 +172,71 @@ def _syntax_sentence(path: Path, text: str, problem: str) -> str:
     if not at:  # Python's own limit on integers
         return f"{path}: not valid TOML, a number of more than 4,300 digits; write it with an exponent, as 1e6"
     lines = text.rstrip().split("\n")
-    line = min(int(at[1]) if at[1] else len(lines), len(lines))
-    shown = f" in {wording.shown(lines[line - 1].strip())}" if path.suffix == ".toml" else ""
+    number = min(int(at[1] or len(lines)), len(lines))
+    line = lines[number - 1].strip() if path.suffix == ".toml" else ""
+    comma, what = _COMMA.search(line), problem[: at.start()]
+    remedy = f"write a decimal point, {comma[1]}.{comma[2]}" if comma else "fix this line"
+    if what.startswith(("Cannot overwrite", "Cannot declare")):
+        remedy = "it is given twice, join the two or remove one"
     column = f" (column {at[2]})" if at[2] else ""
-    what = problem[: at.start()]
-    comma = _COMMA.search(lines[line - 1]) if shown else None
-    usual = f"write a decimal point, {comma[1]}.{comma[2]}" if comma else "fix this line"
-    remedy = next((remedy for start, remedy in _REMEDIES.items() if what.startswith(start)), usual)
-    return f"{path}:{line}: not valid TOML, {what[0].lower()}{what[1:]}{column}{shown}; {remedy}"
+    within = f" in {shown(line)}" if line else ""
+    return f"{path}:{number}: not valid TOML, {what[0].lower()}{what[1:]}{column}{within}; {remedy}"
 
 
-def _is_list(value: str) -> bool:
-    """Report whether a value would be a list, in brackets."""
+def _set(data: dict[str, Any], override: str) -> places.Path:
+    """
+    Set a key by its dotted path in place, and give that path.
+
+    Raises
+    ------
+    ValueError
+        It cannot be set; the message says why, and what to do.
+    """
+    key, equals, text = override.partition("=")
+    steps, value = tuple(step.strip() for step in key.split(".")), text.strip()
+    if not equals or not all(steps):
+        raise ValueError("not of the form KEY=VALUE; write for example --set parameters.A=0.02")
+    if steps[0] == "include":
+        raise ValueError("a study is included by its file alone; write this at its top")
+    if value.endswith(".nc") and '"' not in value:
+        parsed: Any = fitted_value(Path(value), steps[-1])
+    else:
+        whole = _parsed(f"value = {value}")
+        if whole.keys() != {"value"}:
+            several = "," in value and _parsed(f"value = [{value}]").keys() == {"value"}
+            remedy = "write several values in brackets" if several else "quote strings"
+            right = f"[{value}]" if several else json.dumps(value, ensure_ascii=False)
+            raise ValueError(f"the value is not TOML; {remedy}, as in --set '{key}={right}'")
+        parsed = whole["value"]
+    if len(steps) > _DEEPEST or is_deep(parsed):
+        raise ValueError(DEEP)
+    table: Any = data
+    for depth, step in enumerate(steps[:-1], 1):
+        table = table.setdefault(step, {})
+        if not isinstance(table, dict):
+            parent = ".".join(steps[:depth])
+            raise ValueError(f"{parent} is not a table; set it as a whole, --set '{parent}=...'")  # noqa: TRY004
+    table[steps[-1]] = parsed
+    return steps
+
+
+def is_deep(data: Any) -> bool:
+    """
+    Check whether tables and lists are nested more deeply than in any study, without going down them all.
+
+    >>> is_deep({"parameters": {"k": [0.0, 0.5]}}), is_deep(eval(40 * '[' + 40 * ']'))
+    (False, True)
+    """
+    level = [data]
+    for _ in range(_DEEPEST):
+        nested = (one.values() if isinstance(one, Mapping) else one for one in level if isinstance(one, Mapping | list))
+        level = [item for items in nested for item in items if isinstance(item, Mapping | list)]
+    return bool(level)
+
+
+def _parsed(text: str) -> dict[str, Any]:
+    """Parse TOML; nothing of what is none."""
     try:
-        return "," in value and len(tomllib.loads(f"value = [{value}]")) == 1
+        return tomllib.loads(text)
     except (ValueError, RecursionError):
-        return False
-
-
-def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[places.Path, str], list[str]]:
-    """Set keys by their dotted paths in place; report which text set each, and what was wrong."""
-    sources: dict[places.Path, str] = {}
-    mistakes = []
-    for override in overrides:
-        key, equals, value = override.partition("=")
-        steps = tuple(step.strip() for step in key.split("."))
-        try:
-            parsed = tomllib.loads(f"value = {value.strip()}")
-        except (ValueError, RecursionError):
-            parsed = {}
-        if not equals or not all(steps):
-            mistakes.append(f"--set {override}: not of the form KEY=VALUE; write for example --set parameters.A=0.02")
-            continue
-        if len(steps) > places.DEEPEST or places.is_deep(parsed):
-            shown = wording.shown(override)
-            mistakes.append(
-                f"--set {shown}: nested more than {places.DEEPEST} deep, too deep for a study; remove levels"
-            )
-            continue
-        if parsed.keys() != {"value"} and value.strip().endswith(".nc") and '"' not in value:
-            try:
-                parsed = {"value": fitted_value(Path(value.strip()), steps[-1])}
-            except ValueError as error:
-                mistakes.append(f"--set {override}: {error}")
-                continue
-        if parsed.keys() != {"value"}:
-            quoted = f"[{value.strip()}]" if _is_list(value) else json.dumps(value.strip(), ensure_ascii=False)
-            if _is_list(value):
-                sentence = "write several values in brackets, without spaces or in quotes"
-                mistakes.append(f"--set {override}: the value is not TOML; {sentence}, as in --set '{key}={quoted}'")
-                continue
-            mistakes.append(f"--set {override}: the value is not TOML; quote strings, as in --set '{key}={quoted}'")
-            continue
-        if steps[0] == "include":
-            mistakes.append(f"--set {override}: a study is included by its file alone; write this at its top")
-            continue
-        table: Any = data
-        for depth, step in enumerate(steps[:-1]):
-            table = table.setdefault(step, {})
-            if not isinstance(table, dict):
-                parent = ".".join(steps[: depth + 1])
-                mistakes.append(f"--set {override}: {parent} is not a table; set it as a whole, --set '{parent}=...'")
-                break
-        else:
-            table[steps[-1]] = parsed["value"]
-            sources[steps] = override
-    return sources, mistakes
+        return {}

@@ -16,7 +16,7 @@ from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.work.solve.blocks import awaited
-from gradhesion.cli.work.solve.given import driven_by, scales_of, scenes_of
+from gradhesion.cli.work.solve.given import driven_by, scales_of, scenes_from
 from gradhesion.core.closed.reach import is_steep, slopes_of
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.processors import processors
@@ -60,41 +60,33 @@ def drawn(study: Study, threads: int | None = None) -> Iterator[Drawing]:
 
 def _draw(study: Study, block: Block) -> Drawing:
     """Draw the curves of one scene; one that has none is one point without a value."""
-    scene = {name: float(values.item()) for name, values in scenes_of(study, block).items()}
+    given = study.parameters_of(block)
+    scene = {name: float(values.item()) for name, values in scenes_from(given).items()}
     requested = [curve for curve, own in CURVES.items() if any(name in own for name in study.outputs)]
+    of_states = [curve for curve in requested if curve in STATE_CURVES]
     curves = [curve for curve in requested if curve not in STATE_CURVES]
     found, status = core.draw_curves(scene, curves, study.profile, **driven_by(study))
-    if curves != requested:
-        of_states, more = _of_states(study, scene, [curve for curve in requested if curve in STATE_CURVES])
-        found |= of_states
-        status |= more
-    front = (1,) * len(block)
-    parts = {}
-    counts = {
-        count: np.size(found[next(name for name in CURVES[curve] if name in found)])
-        for curve, count in RAGGED.items()
-        if curve in curves
-    }
+    if of_states:
+        more, flags = _of_states(study, scene, of_states)
+        found, status = found | more, status | flags
+    for curve, count in RAGGED.items():
+        if curve in curves:
+            found[count] = np.array(np.size(found[next(name for name in CURVES[curve] if name in found)]))
+    front, parts = (1,) * len(block), {}
     for name in study.outputs:
-        if name in counts:
-            parts[name] = np.full(front, counts[name], dtype=INTEGERS[name])
-        elif is_ragged(name):
-            parts[name] = found[name]
+        values = np.asarray(found[name])
+        if is_ragged(name):
+            parts[name] = values
         else:
-            values = np.asarray(found[name]) if np.size(found[name]) else np.array([blank_of(name)])
-            parts[name] = values.reshape(*front, *values.shape)
-    scales = scales_of(study, block)
+            values = values if values.size else np.array([blank_of(name)])
+            parts[name] = values.reshape((*front, *values.shape)).astype(INTEGERS.get(name, values.dtype), copy=False)
+    scales = scales_of(study, given)
     parts |= {name + SI: parts[name] * scales[UNITS[name]].item() for name in study.in_si}
     parts["status"] = np.full(front, status, dtype=study.status_type)
-    parts[STEEP] = np.full(front, _is_steep(study, found), dtype=np.int8)
+    radii = [np.ravel(found[name]) for name in _CONTACT_RADII if name in found] + [np.array(study.states)]
+    steep = not study.is_cone and bool(is_steep(slopes_of(np.concatenate(radii), study.profile)).any())
+    parts[STEEP] = np.full(front, steep, dtype=np.int8)
     return block, parts
-
-
-def _is_steep(study: Study, found: Mapping[str, NDArray[Any]]) -> bool:
-    """Report whether the contact that is drawn reaches a slope of the punch that is not small."""
-    radii = [found[name] for name in _CONTACT_RADII if name in found] + [np.array(study.states)]
-    drawn = slopes_of(np.concatenate([np.ravel(one) for one in radii]), study.profile)
-    return not study.is_cone and bool(is_steep(drawn).any())
 
 
 def _of_states(study: Study, scene: Mapping[str, float], curves: Sequence[str]) -> tuple[dict[str, NDArray[Any]], int]:
@@ -102,9 +94,8 @@ def _of_states(study: Study, scene: Mapping[str, float], curves: Sequence[str]) 
     from gradhesion.core.draw import states  # noqa: PLC0415 (300 ms for SciPy)
 
     if study.states:
-        chosen, status = states.equilibrium_states(scene, study.states, study.profile), 0
-        if np.isnan(chosen).all():
-            status = NO_VALUE
+        chosen = states.equilibrium_states(scene, study.states, study.profile)
+        status = NO_VALUE if np.isnan(chosen).all() else 0
     else:
         chosen, status = states.named_states(scene, study.profile, study.loading)
     return states.draw_states(scene, chosen, curves, study.profile), status
@@ -112,8 +103,7 @@ def _of_states(study: Study, scene: Mapping[str, float], curves: Sequence[str]) 
 
 def gathered(study: Study, drawings: Sequence[Drawing]) -> dict[str, NDArray[Any]]:
     """Put the drawings of a study together, padded to the longest curves."""
-    filled: dict[str, NDArray[Any]] = {"status": np.empty(study.shape, study.status_type)}
-    filled[STEEP] = np.zeros(study.shape, np.int8)
+    filled = {"status": np.empty(study.shape, study.status_type), STEEP: np.zeros(study.shape, np.int8)}
     for name in study.variables:
         parts_of = [parts[name] for _, parts in drawings]
         if is_ragged(name):

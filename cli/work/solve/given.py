@@ -1,6 +1,7 @@
 """Scenes from what a study gives, solved for its outputs, in SI units as well."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,14 +16,11 @@ from gradhesion.core import PARAMETERS, RANGE, SENSITIVITIES
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.profile import Profile
 
-
-def scenes_of(study: Study, block: Block) -> dict[str, NDArray[np.float64]]:
-    """Give the parameters of a block of the axes as the core knows them; NaN is one that does not exist."""
-    return scenes_from(study.parameters_of(block))
+Arrays = dict[str, NDArray[Any]]
 
 
 def scenes_from(given: dict[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
-    """Give the parameters of scenes as the core knows them, from what a study gives."""
+    """Give the parameters of scenes as the core knows them, from what a study gives; NaN is one that does not exist."""
     if given.keys() >= {*PARAMETERS}:
         return given
     from gradhesion.core.closed.reduced import parameters_from  # noqa: PLC0415 (300 ms for SciPy)
@@ -37,10 +35,11 @@ def solve_given(
     block: Block,
     threads: int | None,
     *,
+    outputs: tuple[str, ...] | None = None,
     watch: bool = False,
-) -> dict[str, NDArray[Any]]:
+) -> Arrays:
     """
-    Solve scenes that are given as those of a study are, for its outputs.
+    Solve scenes that are given as those of a study are.
 
     Parameters
     ----------
@@ -48,6 +47,8 @@ def solve_given(
         What the study gives; the arrays broadcast to the scenes.
     several, block
         Which of its solvers, and the block whose punches these are.
+    outputs
+        What is solved for; by default the outputs of the study.
     watch
         Whether the slopes that contacts reach are looked at (scenes.py).
 
@@ -56,8 +57,12 @@ def solve_given(
     The outputs, those in SI units and by quantities with units, and `status`: along the solvers, if there are several,
     the scenes, and random punches.
     """
-    found = _solved(study, scenes_from(given), several, block, threads=threads, watch=watch)
-    scales = scales_from(study, given)
+    study = study if outputs is None else replace(study, outputs=outputs)
+    solvers, (*_, profiles) = study.method.solver, study.apart(block)
+    requested = (solvers,) if isinstance(solvers, str) else solvers[several[0]]
+    settings = {"check_contact": study.method.check_contact, **driven_by(study), "threads": threads, "watch": watch}
+    found = solved_by(scenes_from(given), study, requested, profiles, **settings)
+    scales = scales_of(study, given)
     if study.spectrum is not None:
         scales = {unit: scale[..., None] for unit, scale in scales.items()}
     found |= {name + SI: found[name] * scales[UNITS[name]] for name in study.in_si}
@@ -82,13 +87,8 @@ def physical_of(
     return more
 
 
-def scales_of(study: Study, block: Block) -> dict[str, NDArray[np.float64]]:
-    """Give what results of a block are multiplied by for SI units, by the unit; nothing if the study has none."""
-    return scales_from(study, study.parameters_of(block))
-
-
-def scales_from(study: Study, given: Mapping[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
-    """Give the same of scenes that are given as those of a study are."""
+def scales_of(study: Study, given: Mapping[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
+    """Give what results of scenes are multiplied by for SI units, by the unit; nothing if the study has none."""
     if not study.in_si:
         return {}
     from gradhesion.core.closed.reduced import scales_in_si  # noqa: PLC0415 (300 ms for SciPy)
@@ -107,40 +107,21 @@ def driven_by(study: Study) -> dict[str, Any]:
     return {"loading": study.loading} | {name: one for name, one in more.items() if one is not None}
 
 
-def _solved(
-    study: Study, scenes: Mapping[str, NDArray[np.float64]], several: Block, block: Block, **how: Any
-) -> dict[str, NDArray[Any]]:
-    """Solve scenes for the outputs of a study, and `status`."""
-    solvers = study.method.solver
-    settings: dict[str, Any] = {"check_contact": study.method.check_contact, **driven_by(study), **how}
-    _, _, profiles = study.apart(block)
-    requested = (solvers,) if isinstance(solvers, str) else solvers[several[0]]
-    return solved_by(scenes, study, requested, profiles, **settings)
-
-
 def solved_by(
     scenes: Mapping[str, NDArray[np.float64]],
     study: Study,
     solvers: Sequence[str],
     profiles: Sequence[Profile],
     **settings: Any,
-) -> dict[str, NDArray[Any]]:
+) -> Arrays:
     """Solve scenes by each solver, the first dimension if the study has several, and of each punch, the last one."""
-    found = [
-        _of_each(solve(scenes, study.outputs, solver=solver, profile=one, **settings) for one in profiles)
-        if study.spectrum is not None
-        else solve(scenes, study.outputs, solver=solver, profile=profiles[0], **settings)
-        for solver in solvers
-    ]
+    found = []
+    for solver in solvers:
+        each = [solve(scenes, study.outputs, solver=solver, profile=one, **settings) for one in profiles]
+        found.append(each[0] if study.spectrum is None else _over(each[0]["status"].ndim, each))
     return found[0] if isinstance(study.method.solver, str) else _over(0, found)
 
 
-def _of_each(found: Iterable[Mapping[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:
-    """Put results of several punches beside each other along a new axis, the last one of the scenes."""
-    each = [*found]
-    return _over(each[0]["status"].ndim, each)
-
-
-def _over(axis: int, found: Sequence[Mapping[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:
+def _over(axis: int, found: Sequence[Mapping[str, NDArray[Any]]]) -> Arrays:
     """Put results beside each other along a new axis."""
     return {name: np.stack([values[name] for values in found], axis) for name in found[0]}

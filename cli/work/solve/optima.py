@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,13 +11,11 @@ from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.rules.answers import Search
 from gradhesion.cli.study.study import Method, Study
 from gradhesion.cli.study.tiling import Block, shape_of
-from gradhesion.cli.work.solve.given import solve_given
+from gradhesion.cli.work.solve.given import Arrays, solve_given
 from gradhesion.core.answers.flags import NOTHING_FEASIBLE, RESOLUTION_TOO_COARSE
 from gradhesion.core.answers.optimum import Optima, axis_of, front, optima_of, sweep
 from gradhesion.core.answers.slopes_to_keys import POWERS, slopes_to_keys
 from gradhesion.core.problem.status import LOADING_NOT_ONE_DISC, NO_VALUE
-
-Arrays = dict[str, NDArray[Any]]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -56,12 +53,9 @@ class _Cells:
             found[one.name] = np.where(place == 1.0, one.high, inner)
         return found
 
-    def solve(
-        self, given: Arrays, outputs: tuple[str, ...], *, study: Study | None = None, watch: bool = False
-    ) -> Arrays:
+    def solve(self, given: Arrays, outputs: tuple[str, ...]) -> Arrays:
         """Solve scenes."""
-        plain = replace(study or self.plain, outputs=outputs)
-        return solve_given(plain, given, (), self.block, self.threads, watch=watch)
+        return solve_given(self.plain, given, (), self.block, self.threads, outputs=outputs)
 
     def all_values(self, places: NDArray[np.float64], cells: NDArray[np.int64]) -> NDArray[np.float64]:
         """Return the merits by all goals, along a first axis; each as `gradhesion.core.answers.optimum.Merit` says."""
@@ -164,7 +158,7 @@ def _reported(cells: _Cells, places: NDArray[np.float64], numbers: NDArray[np.in
     whole = replace(cells.plain, method=study.method)
     # the outputs of the search as well, so that status says of loading what it said there
     requested = tuple(dict.fromkeys((*study.search.solved, *slopes)))
-    found = cells.solve(given, requested, study=whole, watch=study.watches_slope)
+    found = solve_given(whole, given, (), cells.block, cells.threads, outputs=requested, watch=study.watches_slope)
     status = found["status"]
     steep = {STEEP: np.broadcast_to(found.pop(STEEP), status.shape)} if study.watches_slope else {}
     values = {

@@ -12,7 +12,7 @@ from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.rules.answers import Uncertainty
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, shape_of
-from gradhesion.cli.work.solve.given import solve_given
+from gradhesion.cli.work.solve.given import Arrays, solve_given
 from gradhesion.core.answers.flags import LINEAR_DEVIATION_OFF
 from gradhesion.core.answers.slopes_to_keys import POWERS, slopes_to_keys
 from gradhesion.core.answers.uncertainty import (
@@ -29,8 +29,6 @@ from gradhesion.core.problem.status import NO_VALUE
 SCENES: Final = 2**20
 """Samples that are solved at a time: some ten arrays of 8 MB are held."""
 
-Arrays = dict[str, NDArray[Any]]
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Centre:
@@ -46,8 +44,8 @@ class _Centre:
 
     def solve(self, given: Arrays, outputs: tuple[str, ...], *, watch: bool = False) -> Arrays:
         """Solve scenes that are given as these are, for other outputs."""
-        study = replace(self.study, outputs=outputs)
-        return solve_given(study, given, self.several, self.block, self.threads, watch=watch)
+        own = (self.several, self.block, self.threads)
+        return solve_given(self.study, given, *own, outputs=outputs, watch=watch)
 
     def aligned(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Give an input the dimensions of results: random punches are their last."""

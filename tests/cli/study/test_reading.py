@@ -1,4 +1,4 @@
-"""Every mistake of a study gives its sentence, with exit 2, and nothing is written."""
+"""The text of a study: where its mistakes are told, with exit 2 and nothing written; overrides and included studies."""
 
 import re
 from collections.abc import Callable
@@ -7,6 +7,9 @@ from pathlib import Path
 import pytest
 from click.testing import Result
 
+from gradhesion.cli.errors import StudyError
+from gradhesion.cli.study.reading import load_study, study_from
+from gradhesion.cli.study.text.source import read_source
 from gradhesion.cli.terminal.printable import printable_line
 
 GOOD = """\
@@ -27,12 +30,6 @@ a_max_over_R = inf
 [method]
 solver = "exact"
 """
-
-CURVE = (
-    'kind = "map"\nlayout = "grid"\noutputs = ["pull_off_force"]',
-    'kind = "curve"\nlayout = "grid"\noutputs = ["pull_off_force"]',
-)
-
 NOT_TOML = {  # what is replaced, by what, and the line that is named
     "no equals sign": ("kind = ", "kind ", 2),
     "decimal comma": ("nu = 0.3", "nu = 0,3", 8),
@@ -55,17 +52,24 @@ LINES = {  # what is replaced, by what, the key of the mistake and its line
     "misspelt in a range": ("num = 3", "num = 3, base = 2", "parameters.lambda_over_R.base", 11),
     "in another table": ("A = 0.1", 'A = 0.1\nR = "1 mm"', "parameters.R", 13),
     "too many scenes": ("nu = 0.3", "nu = { start = 0, stop = 0.4, num = 1000000000 }", "parameters.nu.num", 8),
+    "behind a list over lines": ("k = [0.0, 0.5]\nnu = 0.3", "k = [\n 0.0, # ]\n 0.5,\n]\nnu = 0.7", "parameters.nu", 11),
+}  # fmt: skip
+OVERRIDES = {
+    "parameters.k": "",
+    "=3": "",
+    "parameters..k=3": "",
+    "layout=points": "",
+    "parameters.k=": "",
+    "parameters.k=0.1\nA=3": "",
+    "title.x=3": "",
+    'include="base.toml"': "",
+    "parameters.kk=0.1": "parameters.kk",
+    "parameters.k=2": "parameters.k",
+    "parameters.lambda_over_R={start=1, stop=2, num=0}": "parameters.lambda_over_R.num",
+    "parameters.lambda_over_R.num=0": "parameters.lambda_over_R.num",
+    "nothing.at.all=1": "nothing",
 }
-
-BOUNDS = {
-    "k": ("-0.001", "1.001", "0 <= k <= 1"),
-    "nu": ("-1.0", "0.5000000001", "-1 < nu <= 0.5"),
-    "modulus": ("0.0", "-5", "modulus > 0"),
-    "c0_over_R": ("0", "-1e-300", "c0_over_R > 0"),
-    "lambda_over_R": ("0.0", "-1", "lambda_over_R > 0"),
-    "A": ("-1e-9", "-inf", "A >= 0"),
-    "a_max_over_R": ("0", "-3", "a_max_over_R > 0"),
-}
+"""Wrong overrides, and the keys at which they are refused; empty for what is no override."""
 
 
 @pytest.fixture
@@ -103,58 +107,13 @@ def test_each_mistake_names_its_line_and_key(name: str, refused: Callable[..., l
     assert any(re.match(rf"study.toml:{line}: {re.escape(key)}[ :]", sentence) for sentence in sentences), sentences
 
 
-@pytest.mark.parametrize("name", BOUNDS)
-@pytest.mark.parametrize("form", ["{}", "[{}]", "{{ start = {}, stop = 0.4, num = 2 }}"])
-def test_each_bound_of_each_parameter(name: str, form: str, refused: Callable[..., list[str]]) -> None:
-    *outside, allowed = BOUNDS[name]
-    for value in outside:
-        if "inf" in value and "start" in form:
-            continue
-        text = re.sub(rf"(?m)^{name} = .*$", f"{name} = {form.format(value)}", GOOD)
-        (line,) = refused(text)
-        assert f"parameters.{name}" in line
-        assert f"= {value.rstrip('0') if '.' in value else value}"[:4] in line
-        assert allowed in line
-
-
-@pytest.mark.parametrize(("k", "nu"), [("0.0", "-0.9999999999999999"), ("1.0", "0.5")])
-def test_the_closed_ends_are_allowed(k: str, nu: str, write_study: Callable[[str], Path]) -> None:
-    from gradhesion.cli.study.reading import load_study
-
-    study = load_study(write_study(GOOD.replace("[0.0, 0.5]", k).replace("nu = 0.3", f"nu = {nu}")))
-    assert study.parameters["k"] == float(k)
-
-
-@pytest.mark.parametrize("layout", ["grid", "points"])
-def test_a_thousand_curves_are_allowed(layout: str, write_study: Callable[[str], Path]) -> None:
-    from gradhesion.cli.study.reading import load_study
-
-    text = GOOD.replace(*CURVE).replace("pull_off_force", "path").replace("[0.0, 0.5]", "0.5").replace("grid", layout)
-    assert load_study(write_study(text.replace("num = 3", "num = 1000"))).scenes == 1000
-
-
-@pytest.mark.parametrize("old", ["num = 3", "num = 1001"])
-def test_points_are_counted_by_their_longest_list(old: str, refused: Callable[..., list[str]]) -> None:
-    text = GOOD.replace(*CURVE).replace("pull_off_force", "path").replace("[0.0, 0.5]", "0.5").replace("grid", "points")
-    text = text.replace("num = 3", "num = 1001").replace(
-        "nu = 0.3", "nu = [0.1, 0.2]" if old == "num = 3" else "nu = 0.3"
-    )
-    assert any("at most 1,000 scenes, and this one has 1,001" in line for line in refused(text))
-
-
 def test_all_mistakes_are_told_at_once_in_the_order_of_their_lines(refused: Callable[..., list[str]]) -> None:
     text = GOOD.replace('"map"', '"mop"').replace('"grid"', '"gird"').replace("pull_off", "pull_of")
     text = text.replace("nu = 0.3", 'nu = "0.3"').replace("num = 3", "num = 3, base = 2").replace("exact", "exakt")
     text = text.replace("A = 0.1", "A = [0.1, 0.2, 0.1]").replace("[0.0, 0.5]", "[0.0, -2.0, 7.0]")
     lines = refused(text, "--set", "parameters.modulus=-1")
     assert lines[0].startswith("--set parameters.modulus=-1: parameters.modulus = -1: out of range")
-    numbers = [int(line.split(":")[1]) for line in lines[1:]]
-    assert numbers == [2, 3, 4, 7, 7, 8, 11, 12, 16]
-
-
-def test_a_misplaced_key_does_not_excuse_a_wrong_one(refused: Callable[..., list[str]]) -> None:
-    lines = refused(GOOD.replace('title = "Good"', "title = nan").replace("[method]", 'title = "Good"\n[method]'))
-    assert ["title = nan: this must be a string" in lines[0], "belongs at the top" in lines[1]] == [True, True]
+    assert [int(line.split(":")[1]) for line in lines[1:]] == [2, 3, 4, 7, 7, 8, 11, 12, 16]
 
 
 def test_a_thousand_mistakes_do_not_flood_the_screen(refused: Callable[..., list[str]]) -> None:
@@ -163,44 +122,20 @@ def test_a_thousand_mistakes_do_not_flood_the_screen(refused: Callable[..., list
     assert "970 more mistakes" in lines[-1]
 
 
-@pytest.mark.parametrize(
-    ("override", "message"),
-    [
-        ("parameters.k", "not of the form KEY=VALUE"),
-        ("=3", "not of the form KEY=VALUE"),
-        ("parameters..k=3", "not of the form KEY=VALUE"),
-        ("layout=points", "the value is not TOML; quote strings, as in --set 'layout=\"points\"'"),
-        ("parameters.k=", "the value is not TOML"),
-        ("parameters.k=0.1\nA=3", "the value is not TOML"),
-        ("title.x=3", "title is not a table; set it as a whole"),
-        ("parameters.kk=0.1", 'parameters.kk = 0.1: unknown key; did you mean "k"?'),
-        ("parameters.k=2", "parameters.k = 2: out of range"),
-        ("parameters.lambda_over_R={start=1, stop=2, num=0}", "parameters.lambda_over_R.num = 0: "),
-        ("parameters.lambda_over_R.num=0", "parameters.lambda_over_R.num = 0: "),
-        ('include="base.toml"', "a study is included by its file alone"),
-        ("nothing.at.all=1", "nothing = { at = { all = 1 } }: unknown key"),
-    ],
-)
-def test_a_wrong_override_is_named_by_its_own_text(
-    override: str, message: str, refused: Callable[..., list[str]]
-) -> None:
-    text = "\n".join(refused(GOOD, "--set", override))
-    assert f"--set {printable_line(override)}" in text
-    assert message in text
+@pytest.mark.parametrize("override", OVERRIDES)
+def test_a_wrong_override_is_named_by_its_own_text(override: str, refused: Callable[..., list[str]]) -> None:
+    key = OVERRIDES[override]
+    (line,) = refused(GOOD, "--set", override)
+    assert line.startswith(f"--set {printable_line(override)}: {key}")
+    assert ";" in line
 
 
 @pytest.mark.parametrize(
-    ("content", "message"),
-    [
-        (None, "cannot be read (No such file or directory)"),
-        ("folder", "cannot be read (Is a directory)"),
-        (b'title = "\xff"', ":1: not text in UTF-8"),
-        (b"\x00\x01\x02", "not valid TOML"),
-        (b"\n\n\nk = \n", ":4: not valid TOML"),
-    ],
+    ("content", "place"),
+    [(None, ""), ("folder", ""), (b'title = "\xff"', ":1"), (b"\x00\x01\x02", ":1"), (b"\n\n\nk = \n", ":4")],
 )
 def test_a_file_that_is_no_study(
-    content: bytes | str | None, message: str, gradhesion: Callable[..., Result], tmp_path: Path
+    content: bytes | str | None, place: str, gradhesion: Callable[..., Result], tmp_path: Path
 ) -> None:
     path = tmp_path / "study.toml"
     if content == "folder":
@@ -209,26 +144,24 @@ def test_a_file_that_is_no_study(
         path.write_bytes(content)
     result = gradhesion("run", path)
     assert result.exit_code == 2
-    assert str(path) in result.stderr
-    assert message in result.stderr
+    assert result.stderr.startswith(f"{path}{place}: ")
+    assert result.stderr.count("\n") == 1
 
 
 def test_an_endless_file_is_not_read_for_ever() -> None:
-    from gradhesion.cli.errors import StudyError
-    from gradhesion.cli.study.text.source import read_source
-
     with pytest.raises(StudyError, match="larger than 1 MiB"):
         read_source(Path("/dev/zero"), (), most=2**20)
 
 
 def test_a_study_made_in_python_is_checked_alike() -> None:
-    from gradhesion.cli.errors import StudyError
-    from gradhesion.cli.study.reading import study_from
-
     with pytest.raises(StudyError) as caught:
         study_from({"outputs": ["delta_max"], "parameters": {"k": (0.1, 2.0)}}, name="mine")
     assert caught.value.mistakes[0] == "mine: parameters.k[1] = 2.0: out of range; choose a value with 0 <= k <= 1"
     assert len(caught.value.mistakes) == 6
+    itself: list[object] = []
+    itself.append(itself)
+    with pytest.raises(StudyError, match="nested more than"):
+        study_from({"outputs": itself})
 
 
 BASE = """outputs = ["pull_off_force"]
@@ -243,8 +176,6 @@ A = 0.1
 
 
 def test_a_study_may_include_another(tmp_path: Path) -> None:
-    from gradhesion.cli.study.reading import load_study, study_from
-
     (tmp_path / "base.toml").write_text(BASE)
     below = tmp_path / "below"
     below.mkdir()
@@ -273,9 +204,6 @@ def test_a_study_may_include_another(tmp_path: Path) -> None:
     ],
 )
 def test_what_is_wrong_with_an_included_study(text: str, base: str, place: str, words: str, tmp_path: Path) -> None:
-    from gradhesion.cli.errors import StudyError
-    from gradhesion.cli.study.reading import load_study
-
     (tmp_path / "study.toml").write_text(text)
     (tmp_path / "base.toml").write_text(base)
     with pytest.raises(StudyError) as refused:

@@ -191,14 +191,10 @@ def test_lines_are_those_of_the_text() -> None:
     text = 'a = """\nx = 1\n]\n"""\n"b.c" = [ # [\n 1, # ]\n 2 ]\n\n[d]\n  [ d . e ]\nf.g = {h = 1, i = {j = 2}}\n[[k]]\nl=1\n'
     assert lines_of(text) == {
         ("a",): 1,
-        ("b.c",): 5,
         ("d",): 9,
         ("d", "e"): 10,
         ("d", "e", "f"): 11,
         ("d", "e", "f", "g"): 11,
-        ("d", "e", "f", "g", "h"): 11,
-        ("d", "e", "f", "g", "i"): 11,
-        ("d", "e", "f", "g", "i", "j"): 11,
         ("k",): 12,
         ("k", "l"): 13,
     }

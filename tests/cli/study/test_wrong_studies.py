@@ -53,6 +53,54 @@ def keys_of(refused: StudyError) -> list[str]:
     return sorted(key[1] for key in found if key and key[1] != "data.file")
 
 
+BOUNDS = {
+    "k": ("-0.001", "1.001"), "nu": ("-1.0", "0.5000000001"), "modulus": ("0.0", "-5"), "c0_over_R": ("0", "-1e-300"),
+    "lambda_over_R": ("0.0", "-1"), "A": ("-1e-9", "-inf"), "a_max_over_R": ("0", "-3"),
+}  # fmt: skip
+SCENE = {"k": 0.5, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1, "A": 0.1}
+
+
+@pytest.mark.parametrize("name", BOUNDS)
+@pytest.mark.parametrize(
+    ("form", "more"), [("{}", ""), ("[{}]", "[0]"), ("{{ start = {}, stop = 0.4, num = 2 }}", ".start")]
+)
+def test_each_bound_of_each_parameter(name: str, form: str, more: str) -> None:
+    for value in BOUNDS[name]:
+        own = tomllib.loads(f"{name} = {form.format(value)}")
+        with pytest.raises(StudyError) as refused:
+            any_from({"outputs": ["pull_off_force"], "parameters": SCENE | own})
+        assert keys_of(refused.value) == [f"parameters.{name}{more}"]
+    closed = {"k": 1.0, "nu": 0.5} if name in ("k", "nu") else {}
+    any_from({"outputs": ["pull_off_force"], "parameters": SCENE | closed})
+
+
+@pytest.mark.parametrize(
+    ("parameters", "words"),
+    [
+        ({"nu": "0,3"}, "0.3"),
+        ({"gamma": 1.0}, "work_of_adhesion"),
+        ({"lamda_over_R": 0.1}, "lambda_over_R"),
+        ({"k": {"start": 0, "stop": 1, "step": 0.1}}, "num"),
+        ({"lambda_over_R": "5 um"}, "wavelength"),
+    ],
+)
+def test_the_remedy_names_what_is_meant(parameters: dict[str, Any], words: str) -> None:
+    with pytest.raises(StudyError) as refused:
+        any_from({"outputs": ["pull_off_force"], "parameters": SCENE | parameters})
+    assert any(words in sentence.partition(";")[2] + sentence.partition("?")[0] for sentence in refused.value.mistakes)
+
+
+def test_a_ratio_beside_quantities_is_told_which_of_both_to_give() -> None:
+    units = {"R": "1 um", "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "10 nm"}
+    for more, words in (({}, "give wavelength"), ({"wavelength": "100 nm"}, "wavelength is given")):
+        with pytest.raises(StudyError, match=f"parameters.lambda_over_R = .*{words}"):
+            any_from({
+                "outputs": ["pull_off_force"],
+                "parameters": {"k": 0.3, "nu": 0.3, "A": 0.02, "lambda_over_R": 0.1},
+                "physical": units | more,
+            })  # fmt: skip
+
+
 @pytest.mark.parametrize("base", sorted({base for base, *_ in _rows()}))
 def test_the_studies_that_are_changed_are_right(base: str, tmp_path: Path) -> None:
     data = _changed(base, "title = 'right'")

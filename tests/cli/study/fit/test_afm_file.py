@@ -98,7 +98,7 @@ def test_columns_may_be_named_with_their_sign(folder: Path, monkeypatch: pytest.
     np.testing.assert_allclose(study.loop.depth, rows["depth"] + rows["load"] / SPRING - 3e-6, rtol=0, atol=1e-12)
     with pytest.raises(gr.StudyError, match='no column "hight"; choose from "force", "height'):
         load("curve.jpk-force", data__indentation="hight", data__load="force")
-    with pytest.raises(gr.StudyError, match="in SI units; remove the unit"):
+    with pytest.raises(gr.StudyError, match='"nN" in the study and "N" in the header'):
         load("curve.jpk-force", data__load={"column": "force", "unit": "nN"}, data__indentation="tip position")
 
 

@@ -1,0 +1,206 @@
+"""Keys that not every scene has: axes behind those of every scene, with the solver's values, as ratios and in units."""
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import Result
+
+import gradhesion as gr
+from gradhesion.cli.dataset.dataset import compute
+from gradhesion.cli.study.reading import study_from
+from gradhesion.core import solve
+from gradhesion.core.problem.toughness import Rate, Toughness, ToughnessHarmonic
+
+SCENE: dict[str, Any] = {"k": 0.1, "nu": 0.3, "modulus": 1000.0, "c0_over_R": 0.01, "lambda_over_R": 0.2, "A": 0.01}
+PHYSICAL = {"R": "1 mm", "E_star": "50 kPa", "work_of_adhesion": "50 mJ/m^2", "c0": "10 um", "wavelength": "0.2 mm"}
+WAVES = {"toughness": {"harmonics": [{"n": 1, "cos": 0.3}, {"n": 2, "sin": 0.1}]}}
+PATTERN = {"toughness": Toughness((ToughnessHarmonic(n=1, cos=0.3), ToughnessHarmonic(n=2, sin=0.1)))}
+LAW = {"rate": {"exponent": 0.6}}
+OUTPUTS = ["pull_off_force", "dissipated_energy", "turning_radius"]
+UNIT = 1.5 * np.pi * 1e-3 * 0.05
+
+KEYS: dict[str, tuple[list[float], dict[str, Any], dict[str, Any]]] = {
+    "indentation_max_over_R": ([-0.01, 0.02, 0.2], {}, {}),
+    "load_max": ([0.5, 5.0, 50.0], {}, {}),
+    "closing_ratio": ([0.0, 0.5, 1.0], {}, {}),
+    "toughness_wavelength_over_R": ([0.1, 0.2], WAVES, PATTERN),
+    "toughness_amplitude": ([0.0, 0.5, 1.0], WAVES | {"parameters": {"toughness_wavelength_over_R": 0.2}}, PATTERN),
+    "speed_over_reference": ([0.0, 0.1], LAW, {"rate": Rate(exponent=0.6)}),
+}
+"""Values of each key, what else the study has, and what the solver is given for that."""
+QUANTITIES: dict[str, tuple[list[str], str, list[float], dict[str, Any]]] = {
+    "indentation_max": (["-1 um", "20 um", "0.06 mm"], "indentation_max_over_R", [-1e-3, 0.02, 0.06], {}),
+    "preload": (["100 uN", "1 mN"], "load_max", [1e-4 / UNIT, 1e-3 / UNIT], {}),
+    "work_of_adhesion_closing": (["0 J/m^2", "5 mJ/m^2", "0.05 N/m"], "closing_ratio", [0.0, 0.1, 1.0], {}),
+    "toughness_wavelength": (["0.1 mm", "200 um"], "toughness_wavelength_over_R", [0.1, 0.2], WAVES),
+    "speed": (["0 um/s", "1 um/s", "0.01 mm/s"], "speed_over_reference", [0.0, 1e-3, 1e-2], LAW),
+}
+"""Quantities, the ratio that each gives, its values, and what else the study has."""
+
+
+@pytest.mark.parametrize("key", KEYS)
+def test_it_is_an_axis_behind_the_radius_with_the_values_of_the_solver(key: str) -> None:
+    values, more, law = KEYS[key]
+    more, known = {**more}, SCENE | more.get("parameters", {})
+    data = more | {"outputs": OUTPUTS, "parameters": known | {"a_max_over_R": [0.3, 0.5], key: values}}
+    dataset = compute(study_from(data))
+    assert dataset["pull_off_force"].dims == ("a_max_over_R", key)
+    found = solve(known | {"a_max_over_R": np.array([[0.3], [0.5]]), key: np.array(values)}, OUTPUTS, **law)
+    for name in (*OUTPUTS, "status"):
+        np.testing.assert_array_equal(dataset[name], found[name])
+    assert dataset["status"].dtype == (np.int8 if key in ("load_max", "closing_ratio") else np.int16)
+
+
+@pytest.mark.parametrize("key", [key for key in KEYS if key != "speed_over_reference"])
+def test_sensitivities_name_it_last_where_the_study_has_it_alone(key: str) -> None:
+    values, more, _ = KEYS[key]
+    known = SCENE | more.get("parameters", {}) | {"a_max_over_R": 0.5}
+    own: dict[str, Any] = {"outputs": ["dissipated_energy_sensitivity"]}
+    dataset = compute(study_from(more | own | {"parameters": known | {key: values[1]}}))
+    assert dataset["parameter"].values[-1] == key
+    plain = compute(study_from(own | {"parameters": SCENE | {"a_max_over_R": 0.5}}))
+    assert key not in plain.coords
+    assert key not in plain["parameter"].values
+
+
+@pytest.mark.parametrize("key", QUANTITIES)
+def test_a_quantity_gives_its_ratio(key: str) -> None:
+    written, ratio, values, more = QUANTITIES[key]
+    rest = {"k": 0.1, "nu": 0.3, "A": 0.01}
+    units = PHYSICAL | {"a_max": "0.5 mm", key: written} | ({"reference_speed": "1 mm/s"} if key == "speed" else {})
+    made = compute(study_from(more | {"outputs": OUTPUTS, "parameters": rest, "physical": units}))
+    assert made[ratio].dims == (key,)
+    np.testing.assert_allclose(made[ratio], values, rtol=1e-14)
+    plain = compute(study_from(more | {"outputs": OUTPUTS, "parameters": SCENE | {"a_max_over_R": 0.5, ratio: values}}))
+    for name in OUTPUTS:
+        np.testing.assert_allclose(made[name], plain[name], rtol=1e-11, atol=1e-14)
+    np.testing.assert_allclose(made["turning_radius_si"], 1e-3 * made["turning_radius"], rtol=1e-15)
+    np.testing.assert_allclose(made["dissipated_energy_si"], 1e-6 * 0.05 * made["dissipated_energy"], rtol=1e-15)
+    assert made["turning_radius_si"].attrs["units"] == "m"
+
+
+TEXT = """outputs = ["pull_off_force", "dissipated_energy"]
+[parameters]
+k = 0.0
+nu = 0.3
+modulus = 500.0
+lambda_over_R = 0.2
+A = 0.01
+"""
+RUNS: dict[str, tuple[str, str, int]] = {
+    "turn": ("indentation_max_over_R = { start = -0.01, stop = 0.1, num = 6 }", "indentation_max_over_R", 0),
+    "works": ("a_max_over_R = 0.5\nclosing_ratio = [0.0, 1.0]", "closing_ratio", 0),
+    "pattern": (
+        'a_max_over_R = 0.5\ntoughness_wavelength_over_R = [0.1, 0.2]\n[toughness]\nharmonics = [{ n = 1, sin = 0.2 }]\nof = "work"',
+        "toughness: w times 1 + t [0.2 sin(2 pi y)], y = r/lambda_t",
+        0,
+    ),
+    "speed": (
+        "a_max_over_R = 0.5\nspeed_over_reference = [0.05, 0.1]\n[rate]\nexponent = 0.6",
+        "rate: G = w_o [1 + (v/v*)^0.6] while the edge opens, G = w_c while it closes",
+        2,
+    ),
+}
+"""What a study has more, what `info` prints, and how `verify` ends: a speed has no independent twin."""
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_maps_are_run_described_verified_and_drawn(
+    name: str, gradhesion: Callable[..., Result], write_study: Callable[[str], Path]
+) -> None:
+    more, words, code = RUNS[name]
+    study = write_study(f"{TEXT}{more}\n")
+    output = study.with_suffix(".nc")
+    assert gradhesion("run", study, "-o", output, "--quiet").exit_code == 0
+    assert words in gradhesion("info", output).stdout
+    assert gradhesion("verify", output, "--sample", "2").exit_code == code
+    assert gradhesion("plot", output).exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("curves", "more"),
+    [
+        (
+            '["path", "equilibrium", "closing_equilibrium", "jumps"]',
+            "closing_ratio = 0.4\ntoughness_wavelength_over_R = 0.1\n[toughness]\nharmonics = [{ n = 1, cos = 0.3 }]",
+        ),
+        ('["path", "equilibrium"]', 'speed_over_reference = [0.0, 0.1]\n[rate]\nexponent = 0.6\nclosing = "same"'),
+    ],
+)
+def test_curves_are_drawn_and_explored(
+    curves: str, more: str, gradhesion: Callable[..., Result], write_study: Callable[[str], Path]
+) -> None:
+    text = TEXT.replace('["pull_off_force", "dissipated_energy"]', curves)
+    study = write_study(f'kind = "curve"\n{text}a_max_over_R = 0.5\n{more}\n')
+    output = study.with_suffix(".nc")
+    for command in (["run", study, "-o", output], ["plot", output], ["explore", output]):
+        assert gradhesion(*command).exit_code == 0
+
+
+def test_curves_turn_where_the_cycle_does() -> None:
+    data = {"kind": "curve", "parameters": SCENE | {"indentation_max_over_R": [-0.01, 0.05]}}
+    dataset = compute(study_from(data | {"outputs": ["path", "jumps", "equilibrium", "surface"]}))
+    radius = float(solve(SCENE | {"a_max_over_R": math.inf, "indentation_max_over_R": 0.05}, OUTPUTS)["turning_radius"])
+    none, turned = (dataset.isel(indentation_max_over_R=i) for i in range(2))
+    assert float(turned["path_contact_radius"].max()) == pytest.approx(radius, rel=4e-16)
+    assert float(turned["path_indentation"].max()) == pytest.approx(0.05, rel=1e-12)
+    assert float(none["path_contact_radius"].max()) == 0.0
+    assert dataset["jump_count"].values[0] == 0 < dataset["jump_count"].values[1]
+    assert not dataset["jump_at_rim"].values.any()
+    assert np.isfinite(turned["surface_gap"].sel(state="turning_point")).any()
+    assert np.isnan(none["surface_gap"].sel(state="turning_point")).all()
+
+
+def test_the_radius_may_be_left_out_of_a_study_that_turns() -> None:
+    dataset = compute(study_from({"outputs": OUTPUTS, "parameters": SCENE | {"load_max": 2.0}}))
+    assert dataset["a_max_over_R"] == math.inf
+    assert 0.0 < dataset["turning_radius"] < 1.0
+
+
+def test_the_envelope_radius_of_loading_is_that_of_closing() -> None:
+    parameters = (
+        SCENE | {"closing_ratio": 0.4, "a_max_over_a2": 1.5},
+        SCENE | {"modulus": 2500.0, "a_max_over_a2": 1.5},
+    )
+    made = [compute(study_from({"outputs": ["pull_off_force"], "parameters": one})) for one in parameters]
+    np.testing.assert_allclose(made[0]["a_max_over_R"], made[1]["a_max_over_R"], rtol=1e-15)
+
+
+def test_samples_of_the_work_of_closing_stay_below_that_of_opening() -> None:
+    study: dict[str, Any] = {
+        "outputs": ["dissipated_energy"],
+        "parameters": {"k": 0.1, "nu": 0.3, "A": 0.02},
+        "physical": PHYSICAL | {"a_max": "0.5 mm", "work_of_adhesion_closing": "49.9 mJ/m^2"},
+        "uncertainty": {"work_of_adhesion_closing": "5 %", "work_of_adhesion": "5 %", "samples": 1024},
+    }
+    dataset = compute(study_from(study))
+    assert np.isfinite(dataset["dissipated_energy_p95"])
+    assert dataset["dissipated_energy_p95"] > dataset["dissipated_energy_p05"]
+
+
+@pytest.mark.parametrize(
+    ("key", "goal", "low", "more"),
+    [("closing_ratio", "dissipated_energy", 0.1, {}), ("speed_over_reference", "pull_off_force", 0.01, LAW)],
+)
+def test_an_optimum_is_sought_over_it(key: str, goal: str, low: float, more: dict[str, Any]) -> None:
+    known = SCENE | {"a_max_over_R": 0.5}
+    optimum = {"maximise": goal, "over": [key], "resolution": 50}
+    data = more | {"kind": "optimum", "optimum": optimum, "parameters": known | {key: {"start": low, "stop": 1.0}}}
+    law = {"rate": Rate(exponent=0.6)} if more else {}
+    grid = solve(known | {key: np.linspace(low, 1.0, 501)}, [goal], **law)[goal]
+    assert float(compute(study_from(data))[f"best_{goal}"]) >= grid.max() * (1.0 - 1e-12)
+
+
+def test_python_takes_keys_and_laws_as_it_takes_every_parameter() -> None:
+    scene = SCENE | {"a_max_over_R": 0.5, "toughness_wavelength_over_R": 0.1}
+    ways = (WAVES["toughness"], PATTERN["toughness"])
+    one, other = (gr.solve(scene, "pull_off_force", toughness=way)["pull_off_force"] for way in ways)
+    assert float(one) == float(other)
+    found = gr.solve(SCENE, ["dissipated_energy", "front_energy"], a_max_over_R=0.5, closing_ratio=[0.3, 0.6])
+    assert found["dissipated_energy"].dims == ("closing_ratio",)
+    drawn = gr.curves(SCENE | {"a_max_over_R": 0.5, "closing_ratio": 0.3}, ["path", "closing_equilibrium"])
+    assert drawn["closing_load"].dims == ("closing_point",)
