@@ -134,6 +134,16 @@ def test_lines_have_open_markers_where_they_are_doubtful(make: Callable[..., xar
     np.testing.assert_array_equal(crosses.get_xdata(), x[2:4])
 
 
+def test_points_have_open_markers() -> None:
+    lists = PUNCH | {"lambda_over_R": [0.3, 0.1, 0.2, 0.4]}
+    points = gr.run({"layout": "points", "outputs": ["dissipated_energy"], "parameters": lists})
+    points["status"][...] = [LOADING, LOADING, 0, 0]
+    points["dissipated_energy"][3] = np.nan
+    panels = gr.plot(points)
+    assert legend(panels) == [words_of(LOADING), "no finite value"]
+    assert open_marks(panels[0], LOADING)[-1].get_xdata().tolist() == [0.1, 0.3]
+
+
 def test_long_lines_have_some_of_their_markers_and_the_ends_of_each_run(make: Callable[..., xarray.Dataset]) -> None:
     dataset = make(lambda_over_R=WAVES | {"num": 400})
     dataset["status"][17:321] = LOADING
@@ -143,21 +153,6 @@ def test_long_lines_have_some_of_their_markers_and_the_ends_of_each_run(make: Ca
     assert {17, 320, 333} <= {*places.tolist()}
     assert (dataset["status"].values[places] == LOADING).all()
     assert 20 < places.size < 50
-
-
-def test_points_have_open_markers() -> None:
-    points = gr.run(
-        {
-            "layout": "points",
-            "outputs": ["dissipated_energy"],
-            "parameters": PUNCH | {"lambda_over_R": [0.3, 0.1, 0.2, 0.4]},
-        }
-    )
-    points["status"][...] = [LOADING, LOADING, 0, 0]
-    points["dissipated_energy"][3] = np.nan
-    panels = gr.plot(points)
-    assert legend(panels) == [words_of(LOADING), "no finite value"]
-    assert open_marks(panels[0], LOADING)[-1].get_xdata().tolist() == [0.1, 0.3]
 
 
 @pytest.mark.parametrize(
@@ -237,15 +232,13 @@ def test_few_values_have_bars_above_the_grid_and_below_the_values(sampled: xarra
     assert [len(one.get_paths()) for one in axes.collections if isinstance(one, LineCollection)] == [6]
 
 
-def test_a_band_that_is_not_there_is_refused(sampled: xarray.Dataset) -> None:
-    for name, choices in (
-        ("loading_jumps", {"band": "std"}),
-        ("pull_off_force_std", {"band": "std"}),
-        ("pull_off_force", {"band": "std", "kind": "map"}),
-        ("pull_off_force", {"band": "stdd"}),
-        ("pull_off_force", {"band": "std", "over": {"k": "max"}}),
-    ):
-        with pytest.raises(gr.DatasetError, match="band"):
-            gr.plot(sampled, name, **choices)
-    with pytest.raises(gr.DatasetError, match="quantiles"):
-        gr.plot(sampled.drop_vars("pull_off_force_p05"), "pull_off_force", band="quantiles")
+@pytest.mark.parametrize(
+    ("name", "choices"),
+    [
+        ("loading_jumps", {"band": "std"}), ("pull_off_force_std", {"band": "std"}), ("pull_off_force", {"band": "std", "kind": "map"}),
+        ("pull_off_force", {"band": "stdd"}), ("pull_off_force", {"band": "std", "over": {"k": "max"}}), ("pull_off_force", {"band": "quantiles"}),
+    ],
+)  # fmt: skip
+def test_a_band_that_is_not_there_is_refused(name: str, choices: dict[str, Any], sampled: xarray.Dataset) -> None:
+    with pytest.raises(gr.DatasetError, match="band|quantiles"):
+        gr.plot(sampled.drop_vars("pull_off_force_p05"), name, **choices)

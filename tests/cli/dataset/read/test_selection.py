@@ -180,15 +180,18 @@ def test_mistakes_are_told_in_a_sentence(dataset: xarray.Dataset, at: list[str],
     assert "\n" not in str(caught.value)
 
 
-def test_points_say_what_they_have_not(points: xarray.Dataset) -> None:
-    for wishes, message in [
+@pytest.mark.parametrize(
+    ("wishes", "message"),
+    [
         ({"over": ["k=max"]}, "points have no axes to reduce"),
         ({"at": ["k=0.2"], "interpolate": True}, "points cannot be interpolated"),
         ({"at": ["k=0.1", "A=3"]}, "no scene has all these values"),
         ({"interpolate": True}, "there is nothing to interpolate"),
-    ]:
-        with pytest.raises(DatasetError, match=message):
-            selection_of(points, **wishes)
+    ],
+)
+def test_points_say_what_they_have_not(wishes: dict[str, Any], message: str, points: xarray.Dataset) -> None:
+    with pytest.raises(DatasetError, match=message):
+        selection_of(points, **wishes)
 
 
 def test_an_axis_is_logarithmic_where_its_ratios_are_more_even() -> None:
