@@ -60,6 +60,10 @@ KINDS: dict[str, dict[str, Any]] = {
     "states": CURVE | {"outputs": ["pressure", "surface"]},
 }  # fmt: skip
 NO_PAGE = ("states",)
+SAMPLE = ("--sample", "5", "--seed", "1")
+CHECKED = ("map", "points", "solvers", "similarity", "Young's modulus and a spring", "roughness", "sensitivities", "uncertainty", "two works",
+           "optimum", "curve", "jumps", "curve in units", "states", "a part", "reduced")  # fmt: skip
+"""Those whose names and attributes differ."""
 
 
 def call(*arguments: Any) -> Result:
@@ -100,12 +104,11 @@ def test_a_file_in_blocks_is_what_python_computes_in_one(kind: str, files: dict[
                     if key in variable.attrs:
                         variable.attrs[key] = np.atleast_1d(variable.attrs[key]).tolist()
         xarray.testing.assert_identical(computed, written.load())
-        assert {name: one.dtype for name, one in computed.variables.items()} == {
-            name: one.dtype for name, one in written.variables.items()
-        }
+        types = ({name: one.dtype for name, one in found.variables.items() if one.dtype.kind not in "OU"} for found in (computed, written))  # fmt: skip
+        assert next(types) == next(types)
 
 
-@pytest.mark.parametrize("kind", ["map", "roughness", "optimum"])
+@pytest.mark.parametrize("kind", ["map", "roughness", "uncertainty"])
 def test_shards_that_are_merged_give_the_same_file(
     kind: str, files: dict[str, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -124,34 +127,32 @@ def test_every_command_takes_it(kind: str, files: dict[str, Path], tmp_path: Pat
     told = call("info", files[kind])
     assert told.exit_code == 0
     with xarray.open_dataset(files[kind]) as dataset:
-        shown = [name for name in dataset.data_vars if f"{name}_si" not in dataset and name != "status"]
+        shown = [name for name, one in dataset.data_vars.items() if f"{name}_si" not in dataset and one.dtype == float]
         assert [name for name in shown if str(name) not in told.stdout] == []
-    picture = "path" if kind == "jumps" else ""
-    assert call("plot", files[kind], "-o", tmp_path / f"{picture}.svg").exit_code == 0
+    assert call("plot", files[kind], "-o", tmp_path / "x.svg").exit_code == 0
     assert call("explore", files[kind], "-o", tmp_path / "x.html").exit_code == 2 * (kind in NO_PAGE)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
-def test_maps_are_verified_and_a_changed_value_is_found(kind: str, files: dict[str, Path], tmp_path: Path) -> None:
-    path = shutil.copy(files[kind], tmp_path / "x.nc")
-    found = call("verify", path, "--sample", "1000")
+def test_maps_are_verified_and_changed_values_are_found(kind: str, files: dict[str, Path], tmp_path: Path) -> None:
+    """Results, those in SI units, and parameters that follow from others."""
+    path = tmp_path / "x.nc"
+    found = call("verify", files[kind], *SAMPLE)
     if KINDS[kind].get("kind", "map") != "map":
         assert (found.exit_code, found.stdout) == (2, "")
         return
     assert found.exit_code == 0, found.stdout + found.stderr
-    with netCDF4.Dataset(path) as file:
-        followed = [name for name in ("modulus", "lambda_over_R", "A", "a_max_over_R") if file[name].ndim and name not in file.dimensions]
-        changed = [name for name in file.variables if name.endswith(("energy", "force", "_si"))] + followed * (file["k"].dimensions != ("scene",))
-    for name in changed:
+    with netCDF4.Dataset(files[kind]) as file:
+        given = file.study.partition("[parameters]")[2]
+        follow = [name for name in ("modulus", "lambda_over_R", "A", "a_max_over_R") if f"\n{name} =" not in given]
+        names = [name for name in (*file.variables, *follow) if name.endswith(("force", "energy", "_si")) or name in follow]
+        names = [name for name in dict.fromkeys(names) if np.isfinite(file[name][:]).any()]
+    for name in names:
         shutil.copy(files[kind], path)
         with netCDF4.Dataset(path, "a") as file:
-            exact = [*file["solver"][:]].index("exact") if "solver" in file.variables else 0
-            place = tuple(exact if axis == "solver" else -1 for axis in file[name].dimensions)
-            if not np.isfinite(file[name][place]):
-                continue
-            file[name][place] *= 1 + 1e-11
-        assert call("verify", path, "--sample", "1000").exit_code == 3, name
+            file[name][...] = file[name][...] * (1 + 1e-11)
+        assert call("verify", path, *SAMPLE).exit_code == 3, name
 
 
 def checker(*files: Path) -> subprocess.CompletedProcess[str]:
@@ -161,7 +162,7 @@ def checker(*files: Path) -> subprocess.CompletedProcess[str]:
 
 
 def test_the_checker_of_the_conventions_has_nothing_to_say(files: dict[str, Path]) -> None:
-    others = [file for kind, file in files.items() if kind != "fit"]
+    others = [files[kind] for kind in CHECKED]
     done = checker(*others)
     assert done.stdout.count("All tests passed!") == len(others), done.stdout + done.stderr
     assert done.returncode == 0

@@ -240,5 +240,5 @@ def test_few_values_have_bars_above_the_grid_and_below_the_values(sampled: xarra
     ],
 )  # fmt: skip
 def test_a_band_that_is_not_there_is_refused(name: str, choices: dict[str, Any], sampled: xarray.Dataset) -> None:
-    with pytest.raises(gr.DatasetError, match="band|quantiles"):
+    with pytest.raises(gr.DatasetError, match=r"band|quantiles"):
         gr.plot(sampled.drop_vars("pull_off_force_p05"), name, **choices)
