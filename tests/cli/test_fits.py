@@ -122,9 +122,7 @@ def test_one_loop_beside_others_is_fitted_as_alone(found: xarray.Dataset, home: 
 
 
 @pytest.mark.parametrize(("files", "code"), [("[29]", 3), ("9*", 2)])
-def test_run_says_which_failed_and_writes_what_there_is(
-    files: str, code: int, gradhesion: Call, folder: Path
-) -> None:
+def test_run_says_which_failed_and_writes_what_there_is(files: str, code: int, gradhesion: Call, folder: Path) -> None:
     result = gradhesion("run", "many.toml", "-o", f"{code}.nc", f'--set=data.file="curves/{files}.csv"')
     assert result.exit_code == code
     assert ("1 of 2 loops fitted" in result.stderr) == (code == 3)

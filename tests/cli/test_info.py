@@ -34,7 +34,9 @@ def test_it_tells_axes_fixed_values_extremes_status_and_origin(gradhesion: Call,
 
 def test_axes_points_and_single_scenes(gradhesion: Call, made: Made) -> None:
     waves = {"start": 0.11, "stop": 0.47, "num": 20, "spacing": "log"}
-    told = gradhesion("info", made(parameters={"lambda_over_R": waves, "A": {"start": 0, "stop": 0.1, "num": 11}})).stdout
+    told = gradhesion(
+        "info", made(parameters={"lambda_over_R": waves, "A": {"start": 0, "stop": 0.1, "num": 11}})
+    ).stdout
     assert "20 values from 0.11 to 0.47, log-spaced" in told
     assert "11 values from 0 to 0.1, evenly spaced" in told
     single = dict.fromkeys(("k", "lambda_over_R", "A", "a_max_over_R"), 0.2)

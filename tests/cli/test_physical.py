@@ -82,7 +82,9 @@ def test_random_values_in_random_units_are_the_same_scenes_and_have_the_same_bit
     if control == "machine":
         quotients["machine_stiffness"] = np.array(made.exact["spring_constant"]) / (E_star * R)
     for name, values in quotients.items():  # each text is rounded once, and so is each step
-        off = [abs(Fraction(found) / value - 1) for found, value in zip(units[name].values.tolist(), values, strict=True)]
+        off = [
+            abs(Fraction(found) / value - 1) for found, value in zip(units[name].values.tolist(), values, strict=True)
+        ]
         assert max(off) <= 4 * EPS, name
 
     ratios = {name: units[name].values.tolist() for name in (*quotients, *(["load_max"] if end == "preload" else []))}

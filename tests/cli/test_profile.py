@@ -29,7 +29,9 @@ def shaped(data: dict[str, Any]) -> Callable[..., dict[str, Any]]:
     def study(control: str = "machine", **changes: Any) -> dict[str, Any]:
         parameters = data["parameters"] | {"lambda_over_R": 0.3, "a_max_over_R": [0.6, 0.8]}
         stiffness = {"machine_stiffness": [0.1, 3.0, 70.0]} if control == "machine" else {}
-        return data | {"parameters": parameters, "profile": SHAPE, "loading": {"control": control} | stiffness} | changes
+        return (
+            data | {"parameters": parameters, "profile": SHAPE, "loading": {"control": control} | stiffness} | changes
+        )
 
     return study
 

@@ -98,9 +98,7 @@ def unread() -> Iterator[int]:
     os.close(pipe)
 
 
-def test_a_reader_that_has_gone_ends_it_quietly(
-    unread: int, dataset_file: Path
-) -> None:
+def test_a_reader_that_has_gone_ends_it_quietly(unread: int, dataset_file: Path) -> None:
     for arguments in (["info", dataset_file], ["info", "--help"]):
         command = [sys.executable, "-m", "gradhesion.cli", *arguments]
         done = subprocess.run(command, stdout=unread, stderr=subprocess.PIPE, text=True, timeout=60, check=False)

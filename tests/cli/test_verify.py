@@ -170,7 +170,9 @@ def test_scenes_of_too_many_waves_are_left_out_and_others_drawn(gradhesion: Call
 
 def test_errors_that_a_dataset_tells_of_its_values_are_held_against_them(gradhesion: Call, file: Path) -> None:
     """As versions up to 0.3 wrote them, where the study asked for them."""
-    edit_study(file, 'outputs = ["pull_off_force", ', 'outputs = ["pull_off_force", "pull_off_force_error", ', seal=True)
+    edit_study(
+        file, 'outputs = ["pull_off_force", ', 'outputs = ["pull_off_force", "pull_off_force_error", ', seal=True
+    )
     with netCDF4.Dataset(file, "a") as old:
         error = old.createVariable("pull_off_force_error", "f8", old["pull_off_force"].dimensions)
         error[:] = 1e-10
@@ -207,7 +209,9 @@ def test_of_several_solvers_those_with_a_twin_are_recomputed(gradhesion: Call, m
     assert gradhesion("verify", path).exit_code == 2
 
 
-def test_a_rim_given_in_the_jump_in_radius_is_recomputed(gradhesion: Call, data: dict[str, Any], made: Callable[..., Path]) -> None:
+def test_a_rim_given_in_the_jump_in_radius_is_recomputed(
+    gradhesion: Call, data: dict[str, Any], made: Callable[..., Path]
+) -> None:
     del data["parameters"]["a_max_over_R"]
     path = made(exit_code=3, parameters={"A": [0.0, 0.023, 9.0], "a_max_over_a2": [0.7, 1.3, 2.1]})  # r > s at A = 9
     result = gradhesion("verify", path, *ALL)

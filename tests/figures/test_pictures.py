@@ -76,7 +76,11 @@ def test_make_draws_every_picture_from_its_study_and_the_page_shows_it() -> None
 
 @pytest.mark.parametrize(
     ("name", "file", "words"),
-    [("fig8", "x.nc", ""), ("fig3a", "x.nc", "not a dataset that fig3a is drawn from ("), ("fig3a", "none.nc", "no such file")],
+    [
+        ("fig8", "x.nc", ""),
+        ("fig3a", "x.nc", "not a dataset that fig3a is drawn from ("),
+        ("fig3a", "none.nc", "no such file"),
+    ],
 )
 def test_the_command_line_draws_or_refuses_in_one_sentence(
     name: str, file: str, words: str, computed: Compute, tmp_path: Path,

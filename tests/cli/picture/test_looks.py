@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
-import matplotlib.style
 import numpy as np
 import pytest
 import xarray
@@ -238,9 +237,3 @@ def test_the_command_draws_in_the_form_of_the_name(
         assert np.frombuffer(pictures[0].read_bytes()[16:24], ">u4").tolist() == [200, 150]
     if form == "svg":
         assert "waves" in pictures[0].read_text()
-
-
-def test_the_styles_have_names() -> None:
-    with matplotlib.style.context(["gradhesion.style", "gradhesion.journal"]):
-        assert mpl.rcParams["font.family"] == ["STIXGeneral"]
-        assert mpl.rcParams["savefig.dpi"] == 300

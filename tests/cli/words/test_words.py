@@ -32,7 +32,12 @@ def of_units(A: float | None = 0.02, **changes: Any) -> dict[str, Any]:
 def search(word: str) -> dict[str, Any]:
     """A search for the greatest force, by the word for that."""
     goal = {word: "pull_off_force", "over": ["A"]}
-    return {"kind": "optimum", "outputs": None, "parameters": PUNCH | {"A": {"start": 0.01, "stop": 0.1}}, "optimum": goal}
+    return {
+        "kind": "optimum",
+        "outputs": None,
+        "parameters": PUNCH | {"A": {"start": 0.01, "stop": 0.1}},
+        "optimum": goal,
+    }
 
 
 STUDIES: dict[str, tuple[dict[str, Any], str]] = {

@@ -76,14 +76,14 @@ def resumed(gradhesion: Call, study_file: Path, output: Path, whole: dict[str, b
     return resume
 
 
-@pytest.mark.parametrize("number", [1, 2, 5])
+@pytest.mark.parametrize("number", [1, 5])
 def test_a_run_goes_on_where_it_was_interrupted(number: int, begun: Callable[..., int], resumed: Call) -> None:
     kept = begun(number)
     assert kept in {number - 1, number}, "the last one may have been on its way to the disk"
     resumed(kept)
 
 
-def test_an_old_output_stays_until_the_new_one_is_whole(
+def test_an_old_output_stays_until_the_new_one_is_whole_and_another_title_goes_on(
     begun: Callable[..., int], resumed: Call, gradhesion: Call, study_file: Path, output: Path
 ) -> None:
     output.parent.mkdir()
@@ -91,15 +91,8 @@ def test_an_old_output_stays_until_the_new_one_is_whole(
     kept = begun(3, "--overwrite")
     assert gradhesion("run", study_file, "-o", output).exit_code == 4, "it exists"
     assert output.read_text() == "precious"
-    resumed(kept, "--overwrite")
-
-
-def test_another_title_or_another_way_to_write_the_study_goes_on(
-    begun: Callable[..., int], resumed: Call, study_file: Path, output: Path
-) -> None:
-    kept = begun(4)
-    study_file.write_text("# a comment\n" + study_file.read_text())
-    resumed(kept, "--set=title='Another'")
+    study_file.write_text("# another way to write it\n" + study_file.read_text())
+    resumed(kept, "--overwrite", "--set=title='Another'")
     with netCDF4.Dataset(output) as file:
         assert file.title == "Another"
 

@@ -84,7 +84,9 @@ def test_each_scene_is_the_curve_of_the_core_padded_to_the_longest(drawn: Callab
             jumps, back = found["path_jump"] == 1, found["path_unloading"] == 1
             assert [(jumps & ~back).sum(), (jumps & back).sum()] == [cycle["loading_jumps"], cycle["unloading_jumps"]]
             assert -found["load"].min() == pytest.approx(float(cycle["pull_off_force"]), rel=1e-13)
-            assert found["path_indentation"].min() == pytest.approx(float(cycle["delta_jump_out"]), rel=1e-12, abs=1e-16)
+            assert found["path_indentation"].min() == pytest.approx(
+                float(cycle["delta_jump_out"]), rel=1e-12, abs=1e-16
+            )
         assert {name: dataset.sizes[name] for name in lengths} == {name: max(sizes) for name, sizes in lengths.items()}
         assert len(set(lengths["point"])) > 1, "some are padded"
 
