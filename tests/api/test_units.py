@@ -270,12 +270,7 @@ def test_a_study_takes_them_as_a_call_does(tmp_path: Path) -> None:
 
 
 def test_uncertainties_are_quantities_or_shares() -> None:
-    table = {
-        "R": 2 * um,
-        "wavelength": 5 * ureg.percent,
-        "A": {"low": 4 * ureg.percent, "high": 0.06},
-        "E": {"low": 1 * ureg.MPa, "high": "3 MPa"},
-    }
+    table = {"R": 2 * um, "wavelength": 5 * ureg.percent, "A": {"low": 4 * ureg.percent, "high": 0.06}, "E": {"low": 1 * ureg.MPa, "high": "3 MPa"}}  # fmt: skip
     study = gr.load(STUDY | {"uncertainty": table})
     assert isinstance(study, gr.Study)
     found = dict(study.uncertainty.deviations)

@@ -22,14 +22,7 @@ pytestmark = pytest.mark.slow
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 PUNCH: dict[str, Any] = {"k": 0.3, "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.013, "A": 0.023, "a_max_over_R": 1.7}
 WAVES = {"start": 0.11, "stop": 0.87, "num": 7, "spacing": "log"}
-TIP = {
-    "R": "1 um",
-    "E_star": "1 GPa",
-    "work_of_adhesion": "50 mJ/m^2",
-    "c0": "13 nm",
-    "wavelength": "0.2 um",
-    "a_max": "0.4 um",
-}
+TIP = {"R": "1 um", "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "13 nm", "wavelength": "0.2 um", "a_max": "0.4 um"}  # fmt: skip
 VALUES = ["pull_off_force", "dissipated_energy"]
 TITLE = "Maps </script><script>window.broken = 1</script> & more"
 STUDIES: dict[str, dict[str, Any]] = {
@@ -218,13 +211,7 @@ def test_the_keys_move_the_sliders_and_the_values_are_those_of_the_dataset(open_
     page = open_page("maps")
     at = {name: (page.dataset.sizes[name] - 1) // 2 for name in AXES}
     page.shows(**at)
-    moves = {
-        "a_max_over_R": (["End"], 2),
-        "A": (["ArrowRight"], 2),
-        "c0_over_R": (["ArrowRight", "ArrowRight"], 1),
-        "lambda_over_R": (["Home", "ArrowRight"], 1),
-        "k": (["End"], 3),
-    }
+    moves = {"a_max_over_R": (["End"], 2), "A": (["ArrowRight"], 2), "c0_over_R": (["ArrowRight", "ArrowRight"], 1), "lambda_over_R": (["Home", "ArrowRight"], 1), "k": (["End"], 3)}  # fmt: skip
     for axis, (keys, place) in moves.items():
         page.press(axis, *keys)
         page.shows(**(at := at | {axis: place}))
@@ -429,7 +416,10 @@ def test_dark_and_light_pages_have_colours_that_are_seen(open_page: Open) -> Non
         track = "explorer.study.tracks.find(track => track.curve === 'equilibrium')"
         stable, unstable = page.js(f"[theme.seen({track}.colour), theme.faded({track})]")
         assert {stable, unstable} <= {*page.js("explorer.parts.planes[0].lines.data.colour")}
-        greys = [np.dot([0.2126, 0.7152, 0.0722], [int(one[i : i + 2], 16) for i in (1, 3, 5)]) for one in (stable, unstable, paper)]
+        greys = [
+            np.dot([0.2126, 0.7152, 0.0722], [int(one[i : i + 2], 16) for i in (1, 3, 5)])
+            for one in (stable, unstable, paper)
+        ]
         assert np.diff(sorted(greys)).min() > 30, "a grey print keeps them apart"
         assert greys[1] == np.median(greys), "what is unstable is fainter"
         strokes = page.js("[...document.querySelectorAll('#lines line')].map(line => line.getAttribute('stroke'))")

@@ -16,14 +16,7 @@ from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
 
 Call = Callable[..., Result]
 CONFIGS = Path(__file__).parents[2] / "configs"
-TRUE = {
-    "E_star": 1e7,
-    "work_of_adhesion": 0.03,
-    "wavelength": 0.5e-6,
-    "A": 0.012,
-    "indentation_offset": 2e-9,
-    "load_offset": 1e-8,
-}
+TRUE = {"E_star": 1e7, "work_of_adhesion": 0.03, "wavelength": 0.5e-6, "A": 0.012, "indentation_offset": 2e-9, "load_offset": 1e-8}  # fmt: skip
 """What configs/force_curve.csv was made with."""
 ROWS = [line for line in (CONFIGS / "force_curve.csv").read_text().splitlines() if line[0] in "-0123456789"]
 DEPTHS = np.array([float(row.split(",")[0]) for row in ROWS])

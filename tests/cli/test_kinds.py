@@ -23,12 +23,7 @@ CONFIGS = Path(__file__).parents[2] / "configs"
 STUDY: dict[str, Any] = {"title": "A small study", "outputs": ["pull_off_force", "dissipated_energy", "loading_jumps"]}
 MATERIAL: dict[str, Any] = {"k": [0.0, 0.31], "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.013}
 PUNCH = MATERIAL | {"lambda_over_R": [0.11, 0.3], "A": [0.0, 0.023], "a_max_over_R": [0.7, math.inf]}
-LISTS = {
-    "k": [0.0, 0.2, 0.31],
-    "lambda_over_R": [0.11, 0.3, 0.2],
-    "A": [0.0, 0.01, 0.02],
-    "a_max_over_R": [1.0, 2.0, math.inf],
-}
+LISTS = {"k": [0.0, 0.2, 0.31], "lambda_over_R": [0.11, 0.3, 0.2], "A": [0.0, 0.01, 0.02], "a_max_over_R": [1.0, 2.0, math.inf]}  # fmt: skip
 BALL = {"R": ["1 um", "1.3 um"], "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "13 nm"}
 TIP = BALL | {"wavelength": "0.3 um", "a_max": ["0.7 um", "inf"]}
 SHAPE = {"exponent": 1.7, "harmonics": [{"n": 1, "cos": 1.0}, {"n": 3, "sin": -0.2}]}

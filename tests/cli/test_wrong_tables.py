@@ -36,12 +36,7 @@ terms = 1
 """,
 }
 """For each reader of a study a study, whose table has the columns x and y."""
-HEADS = {
-    "points": ("modulus", "A", ""),
-    "fit": ("depth", "force", " [nm]"),
-    "profile": ("r", "height", " [nm]"),
-    "data": ("depth", "load", " [nm]"),
-}
+HEADS = {"points": ("modulus", "A", ""), "fit": ("depth", "force", " [nm]"), "profile": ("r", "height", " [nm]"), "data": ("depth", "load", " [nm]")}  # fmt: skip
 
 TABLES: dict[str, tuple[str, str]] = {
     "short row": ("@x,@y\n1,2\n\n# more\n3\n", "line 5 has 1 value under 2 names; give each row one value per column"),

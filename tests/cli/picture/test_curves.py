@@ -210,15 +210,6 @@ def test_points_stand_where_they_were_measured_whatever_their_units(
     assert "measured" in legend(panels)
 
 
-@pytest.mark.parametrize(("count", "below"), [(2, False), (100, True)])
-def test_many_points_hide_no_line(count: int, below: bool, probe: xarray.Dataset, tmp_path: Path) -> None:
-    rows = "".join(f"{depth},{10 * depth}\n" for depth in range(count))
-    (axes,) = gr.plot(probe, data=written(tmp_path, "depth [nm],load [nN]\n" + rows), x="indentation", y="load")
-    (points,) = measured(axes)
-    lines = [line for line in axes.lines if line.get_zorder() > 0 and line is not points]
-    assert (points.get_zorder() < min(line.get_zorder() for line in lines)) == below
-
-
 def test_ratios_have_no_units_and_a_table_may_be_in_netcdf(
     curves: xarray.Dataset, probe: xarray.Dataset, tmp_path: Path
 ) -> None:

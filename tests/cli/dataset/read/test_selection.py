@@ -22,11 +22,7 @@ def dataset() -> xarray.Dataset:
     """A grid whose force is linear in k and in log lambda/R, with a fixed nu and a modulus that follows from k."""
     force = (1.0 + K[:, None, None]) * (3.0 + np.log(WAVES)[:, None]) + np.array([0.0, 7.0, 9.0])
     dims = ("k", "lambda_over_R", "a_max_over_R")
-    outputs = {
-        "pull_off_force": (dims, force),
-        "loading_jumps": (dims, np.round(force).astype(np.int32)),
-        "status": (dims, np.zeros(force.shape, np.int8)),
-    }
+    outputs = {"pull_off_force": (dims, force), "loading_jumps": (dims, np.round(force).astype(np.int32)), "status": (dims, np.zeros(force.shape, np.int8))}  # fmt: skip
     coordinates: dict[str, Any] = {"k": K, "lambda_over_R": WAVES, "a_max_over_R": RIMS, "nu": 0.3}
     return xarray.Dataset(outputs, coordinates | {"modulus": (("k", "a_max_over_R"), np.ones((4, 3)))})
 
