@@ -394,7 +394,7 @@ def test_curves_are_those_of_the_scene_and_are_hidden_one_by_one(
     lines = page.js("explorer.parts.planes[0].lines.data")
     assert lines["width"].count(page.js("explorer.study.tracks[0].jumpWidth")) == int(scene["path_jump"].sum())
     label = page.js("explorer.parts.planes[0].figure.left[0].axis_label")
-    assert label == ("load P (µN)" if units else "load P/(1.5 π R Δγ)")
+    assert label == ("load P (µN)" if units else "load P/(1.5 πRΔγ)")
     assert page.page.locator(f"#value-path_load{si}").count() == 0
     tracks = {track["label"]: track for track in page.js("explorer.study.tracks")}
     unloading = tracks["unloading"]

@@ -232,6 +232,6 @@ spring_constant = { start = "2 N/m", stop = "200 N/m" }
 """)
     found = gr.run("spring.toml")
     true = {"E_star": E_star, "work_of_adhesion": work, "spring_constant": S}
-    recovers(found, true | {"displacement_offset": 0.0, "load_offset": 0.0}, 4.0)
+    recovers(found, true | {"indentation_offset": 0.0, "load_offset": 0.0}, 4.0)
     assert float(found["standard_deviation"][2]) < 0.1 * S
     assert found.attrs["control"] == "machine"

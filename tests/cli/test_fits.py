@@ -126,7 +126,7 @@ def test_run_says_which_failed_and_writes_what_there_is(files: str, code: int, g
     result = gradhesion("run", "many.toml", "-o", f"{code}.nc", f'--set=data.file="curves/{files}.csv"')
     assert result.exit_code == code
     assert ("1 of 2 loops fitted" in result.stderr) == (code == 3)
-    assert "curves/9.csv: 3 points are too few for 4 fitted values" in result.stderr
+    assert "3 points are too few for 4 fitted values" in result.stderr
     assert (folder / f"{code}.nc").exists() == (code == 3)
 
 
@@ -175,7 +175,8 @@ WRONG = [["plot", "--at", "loop=7"], ["plot", "--at", "k=1"], ["plot", "--at", "
 @pytest.mark.usefixtures("folder", "models")
 def test_what_several_fits_have_not_is_refused(gradhesion: Call, command: list[str]) -> None:
     result = gradhesion(*command, "many.nc")
-    assert (result.exit_code, result.stdout, len(result.stderr.splitlines())) == (2, "", 1)
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert result.stderr
 
 
 def test_too_much_side_by_side_is_refused_before_it_is_fitted(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -112,7 +112,10 @@ def told(reader: str, folder: Path, gradhesion: Call) -> str:
     return sentence.replace(str(folder), "")
 
 
-@pytest.mark.parametrize(("name", "reader"), zip(2 * [*TABLES], len(TABLES) // 2 * [*HEADS], strict=False))
+TWO_READERS = [(name, [*HEADS][(i + j) % 4]) for i, name in enumerate(TABLES) for j in (0, 2)]
+
+
+@pytest.mark.parametrize(("name", "reader"), TWO_READERS)
 def test_a_wrong_table_is_one_sentence(name: str, reader: str, gradhesion: Call, tmp_path: Path) -> None:
     """Each by two of the four readers, which read tables by the same functions."""
     text, words = TABLES[name]
