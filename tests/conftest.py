@@ -4,6 +4,7 @@ import gc
 import math
 import os
 from collections.abc import Callable
+from copy import deepcopy
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,19 @@ settings.register_profile("no clock", deadline=None, suppress_health_check=[Heal
 settings.load_profile("no clock")
 
 ROOT = Path(__file__).parents[1]
+SMALL = {
+    "title": "A small study",
+    "outputs": ["pull_off_force", "dissipated_energy", "loading_jumps"],
+    "parameters": {
+        "k": [0.0, 0.31],
+        "nu": 0.27,
+        "modulus": 430.0,
+        "c0_over_R": 0.013,
+        "lambda_over_R": {"start": 0.11, "stop": 0.47, "num": 3, "spacing": "log"},
+        "A": [0.0, 0.023],
+        "a_max_over_R": [0.7, float("inf")],
+    },
+}
 
 
 def pytest_configure() -> None:
@@ -35,19 +49,7 @@ def root() -> Path:
 @pytest.fixture
 def data() -> dict[str, Any]:
     """A small valid study, off every round number."""
-    return {
-        "title": "A small study",
-        "outputs": ["pull_off_force", "dissipated_energy", "loading_jumps"],
-        "parameters": {
-            "k": [0.0, 0.31],
-            "nu": 0.27,
-            "modulus": 430.0,
-            "c0_over_R": 0.013,
-            "lambda_over_R": {"start": 0.11, "stop": 0.47, "num": 3, "spacing": "log"},
-            "A": [0.0, 0.023],
-            "a_max_over_R": [0.7, float("inf")],
-        },
-    }
+    return deepcopy(SMALL)
 
 
 @pytest.fixture

@@ -9,14 +9,7 @@ import xarray
 import gradhesion as gr
 from gradhesion.core.problem.status import DOUBTFUL, FAILED
 
-PUNCH: dict[str, Any] = {
-    "k": 0.0,
-    "nu": 0.3,
-    "modulus": 500.0,
-    "c0_over_R": 0.01,
-    "lambda_over_R": 0.1,
-    "a_max_over_R": 1.0,
-}
+PUNCH: dict[str, Any] = {"k": 0.0, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1, "a_max_over_R": 1.0}  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -44,14 +37,7 @@ def test_what_is_valid_depends_on_what_is_asked(every_status: xarray.Dataset) ->
 
 
 def test_variables_in_si_and_of_curves_are_doubted_as_what_they_are_of() -> None:
-    units = {
-        "R": "1 um",
-        "E_star": "1 GPa",
-        "work_of_adhesion": "50 mJ/m^2",
-        "c0": "10 nm",
-        "wavelength": "100 nm",
-        "a_max": "1 um",
-    }
+    units = {"R": "1 um", "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "10 nm", "wavelength": "100 nm", "a_max": "1 um"}  # fmt: skip
     rough = gr.solve(units, k=0.0, nu=0.3, A=0.1)
     assert rough.gr.flagged("loading_contact_not_one_disc").item()
     assert [rough.gr.valid(name).item() for name in ("dissipated_energy_si", "pull_off_force_si")] == [False, True]

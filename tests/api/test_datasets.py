@@ -9,14 +9,7 @@ import xarray
 
 import gradhesion as gr
 
-PUNCH: dict[str, Any] = {
-    "k": 0.3,
-    "nu": 0.3,
-    "modulus": 500.0,
-    "c0_over_R": 0.01,
-    "lambda_over_R": 0.2,
-    "a_max_over_R": 0.7,
-}
+PUNCH: dict[str, Any] = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.2, "a_max_over_R": 0.7}  # fmt: skip
 
 
 def test_what_is_kept_is_opened_again(tmp_path: Path) -> None:

@@ -45,28 +45,6 @@ def test_every_name_is_there_and_says_what_it_is(name: str) -> None:
     assert name in dir(gr)
     if callable(value):
         assert value.__doc__
-    assert vars(gr)[name] is value, "it is looked up once"
-
-
-def test_the_names_of_other_modules_are_not_hidden_by_ours() -> None:
-    from gradhesion import core, datasets, pictures, scenes, studies
-
-    assert gr.solve is scenes.solve
-    assert gr.open is datasets.open_dataset
-    assert gr.plot is pictures.plot
-    assert gr.load is studies.load
-    assert gr.PARAMETERS.keys() == {*core.PARAMETERS}
-    assert not {*gr.__all__} & {
-        "accessor",
-        "datasets",
-        "given",
-        "names",
-        "pictures",
-        "scenes",
-        "solved",
-        "studies",
-        "wording",
-    }
 
 
 def test_a_name_that_is_not_there() -> None:

@@ -44,16 +44,7 @@ def test_axes_are_reduced_and_given_their_places(grid: xarray.Dataset) -> None:
     assert [inset.get_xlim() for inset in part.child_axes] == [pytest.approx((0.2, 0.3), rel=1e-12)]
 
 
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        ({"variables": "pull_of_force"}, "variable pull_of_force: "), ({"at": {"kk": 0.1}}, "at kk=0.1: "), ({"at": {"k": 3.0}}, "at k=3.0: "),
-        ({"over": {"k": "maximum"}}, "over k=maximum: "), ({"width": "colum"}, "width colum: "), ({"colour_map": "viridos"}, "viridos: "),
-        ({"kind": "maps"}, 'kind = "maps": '), ({"kind": "map", "at": {"k": 0.3}}, "lambda_over_R"), ({"style": "gray"}, "style gray: "),
-        ({"levels": []}, "levels : "), ({"interpolate": True}, "interpolate: "), ({"xlim": (0.3, 0.2)}, "xlim 0.3:0.2: "), ({"xlim": 0.3}, "xlim 0.3: "),
-        ({"inset": (0.2, 0.3)}, "inset 0.2:0.3: "), ({"band": "std"}, "band std: "),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("arguments", "said"), [({"kind": "maps"}, 'kind = "maps": '), ({"levels": []}, "levels : "), ({"interpolate": True}, "interpolate: ")])  # fmt: skip
 def test_wishes_that_cannot_be_met(arguments: dict[str, Any], said: str, grid: xarray.Dataset) -> None:
     with pytest.raises(gr.DatasetError) as refused:
         gr.plot(grid, **arguments)
@@ -75,17 +66,6 @@ def test_a_variable_alone_is_not_drawn(grid: xarray.Dataset) -> None:
     for call in (gr.plot, gr.verify):
         with pytest.raises(gr.DatasetError, match="a DataArray is neither a dataset nor the path of one"):
             call(grid["pull_off_force"])  # type: ignore[arg-type]
-
-
-def test_curves_are_drawn_as_they_are() -> None:
-    curves = gr.curves(PUNCH, "path", k=[0.3, 0.5], lambda_over_R=0.2)
-    assert len(gr.plot(curves)) == 3
-    with pytest.raises(gr.DatasetError, match="over: curves are drawn as they are; choose scenes with at"):
-        gr.plot(curves, over={"k": "max"})
-    with pytest.raises(gr.DatasetError, match="x k: curves are drawn over contact_radius, indentation or load"):
-        gr.plot(curves, x="k")
-    (panel,) = gr.plot(curves, x="indentation", y="load")
-    assert panel.get_xlabel() == r"depth $\delta/R$"
 
 
 def test_a_page_is_written_once(grid: xarray.Dataset, tmp_path: Path) -> None:

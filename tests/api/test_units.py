@@ -13,10 +13,8 @@ import pint
 import pint_xarray  # noqa: F401 (registers the accessor)
 import pytest
 import xarray
-from numpy.typing import NDArray
 
 import gradhesion as gr
-from gradhesion.given import given_in
 
 ureg = pint.UnitRegistry()
 um = ureg.um
@@ -30,57 +28,43 @@ BULK = {"nu": 0.5, "E": "2 MPa", "work_of_adhesion": "50 mJ/m^2", "k": 0.0}
 WAVY = BULK | {"R": "25 um", "wavelength": "1 um", "A": 0.05}
 
 
-class Astropy(np.ndarray):  # type: ignore[type-arg]
-    """What astropy gives: an array with a unit, of which numpy keeps the numbers."""
+class Quantity(np.ndarray):  # type: ignore[type-arg]
+    """An array with a unit, of which numpy keeps the numbers, as other packages give it."""
 
     unit: Any
+    units: Any
     value: Any
     si: Any
 
+    def in_mks(self) -> Any:
+        """Convert it, as unyt does."""
+        return SimpleNamespace(value=self.value * self.units.factor, units=self.units.base)
+
 
 class Unit:
-    """A unit of the other packages: a number times it is a quantity."""
+    """A unit of astropy or unyt: a number times it is a quantity."""
 
-    def __init__(self, text: str, factor: float, base: str) -> None:
-        self.text, self.factor, self.base = text, factor, base
+    def __init__(self, text: str, factor: float, base: str, *, unyt: bool = False) -> None:
+        self.text, self.factor, self.base, self.unyt = text, factor, base, unyt
 
     def __str__(self) -> str:
         return self.text
 
     def quantity(self, numbers: Any) -> Any:
         """Make a quantity."""
-        made = np.asarray(numbers, dtype=float).view(Astropy)
-        made.unit, made.value = self, np.asarray(numbers, dtype=float)
-        made.si = SimpleNamespace(value=made.value * self.factor, unit=self.base)
+        made = np.asarray(numbers, dtype=float).view(Quantity)
+        made.value = np.asarray(numbers, dtype=float)
+        if self.unyt:
+            made.units = self
+        else:
+            made.unit, made.si = self, SimpleNamespace(value=made.value * self.factor, unit=self.base)
         return made
 
     __rmul__ = quantity
 
 
 AU_UM = Unit("um", 1e-6, "m")
-
-
-class Unyt(np.ndarray):  # type: ignore[type-arg]
-    """What unyt gives."""
-
-    units: Any
-    value: Any
-
-    def in_mks(self) -> Any:
-        """Convert it."""
-        return SimpleNamespace(value=self.value * self.units.factor, units=self.units.base)
-
-
-class UnytUnit(Unit):
-    """A unit of unyt."""
-
-    def quantity(self, numbers: Any) -> Any:
-        """Make a quantity."""
-        made = np.asarray(numbers, dtype=float).view(Unyt)
-        made.units, made.value = self, np.asarray(numbers, dtype=float)
-        return made
-
-    __rmul__ = quantity
+UNYT_UM = Unit("\u03bcm", 1e-6, "m", unyt=True)
 
 
 class PintColumn(pd.Series):  # type: ignore[type-arg]
@@ -90,6 +74,13 @@ class PintColumn(pd.Series):  # type: ignore[type-arg]
     def array(self) -> Any:
         """What holds its values."""
         return SimpleNamespace(quantity=ureg.Quantity(np.asarray(self.values), "um"))
+
+
+def series_with_attribute() -> Any:
+    """Give a column of pandas with an attribute."""
+    column = pd.Series([25.0, 50.0])
+    column.attrs["units"] = "um"
+    return column
 
 
 def netcdf_variable() -> Any:
@@ -109,11 +100,9 @@ def quantified(name: str = "R") -> xarray.DataArray:
     return dataset.pint.quantify()[name]
 
 
-def metres(value: Any, name: str = "R") -> tuple[NDArray[np.float64], tuple[str, ...]]:
-    """Give what a call makes of a value, with its dimensions."""
-    given = given_in("gr.solve", BULK | {"A": 0.0}, {name: value}, {"outputs": "pull_off_force"})
-    array = xarray.DataArray(given.parameters(given.study())[name])
-    return array.values, tuple(map(str, array.dims))
+def called(value: Any, name: str = "R", scene: dict[str, Any] = BULK | {"A": 0.0}) -> xarray.DataArray:
+    """Give what a call makes of a value."""
+    return gr.solve(scene, "pull_off_force", **{name: value})[name]
 
 
 ONE = {
@@ -129,7 +118,7 @@ ONE = {
     "in an array of xarray": xarray.DataArray(ureg.Quantity(np.array(25.0), "um")),
     "attribute": xarray.DataArray(25.0, attrs={"units": "um"}),
     "astropy": AU_UM.quantity(25.0),
-    "unyt": UnytUnit("μm", 1e-6, "m").quantity(25.0),
+    "unyt": UNYT_UM.quantity(25.0),
     "a unit that only astropy knows": Unit("Angstrom", 1.0000000000000002e-10, "m").quantity(250_000.0),
     "number": 25e-6,
 }
@@ -137,8 +126,8 @@ ONE = {
 
 @pytest.mark.parametrize("case", ONE)
 def test_one_quantity_is_what_its_text_is(case: str) -> None:
-    values, dims = metres(ONE[case])
-    assert (values.item(), dims) == (25e-6, ())
+    found = called(ONE[case])
+    assert (found.item(), found.dims, found.attrs["units"]) == (25e-6, (), "m")
 
 
 TWO: dict[str, tuple[Any, str]] = {
@@ -158,48 +147,28 @@ TWO: dict[str, tuple[Any, str]] = {
     "attribute": (xarray.DataArray([25, 50], dims="x", attrs={"units": "um"}), "x"),
     "pandas": (pd.Series([25 * um, 50 * um]), "index"),
     "pint-pandas": (PintColumn([25.0, 50.0]), "index"),
+    "attribute of pandas": (series_with_attribute(), "index"),
     "netCDF4": (netcdf_variable(), "R"),
     "astropy": (AU_UM.quantity([25.0, 50.0]), "R"),
     "list of astropy": ([AU_UM.quantity(25.0), AU_UM.quantity(50.0)], "R"),
-    "unyt": (UnytUnit("μm", 1e-6, "m").quantity([25.0, 50.0]), "R"),
+    "unyt": (UNYT_UM.quantity([25.0, 50.0]), "R"),
 }
 
 
 @pytest.mark.parametrize("case", TWO)
 def test_several_quantities_are_what_their_texts_are(case: str) -> None:
     value, dim = TWO[case]
-    values, dims = metres(value)
-    assert (values.tolist(), dims) == ([25e-6, 50e-6], (dim,))
-
-
-def test_an_attribute_of_pandas_is_a_unit() -> None:
-    column = pd.Series([25.0, 50.0])
-    column.attrs["units"] = "um"
-    assert metres(column)[0].tolist() == [25e-6, 50e-6]
-
-
-def test_a_coordinate_that_comes_along_keeps_its_unit() -> None:
-    time = xarray.DataArray([1.0, 2.0] * ureg.second, dims="R")
-    array = xarray.DataArray([25.0, 50.0] * um, dims="R", coords={"time": time})
-    given = given_in("gr.solve", BULK | {"A": 0.0}, {"R": array}, {"outputs": "pull_off_force"})
-    found = given.arrays["R"].coords["time"]
-    assert (type(found.data), found.attrs["units"]) == (np.ndarray, "second")
+    found = called(value)
+    assert (found.values.tolist(), found.dims, found.attrs["units"]) == ([25e-6, 50e-6], (dim,), "m")
 
 
 def test_without_end_and_without_value() -> None:
-    given = given_in(
-        "gr.solve", BULK | {"A": 0.0, "R": 25 * um}, {"a_max": [1.0, math.inf] * um}, {"outputs": "pull_off_force"}
-    )
-    assert given.arrays["a_max"].values.tolist() == [1e-6, math.inf]
-    for wrong in (
-        math.inf * um,
-        math.nan * um,
-        [math.nan, 1.0] * um,
-        -1 * um,
-        ureg.Quantity(np.ma.array([1.0, 2.0], mask=[1, 0]), "um"),
-    ):
+    found = gr.solve(BULK | {"A": 0.0, "R": 25 * um}, "pull_off_force", a_max=[1.0, math.inf] * um)
+    assert found["a_max"].values.tolist() == [1e-6, math.inf]
+    masked = ureg.Quantity(np.ma.array([1.0, 2.0], mask=[1, 0]), "um")
+    for wrong in (math.inf * um, math.nan * um, [math.nan, 1.0] * um, -1 * um, masked):
         with pytest.raises(gr.StudyError, match=r"R(\[0\])? = .*: out of range; choose .* with R > 0"):
-            metres(wrong)
+            called(wrong)
 
 
 @pytest.mark.parametrize(
@@ -211,8 +180,7 @@ def test_without_end_and_without_value() -> None:
     ],
 )  # fmt: skip
 def test_a_ratio_may_have_a_unit_without_dimension(value: Any, numbers: Any) -> None:
-    given = given_in("gr.solve", WAVY, {"A": value}, {"outputs": "pull_off_force"})
-    assert np.asarray(given.parameters(given.study())["A"]).tolist() == numbers
+    assert called(value, "A", WAVY).values.tolist() == numbers
 
 
 OTHERWISE: dict[str, tuple[str, Any, int]] = {
@@ -242,7 +210,7 @@ OTHERWISE: dict[str, tuple[str, Any, int]] = {
 def test_another_dimension_is_refused_with_its_unit_and_what_is_wanted(unit: str) -> None:
     name, value, count = OTHERWISE[unit]
     with pytest.raises(gr.StudyError) as refused:
-        given_in("gr.solve", WAVY, {name: value}, {"outputs": "pull_off_force"}).study()
+        called(value, name, WAVY)
     wanted = "a length (m)" if name == "R" else "a number without a unit"
     for sentence in refused.value.mistakes:
         assert sentence.startswith(f"gr.solve: {name}")
@@ -253,36 +221,25 @@ def test_another_dimension_is_refused_with_its_unit_and_what_is_wanted(unit: str
 
 def test_a_table_of_pandas_names_its_columns_once() -> None:
     table = pd.DataFrame([[1e-6, 2e-6, 0.0]], columns=["R", "R", "A"])
-    with pytest.raises(gr.StudyError) as refused:
-        given_in("gr.solve", table, BULK, {"outputs": "pull_off_force"}).study()
-    assert refused.value.mistakes == ("gr.solve: R: the table has more than one column of this name; keep one of them",)
+    with pytest.raises(gr.StudyError, match=r"^gr\.solve: R: the table has more than one column of this name"):
+        gr.solve(table, **BULK, outputs="pull_off_force")
 
 
-def test_radii_of_states_are_ratios() -> None:
+def test_radii_of_states_and_amplitudes_of_a_profile_are_ratios() -> None:
+    scene = WAVY | {"R": "0.3 um", "wavelength": "0.1 um"}
     for radii in (50 * ureg.percent, [50 * ureg.percent], xarray.DataArray([50.0], dims="x", attrs={"units": "%"})):
-        given = given_in(
-            "gr.curves", WAVY, {}, {"kind": "curve", "outputs": "pressure", "contact_radius_over_R": radii}
-        )
-        assert given.study().states == (0.5,)
+        assert gr.curves(scene, "pressure", contact_radius_over_R=radii)["state"].values.tolist() == [0.5]
     for radius in (5 * um, [5 * um], -1.0):
-        given = given_in(
-            "gr.curves", WAVY, {}, {"kind": "curve", "outputs": "pressure", "contact_radius_over_R": radius}
-        )
         with pytest.raises(gr.StudyError, match=r"contact_radius_over_R\[0\] = "):
-            given.study()
-
-
-def test_amplitudes_of_a_profile_are_ratios() -> None:
-    for profile in (
-        {"harmonics": [{"n": 1, "cos": 50 * ureg.percent}]},
-        gr.Profile(harmonics=(gr.Harmonic(n=1, cos=50 * ureg.percent),)),
-    ):
-        given = given_in("gr.solve", WAVY, {}, {"outputs": "pull_off_force", "profile": profile})
-        assert given.study().profile.harmonics[0].cos == 0.5
+            gr.curves(scene, "pressure", contact_radius_over_R=radius)
+    half = 50 * ureg.percent
+    found = [
+        gr.solve(WAVY, "pull_off_force", profile=profile).attrs["profile"]
+        for profile in ({"harmonics": [{"n": 1, "cos": half}]}, gr.Profile(harmonics=(gr.Harmonic(n=1, cos=half),)))
+    ]
+    assert found == 2 * ["r^2/(2 R) + lambda A [0.5 (1 - cos(2 pi x))], x = r/lambda"]
     with pytest.raises(gr.StudyError, match='cos = "1 micrometer": this must be a number'):
-        given_in(
-            "gr.solve", WAVY, {}, {"outputs": "pull_off_force", "profile": {"harmonics": [{"n": 1, "cos": um * 1}]}}
-        ).study()
+        gr.solve(WAVY, "pull_off_force", profile={"harmonics": [{"n": 1, "cos": um * 1}]})
 
 
 STUDY: dict[str, Any] = {
@@ -292,41 +249,28 @@ STUDY: dict[str, Any] = {
 }  # fmt: skip
 
 
-def test_a_study_takes_them_as_a_call_does() -> None:
+def test_a_study_takes_them_as_a_call_does(tmp_path: Path) -> None:
     study = gr.load(STUDY)
     assert isinstance(study, gr.Study)
-    assert study.parameters["R"].tolist() == [25e-6, 50e-6]  # type: ignore[union-attr]
     assert study.parameters["work_of_adhesion"] == 0.05
+    (tmp_path / "study.toml").write_text(study.text)
     for value in (
-        [25.0, 50.0] * um, xarray.DataArray([25.0, 50.0], dims="x", attrs={"units": "um"}), quantified(), pd.Series([25 * um, 50 * um]),
+        STUDY["physical"]["R"], [25.0, 50.0] * um, xarray.DataArray([25.0, 50.0], dims="x", attrs={"units": "um"}), quantified(), pd.Series([25 * um, 50 * um]),
         {"start": 25 * um, "stop": 0.05 * ureg.mm, "num": 2}, AU_UM.quantity([25.0, 50.0]),
     ):  # fmt: skip
-        changed = gr.load(STUDY, set={"physical.R": value})
-        assert isinstance(changed, gr.Study)
-        assert changed.parameters["R"].tolist() == [25e-6, 50e-6]  # type: ignore[union-attr]
+        for where in (STUDY, tmp_path / "study.toml"):
+            changed = gr.load(where, set={"physical.R": value, "parameters.A": 10 * ureg.percent})
+            assert isinstance(changed, gr.Study)
+            assert changed.parameters["R"].tolist() == [25e-6, 50e-6]  # type: ignore[union-attr]
+            assert changed.parameters["A"] == 0.1
     for wrong in (25 * ureg.kg, 25e-6):
-        with pytest.raises(gr.StudyError, match=r"physical.R = .* a length \(m\) is expected"):
-            gr.load(STUDY, set={"physical.R": wrong})
-
-
-def test_a_study_in_a_file_takes_them(tmp_path: Path) -> None:
-    file = tmp_path / "study.toml"
-    file.write_text(gr.load(STUDY).text)
-    for value in (75 * um, xarray.DataArray(75.0, attrs={"units": "um"}), "75 um"):
-        study = gr.load(file, set={"physical.R": value, "parameters.A": 10 * ureg.percent})
-        assert isinstance(study, gr.Study)
-        assert (study.parameters["R"], study.parameters["A"]) == (75e-6, 0.1)
-    with pytest.raises(gr.StudyError, match='"kilogram" is not a unit of this quantity'):
-        gr.load(file, set={"physical.R": 25 * ureg.kg})
+        for where in (STUDY, tmp_path / "study.toml"):
+            with pytest.raises(gr.StudyError, match=r"physical.R = .* a length \(m\) is expected"):
+                gr.load(where, set={"physical.R": wrong})
 
 
 def test_uncertainties_are_quantities_or_shares() -> None:
-    table = {
-        "R": 2 * um,
-        "wavelength": 5 * ureg.percent,
-        "A": {"low": 4 * ureg.percent, "high": 0.06},
-        "E": {"low": 1 * ureg.MPa, "high": "3 MPa"},
-    }
+    table = {"R": 2 * um, "wavelength": 5 * ureg.percent, "A": {"low": 4 * ureg.percent, "high": 0.06}, "E": {"low": 1 * ureg.MPa, "high": "3 MPa"}}  # fmt: skip
     study = gr.load(STUDY | {"uncertainty": table})
     assert isinstance(study, gr.Study)
     found = dict(study.uncertainty.deviations)

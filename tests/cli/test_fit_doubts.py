@@ -49,33 +49,27 @@ def test_a_sound_fit_has_none() -> None:
     assert not list(doubts_of(fit()))
 
 
-def test_each_is_a_sentence_with_numbers() -> None:
-    assert said(converged=False).startswith("the fit did not converge; ")
-    poor = said(chi_square=900.0, status=POOR_FIT)
-    assert "reduced chi square 4.5, where 2 is the most" in poor
-    assert "signs" not in poor
-    assert said(chi_square=9e4, status=POOR_FIT).endswith("and check the signs of depth and load")
-    other = OtherMinimum(values=VALUES | {"E_star": 4e6}, chi_square=212.5)
-    both = said(others=(other,), status=ANOTHER_MINIMUM)
-    assert (
-        "chi square 212.5 at E_star = 4e+06, work_of_adhesion = 0.02, load_offset = 1e-09, beside 210 at E_star" in both
-    )
+OTHER = OtherMinimum(values=VALUES | {"E_star": 4e6}, chi_square=212.5)
+ENDS = {
+    "E_star": ({}, "E_star is at an end of its range (2e+06 of 1e+06 to 1e+08); widen the range, or give it as a number"),
+    "load_offset": ({}, "widen it with offsets under [fit]"),
+    "work_of_adhesion": ({"values": VALUES | {"work_of_adhesion": 5e-3}}, "or the data show no adhesion"),
+    "closing_ratio": ({"values": {"closing_ratio": 1.0}, "ranges": {"closing_ratio": (0.2, 1.0)}}, "leave closing_ratio out"),
+}  # fmt: skip
+DOUBTS = [
+    ({"converged": False}, "did not converge"),
+    ({"chi_square": 900.0, "status": POOR_FIT}, "reduced chi square 4.5, where 2 is the most"),
+    ({"chi_square": 9e4, "status": POOR_FIT}, "check the signs of depth and load"),
+    ({"others": (OTHER,), "status": ANOTHER_MINIMUM}, "chi square 212.5 at E_star = 4e+06, work_of_adhesion = 0.02, load_offset = 1e-09, beside 210 at E_star"),
+    *(({"on_bound": (name,)} | more, words) for name, (more, words) in ENDS.items()),
+]  # fmt: skip
 
 
-def test_an_end_of_a_range_is_named_with_what_to_do() -> None:
-    end = "is at an end of its range"
-    assert said(on_bound=("E_star",)) == (
-        f"E_star {end} (2e+06 of 1e+06 to 1e+08); widen the range, or give it as a number"
-    )
-    assert said(on_bound=("load_offset",)).endswith(
-        "widen it with offsets under [fit], or look at the base line of the data"
-    )
-    low = said(on_bound=("work_of_adhesion",), values=VALUES | {"work_of_adhesion": 5e-3})
-    assert low.endswith("or the data show no adhesion")
-    one = said(on_bound=("closing_ratio",), values={"closing_ratio": 1.0}, ranges={"closing_ratio": (0.2, 1.0)})
-    assert one.endswith("the loop shows one work of adhesion for closing and opening: leave closing_ratio out")
-    high = said(on_bound=("work_of_adhesion",), values=VALUES | {"work_of_adhesion": 0.2})
-    assert "no adhesion" not in high
+@pytest.mark.parametrize(("changes", "words"), DOUBTS)
+def test_each_is_a_sentence_with_numbers_and_what_to_do(changes: dict[str, Any], words: str) -> None:
+    assert words in said(**changes)
+    assert "signs" in words or "signs" not in said(**changes)
+    assert "no adhesion" not in said(on_bound=("work_of_adhesion",), values=VALUES | {"work_of_adhesion": 0.2})
 
 
 @pytest.mark.parametrize(("slope", "names", "is_said"), [

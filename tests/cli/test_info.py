@@ -1,4 +1,4 @@
-"""`gradhesion info` tells what a dataset holds, and says what is wrong with a file that is not one."""
+"""`gradhesion info` tells what a dataset holds; every command says what is wrong with a file that is not one."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -10,15 +10,10 @@ import xarray
 from click.testing import Result
 
 from gradhesion.cli.terminal.printable import printable
+from gradhesion.core.problem.status import OF_EVERY_MAP as FLAGS
 
 Call = Callable[..., Result]
-
-
-@pytest.fixture
-def dataset_file(gradhesion: Call, study_file: Path, tmp_path: Path) -> Path:
-    path = tmp_path / "out.nc"
-    assert gradhesion("run", study_file, "-o", path, "--quiet").exit_code == 0
-    return path
+Made = Callable[..., Path]
 
 
 def test_it_tells_axes_fixed_values_extremes_status_and_origin(gradhesion: Call, dataset_file: Path) -> None:
@@ -37,62 +32,39 @@ def test_it_tells_axes_fixed_values_extremes_status_and_origin(gradhesion: Call,
         assert words in told
 
 
-def test_long_axes_are_told_by_their_ends_and_spacing(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
-    path = tmp_path / "long.nc"
-    longer = ["--set=parameters.lambda_over_R.num=20", "--set=parameters.A={start=0, stop=0.1, num=11}"]
-    gradhesion("run", study_file, "-o", path, "--quiet", *longer)
-    told = gradhesion("info", path).stdout
+def test_axes_points_and_single_scenes(gradhesion: Call, made: Made) -> None:
+    waves = {"start": 0.11, "stop": 0.47, "num": 20, "spacing": "log"}
+    told = gradhesion(
+        "info", made(parameters={"lambda_over_R": waves, "A": {"start": 0, "stop": 0.1, "num": 11}})
+    ).stdout
     assert "20 values from 0.11 to 0.47, log-spaced" in told
     assert "11 values from 0 to 0.1, evenly spaced" in told
+    single = dict.fromkeys(("k", "lambda_over_R", "A", "a_max_over_R"), 0.2)
+    assert "none: a single scene" in gradhesion("info", made(parameters=single)).stdout
+    assert "points: one scene for each item of" in gradhesion("info", made(parameters=single, layout="points")).stdout
 
 
-def test_extremes_are_found_across_blocks(
-    gradhesion: Call, dataset_file: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("chunk", ["1", "131072"])
+def test_extremes_and_flags_are_found_across_blocks(
+    chunk: str, gradhesion: Call, dataset_file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv("GRADHESION_CHUNK", "1")
+    monkeypatch.setenv("GRADHESION_CHUNK", chunk)
+    status = np.zeros(24, dtype=np.int8)
+    for number, bit in enumerate(FLAGS.values()):
+        status[: 3 * number] |= bit
     with netCDF4.Dataset(dataset_file, "a") as file:
+        file["status"][:] = status.reshape(file["status"].shape)
         values = np.ones((2, 3, 2, 2))
         values[1, 2, 0, 1], values[0, 1, 1, 0], values[0, 0, 0, 0] = 9.0, -2.0, np.nan
         file["pull_off_force"][:] = values
     told = gradhesion("info", dataset_file).stdout
     assert "min       -2           at k = 0, lambda_over_R = 0.227376, A = 0.023, a_max_over_R = 0.7" in told
     assert "max       9            at k = 0.31, lambda_over_R = 0.47, A = 0, a_max_over_R = inf" in told
-
-
-def test_every_flag_that_occurs_is_told_with_its_count_and_share_in_words(
-    gradhesion: Call, dataset_file: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    from gradhesion.core.answers.flags import FLAG_WORDS
-    from gradhesion.core.problem.status import OF_EVERY_MAP as FLAGS
-
-    status = np.zeros(24, dtype=np.int8)
-    for number, bit in enumerate(FLAGS.values()):
-        status[: 3 * number] |= bit
-    with netCDF4.Dataset(dataset_file, "a") as file:
-        file["status"][:] = status.reshape(file["status"].shape)
-    for chunk in (131_072, 1):
-        monkeypatch.setenv("GRADHESION_CHUNK", str(chunk))
-        lines = [" ".join(line.split()) for line in gradhesion("info", dataset_file).stdout.splitlines()]
-        first = lines.index("status: 6 of 24 scenes (25.0%) have values")  # the last flag, no_value, is set in 18
-        told = [
-            f"{name} {3 * number} of 24 scenes ({12.5 * number:.2g} %) {FLAG_WORDS[name]}"
-            for number, name in enumerate(FLAGS)
-        ]
-        assert lines[first + 1 : lines.index("origin") - 1] == told[1:], "one that does not occur is not told"
-
-
-def test_a_flag_of_all_scenes_has_a_share_of_100_per_cent(gradhesion: Call, dataset_file: Path) -> None:
-    with netCDF4.Dataset(dataset_file, "a") as file:
-        file["status"][:] = np.ones(file["status"].shape)
-    assert "24 of 24 scenes (100 %)" in gradhesion("info", dataset_file).stdout
-
-
-def test_points_and_single_scenes(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
-    single = [f"--set=parameters.{name}=0.2" for name in ("k", "lambda_over_R", "A", "a_max_over_R")]
-    gradhesion("run", study_file, "-o", tmp_path / "1.nc", *single)
-    assert "none: a single scene" in gradhesion("info", tmp_path / "1.nc").stdout
-    gradhesion("run", study_file, "-o", tmp_path / "2.nc", *single, "--set=layout='points'")
-    assert "points: one scene for each item of" in gradhesion("info", tmp_path / "2.nc").stdout
+    lines = [" ".join(line.split()) for line in told.splitlines()]
+    first = lines.index("status: 6 of 24 scenes (25.0%) have values")  # the last flag, no_value, is set in 18
+    flags = [line.partition(" %)")[0] for line in lines[first + 1 : lines.index("origin") - 1]]
+    expected = [f"{name} {3 * i} of 24 scenes ({12.5 * i:.2g}" for i, name in enumerate(FLAGS)]
+    assert flags == expected[1:], "one that does not occur is not told"
 
 
 def damaged_values(content: bytes, path: Path) -> bytes:
@@ -113,41 +85,36 @@ def damaged_values(content: bytes, path: Path) -> bytes:
     pytest.fail("there is no such chunk")
 
 
-@pytest.mark.parametrize("command", ["info", "plot", "verify"])
-@pytest.mark.parametrize(
-    ("damage", "message"),
-    [
-        ("missing", "does not exist"),
-        ("folder", "is not a file"),
-        ("text", "cannot be read as NetCDF"),
-        ("empty", "cannot be read as NetCDF"),
-        ("truncated", "cannot be read as NetCDF"),
-        ("flipped", "is damaged"),
-        ("foreign", "is not a dataset of gradhesion"),
-    ],
-)
+DAMAGES = {
+    "missing": "does not exist",
+    "folder": "is not a file",
+    "text": "cannot be read as NetCDF",
+    "empty": "cannot be read as NetCDF",
+    "truncated": "cannot be read as NetCDF",
+    "flipped": "is damaged",
+    "foreign": "is not a dataset of gradhesion",
+}
+
+
+@pytest.mark.parametrize("command", ["info", "plot", "explore", "verify"])
+@pytest.mark.parametrize("damage", DAMAGES)
 def test_a_file_that_is_no_dataset_of_ours(
-    command: str, damage: str, message: str, gradhesion: Call, dataset_file: Path, tmp_path: Path
+    command: str, damage: str, gradhesion: Call, dataset_file: Path, tmp_path: Path
 ) -> None:
     path = tmp_path / "bad.nc"
     content = dataset_file.read_bytes()
     if damage == "folder":
         path.mkdir()
-    elif damage == "text":
-        path.write_text("title = 1")
-    elif damage == "empty":
-        path.touch()
-    elif damage == "truncated":
-        path.write_bytes(content[: len(content) * 2 // 3])
-    elif damage == "flipped":
-        path.write_bytes(damaged_values(content, path))
     elif damage == "foreign":
         with netCDF4.Dataset(path, "w") as file:
             file.title = "something else"
+    elif damage != "missing":
+        contents = {"text": b"title = 1", "empty": b"", "truncated": content[: len(content) * 2 // 3]}
+        path.write_bytes(contents[damage] if damage in contents else damaged_values(content, path))
     result = gradhesion(command, path)
     assert result.exit_code == 2
     assert result.stderr.startswith(f"{path}: ")
-    assert message in result.stderr
+    assert DAMAGES[damage] in result.stderr
     assert "gradhesion run" in result.stderr, "it tells what to do"
     assert result.stdout == "" or damage == "flipped"
 
@@ -176,15 +143,13 @@ def test_what_a_changed_dataset_lacks_is_one_sentence(
         assert len(result.stderr.splitlines()) == 1
 
 
-def test_jumps_of_some_scenes_do_not_belong_to_others(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
+def test_jumps_of_some_scenes_do_not_belong_to_others(gradhesion: Call, made: Made, tmp_path: Path) -> None:
     """As where a user takes scenes of a dataset of jumps with xarray, which does not know that the two belong together."""
-    curve = ["--set=kind='curve'", "--set=outputs=['jumps']", "--set=parameters.a_max_over_R=0.7"]
-    assert gradhesion("run", study_file, "-o", tmp_path / "whole.nc", "--quiet", *curve).exit_code == 0
-    with xarray.open_dataset(tmp_path / "whole.nc") as whole:
+    with xarray.open_dataset(made(kind="curve", outputs=["jumps"], parameters={"a_max_over_R": 0.7})) as whole:
         whole.isel(A=[1]).to_netcdf(tmp_path / "part.nc")
     result = gradhesion("info", tmp_path / "part.nc")
     assert result.exit_code == 2
-    assert "jump_count do not add up" in result.stderr
+    assert "jump_count" in result.stderr
 
 
 def test_a_study_that_was_changed_is_told(gradhesion: Call, dataset_file: Path) -> None:

@@ -11,7 +11,7 @@ import pytest
 from click.testing import Result
 
 from gradhesion.cli.study.reading import study_from
-from gradhesion.cli.study.tiling import Tiling, size_of
+from gradhesion.cli.study.tiling import size_of
 from gradhesion.cli.work import estimate
 from gradhesion.cli.work.folder import folder_of
 
@@ -30,12 +30,6 @@ def planned(gradhesion: Call, *arguments: str | Path) -> dict[str, Any]:
     assert (result.exit_code, result.stderr) == (0, "")
     plan: dict[str, Any] = json.loads(result.stdout)
     return plan
-
-
-@pytest.mark.parametrize("shape", [(5, 131), (2, 3, 2, 2), (7,), ()])
-def test_a_block_by_its_number(shape: tuple[int, ...]) -> None:
-    tiling = Tiling(shape, 2)
-    assert [tiling[number] for number in range(len(tiling))] == list(tiling)
 
 
 def test_nothing_is_written(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:

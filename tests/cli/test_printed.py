@@ -14,13 +14,14 @@ from gradhesion.cli.terminal.printable import printable, printable_line
 pytestmark = pytest.mark.slow
 
 Call = Callable[..., Result]
-
+Shell = Callable[..., subprocess.CompletedProcess[bytes]]
 HOSTILE = ["\x1b[2J\x1b]0;title\x07.nc", "a\nb: written.nc", "\x9b31m.nc", "\u202egpj.nc", "\x7f\x08.nc", "\r.nc"]
 """Names of files that a terminal would obey."""
+READERS = ("info", "plot", "explore", "verify", "merge", "status")
 
 
 @pytest.fixture
-def shell(tmp_path: Path) -> Callable[[str], subprocess.CompletedProcess[bytes]]:
+def shell(tmp_path: Path) -> Shell:
     """Run a line of a shell in which `gradhesion` is this one."""
 
     def call(line: str, **variables: str) -> subprocess.CompletedProcess[bytes]:
@@ -31,9 +32,6 @@ def shell(tmp_path: Path) -> Callable[[str], subprocess.CompletedProcess[bytes]]
         )
 
     return call
-
-
-Shell = Callable[..., subprocess.CompletedProcess[bytes]]
 
 
 @pytest.mark.parametrize("name", HOSTILE)
@@ -62,7 +60,7 @@ def test_text_that_is_safe_stays() -> None:
         assert printable(chr(code)).isprintable()
 
 
-@pytest.mark.parametrize("where", ["2>&-", "2>/dev/full", "2> >(exit)", ">&- 2>&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize("where", ["2>/dev/full", "2> >(exit)", "<&- >&- 2>&-"])
 def test_messages_that_cannot_be_printed_do_not_decide(
     where: str, shell: Shell, study_file: Path, gradhesion: Call, tmp_path: Path
 ) -> None:
@@ -79,23 +77,19 @@ def test_a_dataset_takes_no_number_of_a_closed_stream(shell: Shell) -> None:
     assert shell(f'{sys.executable} -c "{line}" 2>&- <&-').stdout not in {b"0\n", b"1\n", b"2\n"}
 
 
-@pytest.mark.parametrize("command", ["schema", "--help", "info --help", "--version", "validate STUDY", "info out.nc", "info out.nc --format csv",
-                                     "status out.nc", "plan STUDY", "verify out.nc --sample 1", "init --list"])  # fmt: skip
-def test_output_that_cannot_be_written_is_a_sentence(
-    command: str, shell: Shell, gradhesion: Call, study_file: Path, tmp_path: Path
-) -> None:
-    assert gradhesion("run", study_file, "-o", tmp_path / "out.nc", "--quiet").exit_code == 0
-    done = shell(f"gradhesion {command.replace('STUDY', str(study_file))} > /dev/full")
-    assert done.returncode == 4
-    last = done.stderr.decode().splitlines()[-1]
-    assert last.startswith("standard output: ")
-    assert "No space left on device" in last
-    assert b"Traceback" not in done.stderr
-    assert b"damaged" not in done.stderr
-    if "--" not in command:
-        closed = shell(f"gradhesion {command.replace('STUDY', str(study_file))} >&-")
-        assert closed.returncode == 4
-        assert closed.stderr.decode().splitlines()[-1].startswith("standard output: is closed; ")
+@pytest.mark.parametrize("command", ["--help", "info --help", "validate study.toml", "info out.nc --format csv", "verify out.nc --sample 1"])  # fmt: skip
+@pytest.mark.usefixtures("dataset_file", "study_file")
+def test_output_that_cannot_be_written_is_a_sentence(command: str, shell: Shell) -> None:
+    for where, words in (("> /dev/full", "No space left on device"), (">&-", "is closed")):
+        if where == ">&-" and "help" in command:
+            continue
+        done = shell(f"gradhesion {command} {where}")
+        assert done.returncode == 4
+        last = done.stderr.decode().splitlines()[-1]
+        assert last.startswith("standard output: ")
+        assert words in last
+        assert b"Traceback" not in done.stderr
+        assert b"damaged" not in done.stderr
 
 
 def test_names_that_are_not_utf_8(
@@ -114,7 +108,7 @@ def test_names_that_are_not_utf_8(
         assert result.exit_code == 4
         assert "cannot be written" in result.stderr
     Path("o\udcff.nc").touch()
-    for command in ("info", "plot", "explore", "verify", "merge", "status"):
+    for command in READERS:
         assert gradhesion(command, "o\udcff.nc").exit_code == 2
 
 
@@ -123,7 +117,7 @@ def test_names_that_are_none(
     name: str, gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    for command in ("info", "plot", "explore", "verify", "merge", "status"):
+    for command in READERS:
         result = gradhesion(command, name)
         assert result.exit_code == 2
         assert result.stderr.count("\n") == 1
@@ -153,10 +147,8 @@ def test_memory_that_is_not_there_is_a_sentence() -> None:
         "cli.commands['schema'].callback = fail\nmain()"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stderr) == (
-        4,
-        "there is not enough memory; split the study, or give it more memory\n",
-    )
+    assert (done.returncode, done.stderr.count("\n")) == (4, 1)
+    assert "not enough memory" in done.stderr
 
 
 @pytest.mark.parametrize("command", ["run STUDY -o out.nc", "plan STUDY", "warmup"])

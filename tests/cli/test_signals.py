@@ -5,11 +5,11 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from click.testing import Result
 
 HUGE = """\
 outputs = ["pull_off_force", "dissipated_energy"]
@@ -24,19 +24,26 @@ a_max_over_R = inf
 """
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-@pytest.mark.parametrize("delay", [0.0, 0.3])
-def test_an_interrupt_leaves_nothing_behind(number: signal.Signals, delay: float, tmp_path: Path) -> None:
-    study, folder = tmp_path / "huge.toml", tmp_path / "data"
+@contextmanager
+def started(tmp_path: Path, output: Path, files: int) -> Iterator[subprocess.Popen[str]]:
+    """Start a long run, and wait until so many files are in the folder of its output."""
+    study = tmp_path / "huge.toml"
     study.write_text(HUGE)
+    command = [sys.executable, "-m", "gradhesion.cli", "run", study, "-o", output, "--overwrite"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        deadline = time.monotonic() + 120
+        while len(os.listdir(output.parent)) < files and process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.01)
+        yield process
+
+
+@pytest.mark.parametrize(("number", "delay"), [(signal.SIGINT, 0.3), (signal.SIGTERM, 0.0)])
+def test_an_interrupt_leaves_nothing_behind(number: signal.Signals, delay: float, tmp_path: Path) -> None:
+    folder = tmp_path / "data"
     folder.mkdir()
     old = folder / "huge.nc"
     old.write_text("precious")
-    command = [sys.executable, "-m", "gradhesion.cli", "run", study, "-o", old, "--overwrite"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        deadline = time.monotonic() + 120
-        while len(os.listdir(folder)) < 2 and process.poll() is None and time.monotonic() < deadline:
-            time.sleep(0.01)
+    with started(tmp_path, old, 2) as process:
         time.sleep(delay)
         process.send_signal(number)
         stdout, stderr = process.communicate(timeout=60)
@@ -57,13 +64,9 @@ def test_an_interrupt_leaves_nothing_behind(number: signal.Signals, delay: float
 
 
 def test_a_second_interrupt_does_not_disturb_the_tidying_up(tmp_path: Path) -> None:
-    study = tmp_path / "huge.toml"
-    study.write_text(HUGE)
-    command = [sys.executable, "-m", "gradhesion.cli", "run", study, "-o", tmp_path / "out" / "huge.nc"]
-    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
-        deadline = time.monotonic() + 120
-        while not list(tmp_path.glob("out/*")) and process.poll() is None and time.monotonic() < deadline:
-            time.sleep(0.01)
+    folder = tmp_path / "out"
+    folder.mkdir()
+    with started(tmp_path, folder / "huge.nc", 1) as process:
         for _ in range(20):
             process.send_signal(signal.SIGINT)
         process.communicate(timeout=60)
@@ -95,12 +98,8 @@ def unread() -> Iterator[int]:
     os.close(pipe)
 
 
-def test_a_reader_that_has_gone_ends_it_quietly(
-    unread: int, gradhesion: Callable[..., Result], study_file: Path, tmp_path: Path
-) -> None:
-    dataset = tmp_path / "out.nc"
-    assert gradhesion("run", study_file, "-o", dataset, "--quiet").exit_code == 0
-    for arguments in (["info", dataset], ["--help"], ["info", "--help"]):
+def test_a_reader_that_has_gone_ends_it_quietly(unread: int, dataset_file: Path) -> None:
+    for arguments in (["info", dataset_file], ["info", "--help"]):
         command = [sys.executable, "-m", "gradhesion.cli", *arguments]
         done = subprocess.run(command, stdout=unread, stderr=subprocess.PIPE, text=True, timeout=60, check=False)
         assert (done.returncode, done.stderr) == (141, ""), arguments

@@ -1,7 +1,9 @@
 """What a user meets in a terminal: the list of commands, examples that work, what was written, and what was meant."""
 
+import io
 import re
 import shlex
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,15 +12,9 @@ from click.testing import CliRunner, Result
 
 from gradhesion.cli.errors import EXIT_CODES
 from gradhesion.cli.main import EXITS, SECTIONS, SET_UP, cli
+from gradhesion.cli.terminal.progress import progress
 
 Call = Callable[..., Result]
-
-
-@pytest.fixture
-def dataset_file(gradhesion: Call, study_file: Path, tmp_path: Path) -> Path:
-    path = tmp_path / "out.nc"
-    assert gradhesion("run", study_file, "-o", path, "--quiet").exit_code == 0
-    return path
 
 
 def test_commands_are_listed_in_the_order_of_the_work_and_not_cut() -> None:
@@ -54,23 +50,20 @@ def test_every_command_has_an_example_that_it_takes(name: str, gradhesion: Call)
         cli.commands[name].make_context(name, arguments)  # raises what is wrong with options and arguments
 
 
-@pytest.mark.slow
-def test_a_picture_and_a_page_say_what_they_wrote(gradhesion: Call, dataset_file: Path) -> None:
-    for command, ending in (("plot", ".png"), ("explore", ".html")):
-        path = dataset_file.with_suffix(ending)
-        result = gradhesion(command, dataset_file)
-        assert result.stdout == ""
-        assert re.fullmatch(rf"{re.escape(str(path))}: written, [\d.]+ [kM]B\n", result.stderr)
-        assert gradhesion(command, dataset_file, "--overwrite", "--quiet").stderr == ""
-
-
-def test_another_value_than_the_one_asked_for_is_named(gradhesion: Call, dataset_file: Path) -> None:
-    for command in ("plot", "explore"):
-        lines = gradhesion(command, dataset_file, "--at", "k=0.2", "--at", "A=0.023", "--overwrite").stderr.splitlines()
-        assert lines[:-1] == ["--at k=0.2: shows k = 0.31, its nearest value"]
-    assert (
-        len(gradhesion("plot", dataset_file, "--at", "k=0.2", "--interpolate", "--overwrite").stderr.splitlines()) == 1
-    )
+@pytest.mark.parametrize(("command", "ending"), [("plot", ".png"), ("explore", ".html")])
+def test_pictures_and_pages_say_what_they_wrote_and_where_a_value_is_another(
+    command: str, ending: str, gradhesion: Call, dataset_file: Path
+) -> None:
+    path = dataset_file.with_suffix(ending)
+    result = gradhesion(command, dataset_file, "--at", "k=0.2", "--at", "A=0.023")
+    assert result.stdout == ""
+    first, last = result.stderr.splitlines()
+    assert first == "--at k=0.2: shows k = 0.31, its nearest value"
+    assert re.fullmatch(rf"{re.escape(str(path))}: written, [\d.]+ [kM]B", last)
+    assert gradhesion(command, dataset_file, "--overwrite", "--quiet").stderr == ""
+    if command == "plot":
+        between = gradhesion("plot", dataset_file, "--at", "k=0.2", "--interpolate", "--overwrite")
+        assert len(between.stderr.splitlines()) == 1
 
 
 @pytest.mark.parametrize(
@@ -103,9 +96,47 @@ def test_what_is_suggested_for_a_key_without_its_table_works(gradhesion: Call, s
 
 def test_one_of_something_is_no_plural(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
     single = [f"--set=parameters.{key}" for key in ("k=0.3", "lambda_over_R=0.2", "A=0.02", "a_max_over_R=1.0")]
-    assert "a map of 1 scene;" in gradhesion("validate", study_file, *single).stdout
-    ran = gradhesion("run", study_file, "-o", tmp_path / "one.nc", *single).stderr
-    assert re.search(r"one\.nc: 1 scene in .* per s\), [\d.]+ kB$", ran, flags=re.MULTILINE)
-    told = gradhesion("info", tmp_path / "one.nc").stdout
-    assert re.search(r"one\.nc: 1 scene, [\d.]+ kB\n", told)
-    assert "status: 1 of 1 scene (100.0%)" in told
+    said = [
+        gradhesion("validate", study_file, *single).stdout,
+        gradhesion("run", study_file, "-o", tmp_path / "one.nc", *single).stderr,
+        gradhesion("info", tmp_path / "one.nc").stdout,
+    ]
+    assert ["1 scene" in one and "1 scenes" not in one for one in said] == 3 * [True]
+
+
+class Terminal(io.StringIO):
+    """A terminal that keeps what is written."""
+
+    def isatty(self) -> bool:
+        return True
+
+
+def test_progress_is_a_plain_line_every_ten_seconds(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    seconds = iter([0.0, 4.0, 11.0, 19.0, 22.0, 40.0])
+    monkeypatch.setattr("time.monotonic", lambda: next(seconds))
+    with progress(5000, quiet=False) as advance:
+        for _ in range(5):
+            advance(1000)
+    told = capsys.readouterr()
+    assert told.out == ""
+    assert told.err.splitlines() == [
+        "2,000 of 5,000 scenes (40%), 180 per s, 16 s left",
+        "4,000 of 5,000 scenes (80%), 180 per s, 6 s left",
+    ]
+
+
+@pytest.mark.parametrize("quiet", [False, True])
+def test_on_a_terminal_progress_is_a_bar_and_nothing_where_it_is_to_be_quiet(
+    quiet: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    terminal = Terminal()
+    monkeypatch.setattr(sys, "stderr", terminal)
+    monkeypatch.setattr("gradhesion.cli.terminal.progress.PERIOD", 0.0)
+    for name, value in (("TERM", "xterm"), ("COLUMNS", "100")):
+        monkeypatch.setenv(name, value)
+    with progress(5000, quiet=quiet) as advance:
+        advance(2000)
+    said = terminal.getvalue()
+    assert [words in said for words in ("2,000 of 5,000 scenes", "40%", "per s")] == 3 * [not quiet]

@@ -13,20 +13,15 @@ from gradhesion.core.problem.inputs import INPUTS
 Call = Callable[..., Result]
 
 
-def test_a_valid_study(gradhesion: Call, study_file: Path) -> None:
+def test_a_valid_study_and_all_mistakes_of_another(gradhesion: Call, study_file: Path) -> None:
     result = gradhesion("validate", study_file)
     assert result.exit_code == 0
     assert result.stdout == (
         f"{study_file}: valid; a map of 24 scenes; axes: k (2), lambda_over_R (3), A (2), a_max_over_R (2); "
         "outputs: pull_off_force, dissipated_energy, loading_jumps\n"
     )
-
-
-def test_all_mistakes_of_a_study(gradhesion: Call, study_file: Path) -> None:
     result = gradhesion("validate", study_file, "--set=parameters.nu=0.7", "--set=parameters.k=-1.0")
-    assert result.exit_code == 2
-    assert result.stdout == ""
-    assert len(result.stderr.splitlines()) == 2
+    assert (result.exit_code, result.stdout, len(result.stderr.splitlines())) == (2, "", 2)
 
 
 def test_the_schema_is_that_of_validation(gradhesion: Call, root: Path) -> None:

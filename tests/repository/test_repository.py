@@ -42,32 +42,26 @@ MODULES = sorted(
         ),
     }
 )
-HEAVY = (
-    "bokeh",
-    "jinja2",
-    "numpy",
-    "numba",
-    "scipy",
-    "xarray",
-    "netCDF4",
-    "matplotlib",
-    "pandas",
-    "pint",
-    "pydantic",
-    "rich",
-    "gradhesion.core",
-    "gradhesion.twin",
-    "flint",
-)
+HEAVY = ("bokeh", "jinja2", "numpy", "numba", "scipy", "xarray", "netCDF4", "matplotlib", "pandas", "pint", "pydantic", "rich",
+         "gradhesion.core", "gradhesion.twin", "flint")  # fmt: skip
+
+
+def loaded(arguments: list[str], names: tuple[str, ...]) -> str:
+    """What a command, in a process of its own, imports of some modules."""
+    code = (
+        "import sys; from gradhesion.cli.main import cli; "
+        f"cli.main({arguments!r}, standalone_mode=False); "
+        f"print([name for name in {names!r} if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return done.stdout.splitlines()[-1]
 
 
 @pytest.mark.parametrize("name", MODULES)
-def test_the_examples_of_docstrings_run(name: str) -> None:
-    assert doctest.testmod(importlib.import_module(name)).failed == 0
-
-
-def test_every_module_says_what_it_is_for() -> None:
-    assert [name for name in MODULES if not importlib.import_module(name).__doc__] == []
+def test_every_module_says_what_it_is_for_and_its_examples_run(name: str) -> None:
+    module = importlib.import_module(name)
+    assert module.__doc__
+    assert doctest.testmod(module).failed == 0
 
 
 @pytest.mark.parametrize("name", sorted(cli.commands))
@@ -80,71 +74,27 @@ def test_every_command_and_every_option_has_help(name: str, gradhesion: Callable
             assert option.help, option.name
 
 
-@pytest.mark.parametrize("arguments", [["--help"], ["run", "--help"], ["--version"]])
+@pytest.mark.parametrize("arguments", [["run", "--help"], ["--version"]])
 def test_help_imports_nothing_heavy(arguments: list[str]) -> None:
-    code = (
-        "import sys; from gradhesion.cli.main import cli; "
-        f"cli.main({arguments!r}, standalone_mode=False); "
-        f"print([name for name in {HEAVY!r} if name in sys.modules])"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.splitlines()[-1] == "[]"
+    assert loaded(arguments, HEAVY) == "[]"
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "arguments",
-    [["validate", "STUDY"], ["schema"], ["init", "--list"], ["info", "FILE"], ["plot", "FILE", "-o", "PICTURE"]],
-)
-def test_what_computes_nothing_imports_no_compiler(
-    arguments: list[str], gradhesion: Callable[..., Result], tmp_path: Path
-) -> None:
-    config, file = ROOT / "configs" / "smoke.toml", tmp_path / "x.nc"
-    if "FILE" in arguments:
-        assert gradhesion("run", config, "-o", file, "--quiet").exit_code == 0
-    words = {"STUDY": str(config), "FILE": str(file), "PICTURE": str(tmp_path / "x.png")}
-    needless = ("numba", "llvmlite", "flint", *(("dask", "pint", "scipy") if arguments[0] == "info" else ()))
-    code = (
-        "import sys; from gradhesion.cli.main import cli; "
-        f"cli.main({[words.get(word, word) for word in arguments]!r}, standalone_mode=False); "
-        f"print([name for name in {needless!r} if name in sys.modules])"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.splitlines()[-1] == "[]"
-
-
-def test_run_imports_neither_xarray_nor_matplotlib(tmp_path: Path) -> None:
-    code = (
-        "import sys; from gradhesion.cli.main import cli; "
-        f"cli.main(['run', {str(ROOT / 'configs' / 'smoke.toml')!r}, '-o', {str(tmp_path / 'x.nc')!r}], standalone_mode=False); "
-        "print([name for name in ('xarray', 'pandas', 'matplotlib', 'pint') if name in sys.modules])"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout == "[]\n"
+def test_commands_import_only_what_they_need(tmp_path: Path) -> None:
+    study, file = str(ROOT / "configs" / "smoke.toml"), str(tmp_path / "x.nc")
+    compilers = ("numba", "llvmlite", "flint")
+    for arguments, names in (
+        (["run", study, "-o", file, "--quiet"], ("xarray", "pandas", "matplotlib", "pint")),
+        (["validate", study], compilers),
+        (["info", file], (*compilers, "dask", "pint", "scipy")),
+        (["plot", file], compilers),
+    ):
+        assert loaded(arguments, names) == "[]", arguments
 
 
 PICTURED = ("fig", "extra_")  # tests/figures
-OF_FEATURES = (
-    "closing",
-    "cone",
-    "crackfront",
-    "dead_load",
-    "fit_spring",
-    "materials",
-    "optimum",
-    "rate",
-    "reduced",
-    "reduced_rim",
-    "rings",
-    "sensitive_probe",
-    "sensitivities",
-    "series",
-    "short_waves",
-    "solvers",
-    "specimens",
-    "spring",
-    "uncertain_probe",
-)  # test_examples
+OF_FEATURES = ("closing", "cone", "crackfront", "dead_load", "fit_spring", "materials", "optimum", "rate", "reduced", "reduced_rim", "rings",
+               "sensitive_probe", "sensitivities", "series", "short_waves", "solvers", "specimens", "spring", "uncertain_probe")  # test_examples  # fmt: skip
 CONFIGS = sorted(
     path
     for path in (ROOT / "configs").glob("*.toml")
@@ -199,27 +149,6 @@ def test_the_curve_is_that_of_a_reference_scene(gradhesion: Callable[..., Result
         starts = (dataset["stable"] == 1).astype(int).diff("point") == 1
         assert int(starts.sum()) == 5
     assert gradhesion("plot", output, "-o", tmp_path / "curve.svg").exit_code == 0
-
-
-def test_the_study_in_units_has_jkr_in_newtons(gradhesion: Callable[..., Result], tmp_path: Path) -> None:
-    config, output = ROOT / "configs" / "physical.toml", tmp_path / "physical.nc"
-    assert gradhesion("run", config, "-o", output, "--quiet").exit_code == 0
-    with xarray.open_dataset(output) as dataset:
-        smooth = dataset["pull_off_force_si"].sel(k=0.0, A=0.0).isel(R=-1)
-        known = {0.02: 4.71238898038469e-07, 0.05: 1.1780972450961725e-06}  # 1.5 pi R dgamma with R = 5 um
-        for work, force in known.items():
-            assert math.isclose(float(smooth.sel(work_of_adhesion=work)), force, rel_tol=1e-13)
-        assert (dataset["pull_off_force_si"].units, dataset["R"].units) == ("N", "m")
-
-
-def test_the_maps_are_a_real_study_over_all_five_axes() -> None:
-    from gradhesion.cli.study.reading import load_study
-
-    study = load_study(ROOT / "configs" / "maps.toml")
-    assert study.scenes >= 100_000
-    assert list(study.sizes) == ["k", "c0_over_R", "lambda_over_R", "A", "a_max_over_R"]
-    assert min(study.shape) >= 4
-    assert not study.watches_slope, "all contacts stay where the punch is shallow"
 
 
 def test_the_picture_of_the_readme_compares_like_with_like() -> None:
@@ -297,36 +226,20 @@ def test_every_folder_of_modules_is_packaged() -> None:
     assert packed == {file for file in others if file.suffix not in {".py", ".pyc"} and "__pycache__" not in file.parts}
 
 
-def test_every_dependency_is_pinned_and_none_by_an_address() -> None:
-    pins = (ROOT / "constraints.txt").read_text()
-    assert "://" not in pins
-    pinned = {line.split("==")[0].lower() for line in pins.splitlines()}
-    extras = PROJECT["project"]["optional-dependencies"]
-    wanted = [*PROJECT["project"]["dependencies"], *(name for extra in extras.values() for name in extra)]
-    assert {re.split("[<>=]", name)[0].lower() for name in wanted} <= pinned
+EXTRAS = PROJECT["project"]["optional-dependencies"]
+CLAIMS = [*PROJECT["project"]["dependencies"], *(name for extra in EXTRAS.values() for name in extra)]
 
 
-def test_every_version_that_is_pinned_is_one_that_is_claimed() -> None:
+def test_every_dependency_is_claimed_once_by_its_lowest_version_and_pinned_to_one_that_serves() -> None:
+    text = (ROOT / "constraints.txt").read_text()
+    assert "://" not in text
     pins: dict[str, list[str]] = {}
-    for line in (ROOT / "constraints.txt").read_text().splitlines():
-        pin = Requirement(line)
+    for pin in map(Requirement, text.splitlines()):
         pins.setdefault(canonicalize_name(pin.name), []).append(str(pin.specifier).removeprefix("=="))
-    extras = PROJECT["project"]["optional-dependencies"]
-    claims = [*PROJECT["project"]["dependencies"], *(name for extra in extras.values() for name in extra)]
-    for claim in map(Requirement, claims):
+    for claim in map(Requirement, CLAIMS):
         assert [one.operator for one in claim.specifier] == [">="], f"{claim}: one lowest version, and no highest"
         assert all(version in claim.specifier for version in pins[canonicalize_name(claim.name)]), claim
-
-
-def test_a_package_that_is_claimed_twice_is_claimed_alike() -> None:
-    extras = PROJECT["project"]["optional-dependencies"]
-    claims = [*PROJECT["project"]["dependencies"], *(name for extra in extras.values() for name in extra)]
-    assert len({*claims}) == len({Requirement(claim).name for claim in claims})
-
-
-def test_the_study_of_the_readme_is_short() -> None:
-    study, *_ = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
-    assert len([line for line in study.splitlines() if line.strip()]) <= 12
+    assert len({*CLAIMS}) == len({Requirement(claim).name for claim in CLAIMS}), "claimed twice, claimed alike"
 
 
 def test_make_alone_prints_the_targets() -> None:

@@ -15,14 +15,7 @@ import gradhesion as gr
 from gradhesion.core.answers.flags import FLAG_WORDS
 
 Call = Callable[..., Result]
-PUNCH: dict[str, Any] = {
-    "k": 0.3,
-    "nu": 0.27,
-    "modulus": 430.0,
-    "c0_over_R": 0.013,
-    "lambda_over_R": 0.17,
-    "a_max_over_R": 0.4,
-}
+PUNCH: dict[str, Any] = {"k": 0.3, "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.013, "lambda_over_R": 0.17, "a_max_over_R": 0.4}  # fmt: skip
 PROBE: dict[str, Any] = {"k": 0.0, "nu": 0.3, "A": 0.01, "R": "5 um", "E_star": "10 MPa", "work_of_adhesion": "30 mJ/m^2", "wavelength": "0.5 um", "a_max": "1.5 um"}  # fmt: skip
 EVERYTHING = ["equilibrium", "path", "asymptotic", "envelope", "effective", "smooth"]
 
@@ -64,7 +57,7 @@ def test_three_panels_tell_their_scenes(curves: xarray.Dataset) -> None:
     assert "5 of 9 scenes" in gr.plot(many).figure.get_suptitle()
 
 
-@pytest.mark.parametrize("control", ["displacement", "load", "machine"])
+@pytest.mark.parametrize("control", ["displacement", "machine"])
 def test_arrows_go_along_the_path(control: str) -> None:
     machine = {"machine_stiffness": 2.0} if control == "machine" else {}
     path = gr.curves(PUNCH | {"A": 0.07} | machine, "path", control=control)
@@ -102,19 +95,16 @@ def test_planes_and_limits_are_chosen(curves: xarray.Dataset, probe: xarray.Data
     assert axes.get_ylim()[0] < seen.min() < seen.max() < axes.get_ylim()[1]
     for axes in gr.plot(probe, x="contact_radius", xlim=(None, "1 um")):
         assert axes.get_xlim()[1] == pytest.approx(1e-6, rel=1e-12)
+    (panel, *_) = gr.plot(probe, "path_load_si")
+    shown = np.concatenate([line.get_ydata() for line in panel.get_lines() if len(line.get_xdata()) > 2])
+    assert np.nanmin(shown) == float(probe["path_load_si"].min())
+    assert gr.plot(probe, "path_load")[0].get_xlabel() == r"depth $\delta/R$"
     (axes,) = gr.plot(probe, x="indentation", y="load", ylim="-300 nN:100 nN")
     assert axes.get_ylim() == pytest.approx((-3e-7, 1e-7), rel=1e-12)
     (axes,) = gr.plot(probe, x="indentation", y="load", inset="-50 nm:0", width=6, height=5)
     (inset,) = axes.child_axes
     assert inset.get_xlim() == pytest.approx((-5e-8, 0.0), rel=1e-12)
     assert not inset.texts, "arrows stay where the whole path is"
-
-
-def test_units_are_those_asked_for(probe: xarray.Dataset) -> None:
-    (panel, *_) = gr.plot(probe, "path_load_si")
-    shown = np.concatenate([line.get_ydata() for line in panel.get_lines() if len(line.get_xdata()) > 2])
-    assert np.nanmin(shown) == float(probe["path_load_si"].min())
-    assert gr.plot(probe, "path_load")[0].get_xlabel() == r"depth $\delta/R$"
 
 
 WRONG: list[tuple[str, dict[str, Any]]] = [
@@ -220,15 +210,6 @@ def test_points_stand_where_they_were_measured_whatever_their_units(
     assert "measured" in legend(panels)
 
 
-def test_many_points_hide_no_line(probe: xarray.Dataset, tmp_path: Path) -> None:
-    rows = "".join(f"{depth},{10 * depth}\n" for depth in range(100))
-    for text, below in (("depth [nm],load [nN]\n1,2\n", False), ("depth [nm],load [nN]\n" + rows, True)):
-        (axes,) = gr.plot(probe, data=written(tmp_path, text), x="indentation", y="load")
-        (points,) = measured(axes)
-        lines = [line for line in axes.lines if line.get_zorder() > 0 and line is not points]
-        assert (points.get_zorder() < min(line.get_zorder() for line in lines)) == below
-
-
 def test_ratios_have_no_units_and_a_table_may_be_in_netcdf(
     curves: xarray.Dataset, probe: xarray.Dataset, tmp_path: Path
 ) -> None:
@@ -239,27 +220,6 @@ def test_ratios_have_no_units_and_a_table_may_be_in_netcdf(
     xarray.Dataset(columns).to_netcdf(tmp_path / "loop.nc")
     panels = gr.plot(probe, data=tmp_path / "loop.nc")
     np.testing.assert_allclose(measured(panels[0])[0].get_xydata(), [[1e-8, 1e-7]], rtol=1e-13)
-
-
-@pytest.mark.parametrize(
-    ("text", "key"),
-    [
-        ("", "0 bytes"),
-        ("depth,force [nN]\n1,2\n", "depth [nm]"),
-        ("depth [nm],force [nm]\n1,2\n", "force [nN]"),
-        ("depth [N],force [nN]\n1,2\n", "depth [nm]"),
-        ("depth [nm],forse [nN]\n1,2\n", '"forse" to "force"'),
-        ("x,y\n1,2\n", "header"),
-        ("depth [nm],force [nN]\nnan,2\n1,nan\n", "depth, force"),
-        ("depth [nm],force [nN]\n1,x\n", "line 2"),
-        ("depth [nm],force [nN]\n1\n", "line 2"),
-    ],
-)
-def test_tables_that_cannot_be_drawn_are_refused(text: str, key: str, probe: xarray.Dataset, tmp_path: Path) -> None:
-    with pytest.raises(gr.DatasetError) as caught:
-        gr.plot(probe, data=written(tmp_path, text))
-    assert key in str(caught.value)
-    assert str(caught.value).startswith(f"data {tmp_path / 'loop.csv'}: ")
 
 
 def test_pictures_without_a_place_for_points_refuse_them(

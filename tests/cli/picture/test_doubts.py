@@ -134,25 +134,9 @@ def test_lines_have_open_markers_where_they_are_doubtful(make: Callable[..., xar
     np.testing.assert_array_equal(crosses.get_xdata(), x[2:4])
 
 
-def test_long_lines_have_some_of_their_markers_and_the_ends_of_each_run(make: Callable[..., xarray.Dataset]) -> None:
-    dataset = make(lambda_over_R=WAVES | {"num": 400})
-    dataset["status"][17:321] = LOADING
-    dataset["status"][333] = LOADING
-    (line,) = open_marks(gr.plot(dataset, "dissipated_energy")[0], LOADING)
-    places = np.searchsorted(dataset["lambda_over_R"].values, line.get_xdata())
-    assert {17, 320, 333} <= {*places.tolist()}
-    assert (dataset["status"].values[places] == LOADING).all()
-    assert 20 < places.size < 50
-
-
 def test_points_have_open_markers() -> None:
-    points = gr.run(
-        {
-            "layout": "points",
-            "outputs": ["dissipated_energy"],
-            "parameters": PUNCH | {"lambda_over_R": [0.3, 0.1, 0.2, 0.4]},
-        }
-    )
+    lists = PUNCH | {"lambda_over_R": [0.3, 0.1, 0.2, 0.4]}
+    points = gr.run({"layout": "points", "outputs": ["dissipated_energy"], "parameters": lists})
     points["status"][...] = [LOADING, LOADING, 0, 0]
     points["dissipated_energy"][3] = np.nan
     panels = gr.plot(points)
@@ -221,15 +205,12 @@ def test_a_band_goes_from_edge_to_edge(sampled: xarray.Dataset) -> None:
         assert not edges(gr.plot(sampled, name, **choices)[0])
 
 
-def test_few_values_have_bars_above_the_grid_and_below_the_values(sampled: xarray.Dataset) -> None:
+def test_few_values_have_bars(sampled: xarray.Dataset) -> None:
     few = sampled.isel(lambda_over_R=slice(0, 24, 4))
     (axes,) = gr.plot(few, "pull_off_force")
     bars = [one for one in axes.collections if isinstance(one, LineCollection)]
     ends = np.array([path.vertices[:, 1] for path in bars[1].get_paths()]).T
     np.testing.assert_allclose(ends, [few[f"pull_off_force_{end}"].values[1] for end in ("p05", "p95")], rtol=1e-15)
-    values = [line for line in axes.get_lines() if line.get_linestyle() != "None"]
-    orders = [one.get_zorder() for one in bars]
-    assert axes.xaxis.get_zorder() < min(orders) <= max(orders) < min(one.get_zorder() for one in values)
     points = (
         few.isel(k=0).rename(lambda_over_R="scene").assign_coords(lambda_over_R=("scene", few["lambda_over_R"].values))
     )
@@ -237,15 +218,13 @@ def test_few_values_have_bars_above_the_grid_and_below_the_values(sampled: xarra
     assert [len(one.get_paths()) for one in axes.collections if isinstance(one, LineCollection)] == [6]
 
 
-def test_a_band_that_is_not_there_is_refused(sampled: xarray.Dataset) -> None:
-    for name, choices in (
-        ("loading_jumps", {"band": "std"}),
-        ("pull_off_force_std", {"band": "std"}),
-        ("pull_off_force", {"band": "std", "kind": "map"}),
-        ("pull_off_force", {"band": "stdd"}),
-        ("pull_off_force", {"band": "std", "over": {"k": "max"}}),
-    ):
-        with pytest.raises(gr.DatasetError, match="band"):
-            gr.plot(sampled, name, **choices)
-    with pytest.raises(gr.DatasetError, match="quantiles"):
-        gr.plot(sampled.drop_vars("pull_off_force_p05"), "pull_off_force", band="quantiles")
+@pytest.mark.parametrize(
+    ("name", "choices"),
+    [
+        ("loading_jumps", {"band": "std"}), ("pull_off_force_std", {"band": "std"}), ("pull_off_force", {"band": "std", "kind": "map"}),
+        ("pull_off_force", {"band": "stdd"}), ("pull_off_force", {"band": "std", "over": {"k": "max"}}), ("pull_off_force", {"band": "quantiles"}),
+    ],
+)  # fmt: skip
+def test_a_band_that_is_not_there_is_refused(name: str, choices: dict[str, Any], sampled: xarray.Dataset) -> None:
+    with pytest.raises(gr.DatasetError, match=r"band|quantiles"):
+        gr.plot(sampled.drop_vars("pull_off_force_p05"), name, **choices)

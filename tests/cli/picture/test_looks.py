@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
-import matplotlib.style
 import numpy as np
 import pytest
 import xarray
@@ -78,13 +77,10 @@ def test_levels_are_those_listed(levels: Any, expected: list[float], grid: xarra
     )
 
 
-def test_a_number_of_levels_is_about_theirs(grid: xarray.Dataset) -> None:
+def test_a_number_of_levels_and_a_colour_map_are_those_asked_for(grid: xarray.Dataset) -> None:
     few, many = (len(gr.plot(grid, "pull_off_force", levels=n)[0].collections[0].levels) for n in (4, 40))  # type: ignore[attr-defined]
     assert 3 <= few <= 6
     assert 20 <= many <= 42
-
-
-def test_a_colour_map_is_that_of_maps_and_lines(grid: xarray.Dataset) -> None:
     (lines,) = gr.plot(grid, "pull_off_force", colour_map="plasma", kind="lines")
     assert to_rgb(lines.get_lines()[0].get_color()) == to_rgb(mpl.colormaps["plasma"](0.0))
     assert gr.plot(grid, "pull_off_force", colour_map="plasma")[0].collections[0].get_cmap().name == "plasma"
@@ -119,11 +115,6 @@ def test_numbers_on_contours_are_whole_and_on_their_lines(width: float, grid: xa
         assert frame.y0 <= box.y0 < box.y1 <= frame.y1
         x, y = text.get_position()
         assert 1.0 + 1e6 * x + y == pytest.approx(float(text.get_text()), abs=0.02)
-
-
-def test_panels_without_room_are_refused(grid: xarray.Dataset) -> None:
-    with pytest.raises(gr.DatasetError, match="1 by 1 inches"):
-        gr.plot(grid, width=1, height=1)
 
 
 @pytest.mark.parametrize(
@@ -180,63 +171,35 @@ def test_an_inset_shows_a_part_and_hides_nothing(width: float, inset: str, bend:
 
 
 WRONG: list[tuple[str, dict[str, Any]]] = [
-    ("width colum", {"width": "colum"}),
-    ("width 9 m", {"width": "9 m"}),
-    ("width -3", {"width": -3}),
-    ("width nan", {"width": "nan"}),
-    ("height column", {"height": "column"}),
-    ("height 0.1", {"height": 0.1}),
-    ("virids: ", {"colour_map": "virids"}),
-    ("levels many", {"levels": "many"}),
-    ("levels 0", {"levels": 0}),
-    ("levels 1e+09", {"levels": [1e9, 2e9]}),
-    ("levels", {"levels": 8, "kind": "lines"}),
-    ("levels", {"levels": [1.5, 2.0], "variables": None}),
-    ("map: ", {"kind": "map", "at": {"k": 0.0}}),
-    ("style seaborm-v0_8", {"style": "seaborm-v0_8"}),
-    ("xlim 2e-7:1e-7", {"xlim": "2e-7:1e-7"}),
-    ("ylim 1:1", {"ylim": (1, 1), "kind": "lines"}),
-    ("xlim 0.1", {"xlim": "0.1"}),
-    ("xlim :", {"xlim": ":"}),
-    ("xlim a:b", {"xlim": "a:b"}),
-    ("xlim nan:1", {"xlim": "nan:1"}),
-    ("xlim 50 nN:1 um", {"xlim": "50 nN:1 um"}),
-    ("ylim 0 nN:1", {"ylim": "0 nN:1", "kind": "lines"}),
-    ("xlim 2 um:3 um", {"xlim": "2 um:3 um"}),
-    ("ylim 7:8", {"ylim": "7:8", "kind": "lines"}),
-    ("ylim 0:1", {"ylim": "0:1", "kind": "lines", "variables": None}),
-    ("inset 9e-7:2e-6", {"inset": "9e-7:2e-6", "kind": "lines"}),
-    ("inset 2:3", {"inset": "2:3", "kind": "lines"}),
+    ("width colum", {"width": "colum"}), ("width 9 m", {"width": "9 m"}), ("width -3", {"width": -3}), ("width nan", {"width": "nan"}),
+    ("height column", {"height": "column"}), ("height 0.1", {"height": 0.1}), ("virids: ", {"colour_map": "virids"}),
+    ("levels many", {"levels": "many"}), ("levels 0", {"levels": 0}), ("levels 1e+09", {"levels": [1e9, 2e9]}),
+    ("levels", {"levels": 8, "kind": "lines"}), ("levels", {"levels": [1.5, 2.0], "variables": None}), ("map: ", {"kind": "map", "at": {"k": 0.0}}),
+    ("style seaborm-v0_8", {"style": "seaborm-v0_8"}), ("xlim 2e-7:1e-7", {"xlim": "2e-7:1e-7"}), ("ylim 1:1", {"ylim": (1, 1), "kind": "lines"}),
+    ("xlim 0.1", {"xlim": "0.1"}), ("xlim :", {"xlim": ":"}), ("xlim a:b", {"xlim": "a:b"}), ("xlim nan:1", {"xlim": "nan:1"}),
+    ("xlim 50 nN:1 um", {"xlim": "50 nN:1 um"}), ("ylim 0 nN:1", {"ylim": "0 nN:1", "kind": "lines"}), ("xlim 2 um:3 um", {"xlim": "2 um:3 um"}),
+    ("ylim 7:8", {"ylim": "7:8", "kind": "lines"}), ("ylim 0:1", {"ylim": "0:1", "kind": "lines", "variables": None}),
+    ("inset 9e-7:2e-6", {"inset": "9e-7:2e-6", "kind": "lines"}), ("inset 2:3", {"inset": "2:3", "kind": "lines"}),
     ("inset 5e-7:6e-7", {"inset": "5e-7:6e-7", "kind": "lines", "width": 1.6}),
     ("inset 5e-7:6e-7", {"inset": "5e-7:6e-7", "kind": "lines", "ylim": "2.7:2.8"}),
-    ("inset 5e-7:6e-7", {"inset": "5e-7:6e-7", "kind": "lines", "variables": None}),
-    ("inset 5e-7:6e-7", {"inset": "5e-7:6e-7", "kind": "map"}),
-    ("x lamda", {"x": "lamda"}),
-    ("x k", {"x": "k", "y": "k"}),
-    ("x k", {"x": "k", "at": {"k": 0.0}}),
-    ("y k", {"y": "k", "over": {"k": "max"}}),
-    ("x nu", {"x": "nu"}),
-    ("variable energy", {"variables": ["pull_off_force", "energy"]}),
-    ("at k=1.5", {"at": {"k": 1.5}}),
-    ("over k=product", {"over": {"k": "product"}}),
-    ("nothing varies", {"at": {"k": 0.0, "wavelength": 1e-7}}),
-]
+    ("inset 5e-7:6e-7", {"inset": "5e-7:6e-7", "kind": "lines", "variables": None}), ("inset 5e-7:6e-7", {"inset": "5e-7:6e-7", "kind": "map"}),
+    ("x lamda", {"x": "lamda"}), ("x k", {"x": "k", "y": "k"}), ("x k", {"x": "k", "at": {"k": 0.0}}), ("y k", {"y": "k", "over": {"k": "max"}}),
+    ("x nu", {"x": "nu"}), ("variable energy", {"variables": ["pull_off_force", "energy"]}), ("at k=1.5", {"at": {"k": 1.5}}),
+    ("over k=product", {"over": {"k": "product"}}), ("nothing varies", {"at": {"k": 0.0, "wavelength": 1e-7}}),
+    ("1 by 1 inches", {"width": 1, "height": 1}), ("logarithmic", {"xlim": (0, 1e-7)}),
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("key", "choices"), WRONG)
 def test_what_does_not_exist_is_said(key: str, choices: dict[str, Any], grid: xarray.Dataset) -> None:
+    if key == "logarithmic":
+        grid = grid.assign_coords(wavelength=np.geomspace(5e-8, 1e-6, 40))
     with pytest.raises(gr.DatasetError) as refused:
         gr.plot(grid, **({"variables": "pull_off_force"} | choices))
     (sentence,) = refused.value.mistakes
     assert key in sentence
     assert "--" not in sentence, "keywords of Python"
     assert "\n" not in sentence
-
-
-def test_a_logarithmic_axis_has_no_limit_at_zero(grid: xarray.Dataset) -> None:
-    wide = grid.assign_coords(wavelength=np.geomspace(5e-8, 1e-6, 40))
-    with pytest.raises(gr.DatasetError, match="logarithmic"):
-        gr.plot(wide, xlim=(0, 1e-7))
 
 
 def test_the_command_says_a_mistake_in_a_line_and_keeps_what_is_there(
@@ -274,9 +237,3 @@ def test_the_command_draws_in_the_form_of_the_name(
         assert np.frombuffer(pictures[0].read_bytes()[16:24], ">u4").tolist() == [200, 150]
     if form == "svg":
         assert "waves" in pictures[0].read_text()
-
-
-def test_the_styles_have_names() -> None:
-    with matplotlib.style.context(["gradhesion.style", "gradhesion.journal"]):
-        assert mpl.rcParams["font.family"] == ["STIXGeneral"]
-        assert mpl.rcParams["savefig.dpi"] == 300

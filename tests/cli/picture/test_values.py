@@ -251,14 +251,3 @@ def test_a_front_is_one_goal_over_the_other() -> None:
     for choices in ({"inset": (0, 1)}, {"kind": "map"}, {"over": {"k": "max"}}, {"variables": "A"}):
         with pytest.raises(gr.DatasetError):
             gr.plot(front, **choices)
-
-
-def test_a_parameter_without_effect_is_not_told() -> None:
-    parameters = {name: value for name, value in PUNCH.items() if name != "c0_over_R"}
-    study = {
-        "outputs": ["pull_off_force"],
-        "parameters": parameters | {"k": 0.0, "A": 0.1, "lambda_over_R": [0.1, 0.2]},
-    }
-    said = words(gr.plot(gr.run(study)))
-    assert "k = 0" in said
-    assert "c_0" not in said

@@ -12,22 +12,11 @@ import pytest
 import xarray
 from click.testing import Result
 
-from gradhesion.cli.dataset.writer import write
-from gradhesion.cli.study.reading import study_from
+import gradhesion as gr
+from gradhesion.core import SENSITIVITIES
 
 Call = Callable[..., Result]
-
-
-@pytest.fixture
-def written(data: dict[str, Any], tmp_path: Path) -> Callable[..., Path]:
-    """Write the dataset of the small study with other keys."""
-
-    def make(**changes: Any) -> Path:
-        path = tmp_path / "out.nc"
-        write(study_from(data | changes), path, history="")
-        return path
-
-    return make
+Made = Callable[..., Path]
 
 
 def read(text: str) -> pd.DataFrame:
@@ -35,8 +24,8 @@ def read(text: str) -> pd.DataFrame:
     return rows.astype({name: float for name in rows.columns if name != "solver"})  # as Python reads numbers
 
 
-def test_a_map_has_a_line_for_each_scene_and_all_digits(gradhesion: Call, written: Callable[..., Path]) -> None:
-    path = written(method={"solver": ["exact", "envelope"]})
+def test_a_map_has_a_line_for_each_scene_and_all_digits(gradhesion: Call, made: Made) -> None:
+    path = made(method={"solver": ["exact", "envelope"]})
     result = gradhesion("info", path, "--format", "csv")
     assert result.exit_code == 0, result.stderr
     frame = read(result.stdout)
@@ -45,44 +34,52 @@ def test_a_map_has_a_line_for_each_scene_and_all_digits(gradhesion: Call, writte
         axes = list(dataset["status"].dims)
         again = frame.set_index(axes).to_xarray()
         for name in ("pull_off_force", "dissipated_energy", "loading_jumps", "status"):
-            np.testing.assert_array_equal(
-                again[name].transpose(*axes).reindex_like(dataset).values, dataset[name].values
-            )
+            found = again[name].transpose(*axes).reindex_like(dataset)
+            np.testing.assert_array_equal(found.values, dataset[name].values)
         assert set(frame.columns) == {*dataset.data_vars, *dataset.coords} - {"steep_contact"}
 
 
-def test_points_and_failed_scenes(gradhesion: Call, written: Callable[..., Path]) -> None:
-    numbers = {"k": [0.1, 0.2, 0.9], "nu": 0.3, "modulus": 400.0, "c0_over_R": [0.01, 0.02, 1e-300]}
-    path = written(layout="points", parameters=numbers | {"lambda_over_R": 0.2, "A": 0.01, "a_max_over_R": 1.0})
+def test_a_sensitivity_has_a_column_for_each_parameter(gradhesion: Call, made: Made) -> None:
+    path, (force, energy) = made(outputs=["pull_off_force", *SENSITIVITIES]), SENSITIVITIES
+    frame = read(gradhesion("info", path, "--format", "csv").stdout)
+    with xarray.open_dataset(path) as dataset:
+        columns = frame[[f"{energy}_{name}" for name in gr.PARAMETERS]]
+        np.testing.assert_array_equal(columns, dataset[energy].values.reshape(-1, 7))
+    chosen = gradhesion("info", path, "--format", "csv", "--variable", force).stdout.splitlines()[0]
+    assert f"{force}_k,{force}_nu" in chosen
+    assert energy not in chosen
+
+
+def test_points_and_failed_scenes(gradhesion: Call, made: Made) -> None:
+    numbers: dict[str, Any] = {"k": [0.1, 0.2, 0.9], "nu": 0.3, "modulus": 400.0, "c0_over_R": [0.01, 0.02, 1e-300]}
+    numbers |= {"lambda_over_R": 0.2, "A": 0.01, "a_max_over_R": 1.0}
+    path = made(exit_code=3, layout="points", parameters=numbers)
     frame = read(gradhesion("info", path, "--format", "csv", "--variable", "pull_off_force").stdout)
-    assert list(frame.columns) == [*numbers, "lambda_over_R", "A", "a_max_over_R", "pull_off_force", "status"]
+    assert list(frame.columns) == [*numbers, "pull_off_force", "status"]
     assert frame["status"].tolist()[2] == 64
     assert np.isnan(frame["pull_off_force"][2])
 
 
-def test_a_curve_has_a_line_for_each_of_its_points(gradhesion: Call, written: Callable[..., Path]) -> None:
-    path = written(kind="curve", outputs=["equilibrium", "path", "jumps"])
+def test_a_curve_has_a_line_for_each_of_its_points(gradhesion: Call, made: Made) -> None:
+    path = made(kind="curve", outputs=["equilibrium", "path", "jumps"])
     frame = read(gradhesion("info", path, "--format", "csv", "--variable", "path").stdout)
     with xarray.open_dataset(path) as dataset:
-        counts = int(dataset["path_load"].notnull().sum())
-        assert len(frame) == counts
+        assert len(frame) == int(dataset["path_load"].notnull().sum())
         assert frame["path_load"].sum() == pytest.approx(float(dataset["path_load"].sum()), rel=1e-12)
     assert frame["path_jump"].isin([0, 1]).all()
     assert (frame["path_branch"] % 1 == 0).all()
-    for wrong, sentence in (
-        ([], "jumps have a separate table; write it with gradhesion info --jumps"),
-        (
-            ["--variable", "path", "--variable", "equilibrium"],
-            "choose one with --variable equilibrium or --variable path",
-        ),
-        (["--variable", "pathh"], 'there is no variable "pathh"; did you mean "path"?'),
-    ):
-        result = gradhesion("info", path, "--format", "csv", *wrong)
-        assert result.exit_code == 2
-        assert sentence in result.stderr
 
 
-def test_variables_belong_to_a_table(gradhesion: Call, written: Callable[..., Path]) -> None:
-    result = gradhesion("info", written(), "--variable", "pull_off_force")
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["--format", "csv"], "--jumps"),
+        (["--format", "csv", "--variable", "path", "--variable", "equilibrium"], "choose one"),
+        (["--format", "csv", "--variable", "pathh"], 'did you mean "path"?'),
+        (["--variable", "path"], "add --format csv"),
+    ],
+)
+def test_what_is_no_table_is_refused(words: list[str], sentence: str, gradhesion: Call, made: Made) -> None:
+    result = gradhesion("info", made(kind="curve", outputs=["equilibrium", "path", "jumps"]), *words)
     assert result.exit_code == 2
-    assert "--variable selects the columns of a table; add --format csv" in result.stderr
+    assert sentence in result.stderr

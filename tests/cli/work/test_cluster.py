@@ -112,31 +112,21 @@ def test_workers_that_cannot_do_it_end_the_run_in_a_sentence(
     assert len(parts_in(folder_of(output))) == 2, "what was there stays"
 
 
-@pytest.mark.parametrize("scheduler", ["tcp://127.0.0.1:9", "none.json", "/dev/null"])
-def test_where_no_scheduler_answers_it_is_said(
-    scheduler: str, gradhesion: Call, study_file: Path, tmp_path: Path
+@pytest.mark.parametrize("scheduler", ["tcp://127.0.0.1:9", "none.json", "/dev/null", "no dask"])
+def test_where_no_scheduler_answers_or_dask_is_missing_it_is_said(
+    scheduler: str, gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    command = ["run", study_file, "-o", tmp_path / "data" / "out.nc", "--engine=dask"]
+    if scheduler == "no dask":
+        monkeypatch.setitem(sys.modules, "distributed", None)
+    else:
+        command += ["--scheduler", scheduler]
     with dask.config.set({"distributed.comm.timeouts.connect": "1s"}):
-        command = ("run", study_file, "-o", tmp_path / "data" / "out.nc", "--engine", "dask", "--scheduler", scheduler)
         result = gradhesion(*command)
     assert result.exit_code == 2, result.stderr
-    assert scheduler in result.stderr
-
-
-def test_one_block_needs_no_cluster(
-    gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+    assert ("pip install dask" if scheduler == "no dask" else scheduler) in result.stderr
     monkeypatch.setenv("GRADHESION_CHUNK", "100")
-    assert gradhesion("run", study_file, "-o", tmp_path / "out.nc", "--engine=dask").exit_code == 0
-
-
-def test_without_dask_it_says_what_to_install(
-    gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setitem(sys.modules, "distributed", None)
-    result = gradhesion("run", study_file, "-o", tmp_path / "out.nc", "--engine=dask")
-    assert result.exit_code == 2
-    assert "pip install dask" in result.stderr
+    assert gradhesion(*command).exit_code == 0, "one block needs no cluster"
 
 
 def test_an_interrupt_ends_the_workers_of_this_machine_and_keeps_blocks(study_file: Path, tmp_path: Path) -> None:

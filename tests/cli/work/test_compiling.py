@@ -39,18 +39,7 @@ def test_the_first_run_says_that_it_compiles_and_no_later_one(
     assert gradhesion("plan", study_file).stderr == ""
 
 
-@pytest.mark.usefixtures("folder")
-def test_another_process_does_not_say_it_again(
-    data: dict[str, Any], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    compute(study_from(data))
-    assert capsys.readouterr().err
-    monkeypatch.setattr(compiling, "_begun", set())
-    compute(study_from(data))
-    assert capsys.readouterr().err == ""
-
-
-def test_a_plan_and_python_say_it_as_well(
+def test_a_plan_and_python_say_it_as_well_and_another_process_does_not_say_it_again(
     folder: Path,
     gradhesion: Call,
     study_file: Path,
@@ -65,6 +54,9 @@ def test_a_plan_and_python_say_it_as_well(
     gr.solve(scene, "pull_off_force")
     gr.curves(scene, "path")
     assert len(capsys.readouterr().err.splitlines()) == 1
+    monkeypatch.setattr(compiling, "_begun", set())
+    compute(study_from(data))
+    assert capsys.readouterr().err == ""
 
 
 def test_where_nothing_is_kept_it_says_why_once(

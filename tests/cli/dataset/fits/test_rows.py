@@ -13,7 +13,6 @@ import gradhesion as gr
 from gradhesion.cli.dataset.fits.fit import dataset_of, write_fit
 from gradhesion.cli.dataset.read.reader import opened
 from gradhesion.cli.names.fits import FIT_MORE
-from gradhesion.cli.picture.fits import drawn_fits
 from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.words.fit_words import fits_described
 from gradhesion.cli.work.solve.fitting import Fit
@@ -93,17 +92,15 @@ def test_a_dataset_has_minima_ranges_and_the_contact_point(study: FitStudy, tmp_
         assert words in told, words
 
 
-def test_a_file_of_version_0_2_is_read(study: FitStudy, tmp_path: Path) -> None:
+def test_a_file_of_version_0_2_is_read(study: FitStudy, tmp_path: Path, gradhesion: Call) -> None:
     path = tmp_path / "old.nc"
     sound = dataset_of(study, [fit(study, others=(), contact=None)], "made by a test")
     noise = {name: float(sound[name]) for name in ("noise_of_indentation", "noise_of_load")}
-    old = sound.drop_vars([name for name in FIT_MORE if name in sound]).assign_attrs(noise)
-    old.to_netcdf(path)
-    with opened(path) as dataset:
-        told = "\n".join(fits_described(dataset, path))
-        drawn_fits(dataset)
-    assert "noise: 0.25 nm and 7 nN, given" in told
+    sound.drop_vars([name for name in FIT_MORE if name in sound]).assign_attrs(noise).to_netcdf(path)
+    told = gradhesion("info", path).stdout
+    assert "0.25 nm and 7 nN, given" in told
     assert "reduced 2.25" in told
+    assert gradhesion("plot", path).exit_code == 0
 
 
 def test_side_by_side_minima_are_padded(study: FitStudy, tmp_path: Path) -> None:

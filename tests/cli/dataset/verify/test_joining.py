@@ -21,12 +21,27 @@ Call = Callable[..., Result]
 
 
 @pytest.fixture
+def joined(gradhesion: Call, tmp_path: Path) -> Callable[..., Path]:
+    """Join datasets."""
+
+    def join(*files: Path) -> Path:
+        result = gradhesion("merge", *files, "-o", tmp_path / "joined.nc", "--quiet")
+        assert result.exit_code == 0, result.stderr
+        return tmp_path / "joined.nc"
+
+    return join
+
+
+@pytest.fixture
 def written(data: dict[str, Any], tmp_path: Path) -> Callable[..., Path]:
     """Write the dataset of the small study with other keys."""
 
     def make(name: str, *, parameters: dict[str, Any] | None = None, **changes: Any) -> Path:
         path = tmp_path / f"{name}.nc"
-        table = data["parameters"] | (parameters or {})
+        table, physical = data["parameters"] | (parameters or {}), changes.get("physical")
+        if physical:
+            changes["physical"] = physical | {"a_max": table.pop("a_max")}
+            table = {"k": 0.3, "nu": 0.27, "A": [0.0, 0.02]}
         write(study_from(data | changes | {"parameters": table}), path, history=f"made {name}")
         return path
 
@@ -39,37 +54,46 @@ def same_values(one: Path, other: Path) -> None:
         xarray.testing.assert_identical(first.drop_attrs(deep=False), second.drop_attrs(deep=False))
 
 
-@pytest.mark.parametrize("cells", [2, 100])
-def test_values_of_an_axis_are_joined_in_their_order(
-    cells: int, gradhesion: Call, written: Callable[..., Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+METHOD = {"method": {"solver": ["exact", "envelope"]}}
+UNITS = {"R": "1 um", "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "13 nm", "wavelength": "200 nm"}
+WHOLES: dict[str, tuple[dict[str, Any], list[dict[str, Any]], dict[str, Any]]] = {
+    "an axis": ({"A": [0.0, 0.01, 0.02, 0.05]}, [{"A": [0.0, 0.02]}, {"A": [0.01, 0.02]}, {"A": 0.05}], {}),
+    "two axes": ({"A": [0.0, 0.02], "k": [0.0, 0.3, 0.6]}, [{"A": 0.0, "k": [0.0, 0.3]}, {"A": 0.0, "k": 0.6}, {"A": 0.02, "k": [0.6, 0.3]}, {"A": 0.02, "k": 0.0}], {}),
+    "solvers": ({"nu": [-0.2, 0.27]}, [{"nu": 0.27}, {"nu": -0.2}], METHOD),
+    "quantities": ({"a_max": ["1 um", "2 um", "100 um", "inf"]}, [{"a_max": ["1 um", "0.1 mm"]}, {"a_max": ["2 um", "inf"]}], {"physical": UNITS}),
+}  # fmt: skip
+"""A whole, its parts, and what all share."""
+
+
+@pytest.mark.parametrize("cells", ["2", "100"])
+@pytest.mark.parametrize("name", WHOLES)
+def test_parts_are_joined_in_the_order_of_their_axes(
+    name: str,
+    cells: str,
+    gradhesion: Call,
+    written: Callable[..., Path],
+    joined: Callable[..., Path],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setenv("GRADHESION_CHUNK", str(cells))
-    whole = written("whole", parameters={"A": [0.0, 0.01, 0.02, 0.023, 0.05]})
-    parts = [written("low", parameters={"A": [0.0, 0.02]}), written("high", parameters={"A": [0.01, 0.02, 0.05]}), written("one", parameters={"A": 0.023})]  # fmt: skip
-    result = gradhesion("merge", *parts, "-o", tmp_path / "joined.nc")
-    assert result.exit_code == 0, result.stderr
-    same_values(tmp_path / "joined.nc", whole)
-    with xarray.open_dataset(tmp_path / "joined.nc") as dataset:
-        assert dataset.attrs["history"].splitlines()[:3] == ["made low", "made high", "made one"]
+    monkeypatch.setenv("GRADHESION_CHUNK", cells)
+    whole, parts, keys = WHOLES[name]
+    path = joined(*(written(f"part{i}", parameters=part, **keys) for i, part in enumerate(parts)))
+    same_values(path, written("whole", parameters=whole, **keys))
+    with xarray.open_dataset(path) as dataset:
+        assert dataset.attrs["history"].splitlines()[: len(parts)] == [f"made part{i}" for i in range(len(parts))]
         again = study_from(tomllib.loads(dataset.attrs["study"]))
-        np.testing.assert_array_equal(again.parameters["A"], [0.0, 0.01, 0.02, 0.023, 0.05])
-    told = gradhesion("info", tmp_path / "joined.nc")
-    assert told.exit_code == 0
+        for axis in whole:
+            np.testing.assert_array_equal(again.parameters[axis], dataset[axis])
+    assert gradhesion("verify", path, "--sample", "4").exit_code == 0
+    if name == "two axes":
+        lacking = [tmp_path / f"part{i}.nc" for i in range(3)]
+        assert gradhesion("merge", *lacking, "-o", tmp_path / "other.nc").exit_code == 2
 
 
-def test_several_axes_are_joined_where_their_grid_is_full(
-    gradhesion: Call, written: Callable[..., Path], tmp_path: Path
+def test_units_as_they_were_written_before_go_with_those_of_today(
+    gradhesion: Call, joined: Callable[..., Path], tmp_path: Path
 ) -> None:
-    whole = written("whole", parameters={"A": [0.0, 0.02], "k": [0.0, 0.3, 0.6]})
-    corners = [(0.0, [0.0, 0.3]), (0.0, 0.6), (0.02, [0.6, 0.3]), (0.02, 0.0)]
-    parts = [written(f"part{i}", parameters={"A": A, "k": k}) for i, (A, k) in enumerate(corners)]
-    assert gradhesion("merge", *parts, "-o", tmp_path / "joined.nc").exit_code == 0
-    same_values(tmp_path / "joined.nc", whole)
-    assert gradhesion("verify", tmp_path / "joined.nc").exit_code == 0
-    assert gradhesion("merge", *parts[:3], "-o", tmp_path / "other.nc").exit_code == 2
-
-
-def test_units_as_they_were_written_before_go_with_those_of_today(gradhesion: Call, tmp_path: Path) -> None:
     physical = {"R": "1 um", "E_star": "1 GPa", "c0": "10 nm", "wavelength": "50 nm"}
     files = [tmp_path / f"{work}.nc" for work in ("20", "50", "both")]
     for file, work in zip(files, ("20 mJ m-2", "50 mJ/m^2", ["20 mJ m-2", "50 mJ/m^2"]), strict=True):
@@ -77,37 +101,12 @@ def test_units_as_they_were_written_before_go_with_those_of_today(gradhesion: Ca
         write(study_from(keys | {"physical": physical | {"work_of_adhesion": work}}), file, history="")
     with netCDF4.Dataset(files[0], "a") as old:
         old["work_of_adhesion"].units = "J m-2"
-    assert gradhesion("merge", *files[:2], "-o", tmp_path / "joined.nc").exit_code == 0
-    same_values(tmp_path / "joined.nc", files[2])
+    same_values(joined(*files[:2]), files[2])
     told = gradhesion("info", files[0])
     assert (told.exit_code, "0.02 J m-2" in told.stdout) == (0, True), told.stdout
     with gr.open(files[0]) as old:
         given = {name: old[name] for name in ("k", "nu", "A", *physical, "work_of_adhesion")}
         assert gr.solve(given, "pull_off_force")["pull_off_force"].equals(old["pull_off_force"])
-
-
-def test_fixed_values_become_an_axis_and_solvers_stay(
-    gradhesion: Call, written: Callable[..., Path], tmp_path: Path
-) -> None:
-    method = {"solver": ["exact", "envelope"]}
-    whole = written("whole", parameters={"nu": [-0.2, 0.27]}, method=method)
-    parts = [
-        written("one", parameters={"nu": 0.27}, method=method),
-        written("two", parameters={"nu": -0.2}, method=method),
-    ]
-    assert gradhesion("merge", *parts, "-o", tmp_path / "joined.nc", "--quiet").exit_code == 0
-    same_values(tmp_path / "joined.nc", whole)
-
-
-def test_quantities_keep_their_unit(gradhesion: Call, data: dict[str, Any], tmp_path: Path) -> None:
-    units = {"R": "1 um", "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "13 nm", "wavelength": "200 nm"}
-    study = data | {"parameters": {"k": 0.3, "nu": 0.27, "A": [0.0, 0.02]}}
-    files = {"near": ["1 um", "0.1 mm"], "far": ["2 um", "inf"], "all": ["1 um", "2 um", "100 um", "inf"]}
-    for name, rims in files.items():
-        write(study_from(study | {"physical": units | {"a_max": rims}}), tmp_path / f"{name}.nc", history="")
-    result = gradhesion("merge", tmp_path / "near.nc", tmp_path / "far.nc", "-o", tmp_path / "joined.nc")
-    assert result.exit_code == 0, result.stderr
-    same_values(tmp_path / "joined.nc", tmp_path / "all.nc")
 
 
 @pytest.mark.parametrize(
@@ -170,19 +169,15 @@ def test_a_study_that_is_none_is_refused(
 
 
 def test_a_coordinate_in_the_last_place_apart_takes_its_own_values(
-    gradhesion: Call, written: Callable[..., Path], tmp_path: Path
+    written: Callable[..., Path], joined: Callable[..., Path]
 ) -> None:
     """As a logarithmic axis is with another numpy: no cell is left without an owner, or has another's values."""
     whole = written("whole", parameters={"lambda_over_R": [0.11, 0.2, 0.3, 0.47]})
-    one, other = (
-        written("one", parameters={"lambda_over_R": [0.11, 0.3]}),
-        written("other", parameters={"lambda_over_R": [0.2, 0.47]}),
-    )
+    one, other = (written(str(some[0]), parameters={"lambda_over_R": some}) for some in ([0.11, 0.3], [0.2, 0.47]))
     for path, away in ((one, 1.0), (other, 0.0)):
         with netCDF4.Dataset(path, "a") as file:
             file["lambda_over_R"][:] = np.nextafter(file["lambda_over_R"][:], away)
-    assert gradhesion("merge", one, other, "-o", tmp_path / "joined.nc").exit_code == 0
-    same_values(tmp_path / "joined.nc", whole)
+    same_values(joined(one, other), whole)
 
 
 def test_the_output_is_named_and_stays(gradhesion: Call, written: Callable[..., Path], tmp_path: Path) -> None:
