@@ -50,9 +50,9 @@ def test_fresh_scenes(kind: Kind) -> None:
                 values.append(compared(kind, scene, some(found, i)))
         except ArithmeticError:  # one of the folds that even 51 digits do not tell apart
             continue
-        if len(values) == 3:
+        if len(values) == 2:
             break
-    assert sum(values) > 20
+    assert sum(values) > 14
 
 
 SMOOTH, ULP = {"A": 0.0}, 2.0**-53

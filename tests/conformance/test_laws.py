@@ -68,7 +68,7 @@ def test_parts_are_all_that_is_lost(kind: Kind) -> None:
 
 @for_kinds([kind for kind in EXACT if kind.control != "load"])
 def test_the_losses_are_the_loop_integral(kind: Kind) -> None:
-    scenes, found = (some(values, slice(80)) for values in drawn(kind))
+    scenes, found = drawn(kind)
     residual = kind.solve(scenes, ["energy_residual"])["energy_residual"]
     known, limit = np.isfinite(residual), errors(kind, scenes, found)["energy_residual"]
     assert known.mean() > 0.5
@@ -100,7 +100,7 @@ def test_rims_beside_each_other(kind: Kind) -> None:
 def test_a_turn_is_a_rim_where_it_turns(kind: Kind) -> None:
     scenes, found = drawn(kind)
     turned = (found["turning_radius"] > 0) & (found["turning_radius"] < scenes["a_max_over_R"])
-    assert turned.sum() >= 10
+    assert turned.mean() > 0.06
     scenes, found = some(scenes, turned), some(found, turned)
     rims = {name: values for name, values in scenes.items() if name != kind.turn}
     other = replace(kind, turn="").solve(rims | {"a_max_over_R": found["turning_radius"]})
@@ -113,7 +113,7 @@ def reached_by_loading(kind: Kind, turn: str, rng: np.random.Generator) -> tuple
     """Numbers of scenes, radii on their drawn loading paths, and depths or loads there that were not met before."""
     scenes, found = drawn(kind)
     turns = []
-    for i in rng.permutation(np.flatnonzero((found["loading_jumps"] > 0) & (found["loading_jumps"] < 3000)))[:24]:
+    for i in rng.permutation(np.flatnonzero((found["loading_jumps"] > 0) & (found["loading_jumps"] < 3000)))[:8]:
         path, _ = draw_curves(one_of(scenes, i), ["path"], **kind.how)
         loading = path["path_unloading"] == 0
         a, on = path["path_contact_radius"][loading], path["path_jump"][loading] == 0
@@ -146,7 +146,7 @@ def test_a_turn_at_what_loading_reaches_is_a_rim_there(kind: Kind, turn: str) ->
 @for_kinds(EXACT)
 def test_no_drawn_state_pulls_harder_than_the_pull_off(kind: Kind) -> None:
     scenes, found = drawn(kind)
-    for i in np.flatnonzero(is_sure(found) & (found["turning_radius"] < np.inf))[:40]:
+    for i in np.flatnonzero(is_sure(found) & (found["turning_radius"] < np.inf))[:12]:
         curve, _ = draw_curves(one_of(scenes, i), ["equilibrium"], **kind.how)
         inside = curve["contact_radius"] <= found["turning_radius"][i]
         allowed = errors(kind, some(scenes, [i]), some(found, [i]))["pull_off_force"][0]
@@ -159,7 +159,7 @@ def test_the_drawn_path(kind: Kind) -> None:
     scenes, found = drawn(kind)
     few = found["loading_jumps"] < 3000  # the most that every kind can draw is a few times that
     sure = np.flatnonzero(few & is_sure(found))
-    for i in rng_of(f"path {kind.name}").permutation(sure)[:6]:
+    for i in rng_of(f"path {kind.name}").permutation(sure)[:4]:
         scene, values, own = one_of(scenes, i), some(found, [i]), some(scenes, [i])
         path, status = draw_curves(scene, ["path", "jumps"], **kind.how)
         assert status & NO_VALUE == 0

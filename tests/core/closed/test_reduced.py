@@ -40,7 +40,7 @@ def test_reduced_variables_follow_one_from_the_other() -> None:
     assert made["lambda_over_R"] == 0.3 * length
     assert made["A"] == amplitude_of_ratio(*material, made["lambda_over_R"], 0.7)
     assert made["a_max_over_R"] == 5.0 * length
-    for ratio, closing in ((1.0, {}), (0.36, {"closing_ratio": 0.36})):  # of the work of closing
+    for ratio, closing in ((1.0, {}), (0.81, {"closing_ratio": 0.81})):  # of the work of closing
         made = parameters_from(without("A", "a_max_over_R") | {"chi": 0.7, "a_max_over_a2": 2.0} | closing)
         own = made | {"modulus": made["modulus"] / ratio}
         assert made["a_max_over_R"] == 2.0 * jump_in_radius_of_envelope(*(own[name] for name in PARAMETERS[:6]))

@@ -51,8 +51,7 @@ def test_integrals_are_struves_and_bessels_functions(k: float) -> None:
     assert not np.any(hertz.sine_integrals(k, 0.0)[:2])
 
 
-@pytest.mark.parametrize(("k", "a"), [(0.0, 0.29), (0.31, 0.017), (0.31, 1.3), (1.0, 0.29)])
-@pytest.mark.parametrize("m", [1.0, 2.0, 3.7])
+@pytest.mark.parametrize(("k", "a", "m"), [(0.0, 0.29, 1.0), (0.31, 0.017, 3.7), (0.31, 1.3, 2.0), (1.0, 0.29, 2.0)])
 @pytest.mark.parametrize("waves", [ONE, SERIES])
 def test_depth_and_load(k: float, a: float, m: float, waves: tuple[list[float], list[float]]) -> None:
     with mpmath.workdps(20):

@@ -48,11 +48,9 @@ def _integral(k: float, a: float, power: float, values: Values) -> float:
     return within + float(np.sum(weights * 0.5 * r ** (power - 1.0) * values(r)))
 
 
-@pytest.mark.parametrize("k", [0.0, 0.43, 1.0])
-@pytest.mark.parametrize(("cosines", "sines", "m"), PROFILES)
-def test_the_pressure_makes_the_load_and_the_depth(
-    k: float, cosines: list[float], sines: list[float], m: float
-) -> None:
+@pytest.mark.parametrize(("k", "profile"), [(0.0, 0), (0.43, 0), (0.0, 1), (0.43, 2), (0.43, 3), (0.95, 1), (1.0, 2)])
+def test_the_pressure_makes_the_load_and_the_depth(k: float, profile: int) -> None:
+    cosines, sines, m = PROFILES[profile]
     wave, front = (WAVELENGTH, cosines, sines, m), 2.0 ** (1.0 - k) * M / (2.0 * math.pi)
     for a, raised in ((0.11, 0.0), (0.31, -0.7)):
         stretch, disc = float(jkr.adhesive_depth(k, M, a)), float(hertz.disc_stiffness(k, M, a))
@@ -150,9 +148,9 @@ def test_the_surface_around_a_punch_is_that_of_flat_discs(k: float) -> None:
     assert quadrature.series_surface(k, r, a, depth, *wave) == pytest.approx(expected, abs=1e-9)
 
 
-@pytest.mark.parametrize("k", [0.0, 0.37, 0.9, 1 - 1e-3, 1 - 1e-6, 1 - 1e-13])
-@pytest.mark.parametrize(("a", "r", "wave"), [(0.013, 0.29, (1.0, [-0.01])), (0.05, 0.17, (0.1, [-0.01], [0.012]))])
-def test_quadrature_of_the_gap(k: float, a: float, r: float, wave: tuple[float, list[float], list[float]]) -> None:
+@pytest.mark.parametrize("k", [0.0, 0.37, 1 - 1e-3, 1 - 1e-13])
+def test_quadrature_of_the_gap(k: float) -> None:
+    a, r, wave = (0.013, 0.29, (1.0, [-0.01], [])) if k in (0.0, 1 - 1e-3) else (0.05, 0.17, (0.1, [-0.01], [0.012]))
     depth = float(general.indentation(k, 300.0, a, *wave))
     with mpmath.workdps(25):  # the integral of what is left of the density at r has a closed form
         c, end = (1 - mpmath.mpf(k)) / 2, mpmath.mpf(r)

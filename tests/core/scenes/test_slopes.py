@@ -129,11 +129,3 @@ def test_the_last_axis_has_what_is_given_in_order() -> None:
         np.testing.assert_array_equal(found[name][1, 1], alone[name])
     del further["toughness_amplitude"]
     assert solve(SCENE | further, SENSITIVITIES, **how)[SENSITIVITIES[0]].shape == (11,)
-
-
-def test_threads_make_no_difference() -> None:
-    rng = np.random.default_rng(9)
-    scenes = SCENE | {"k": rng.uniform(0.01, 0.95, 500), "A": 10 ** rng.uniform(-3, -1, 500)}
-    one, two = (solve(scenes, SENSITIVITIES, threads=threads) for threads in (1, 2))
-    for name in SENSITIVITIES:
-        np.testing.assert_array_equal(one[name], two[name])

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import FLAGS, OUTPUTS, REPORTS, Loading, solve
+from gradhesion.core import OUTPUTS, REPORTS, Loading, solve
 from gradhesion.core.problem.names import EDGE
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, NO_VALUE, TOO_MANY_WAVES
 from tests.core.scene import ENDLESS, pattern_of, profile_of, scene_of, strengths_of
@@ -97,19 +97,6 @@ def test_a_contact_that_a_machine_presses_after_the_jump_has_no_pull() -> None:
     scene["machine_stiffness"] = np.array([0.01, 0.02, 0.04, 0.056, 0.1, 1.0, 100.0])
     held = solve(scene, ["snap_in_force"], profile=profile, loading=Loading(control="machine"))
     assert np.isnan(held["snap_in_force"]).all()
-
-
-@pytest.mark.parametrize("ratio", [0.0, 0.3, 1.0])
-@pytest.mark.parametrize("control", CONTROLS)
-def test_without_contact_there_is_nothing_and_the_pull_off_is_at_no_rim(control: str, ratio: float) -> None:
-    """The rim is so small that it holds the pull-off of a cycle that makes contact."""
-    scene = BALL | {"a_max_over_R": 0.05, "closing_ratio": ratio, "indentation_max_over_R": np.array([-0.01, 0.03])}
-    found = driven(scene, control, [*OUTPUTS, *EDGE])
-    assert found["status"][0] == FLAGS["no_contact"]
-    assert found["status"][1] & FLAGS["pull_off_at_rim"]
-    for name in ("dissipated_energy", "front_energy", "pinned_depth", "pull_off_force", "turning_radius"):
-        assert found[name][0] == 0.0
-    assert np.isnan(found["snap_in_force"][0])
 
 
 # Patterned interfaces
