@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import xarray
 
 import gradhesion as gr
 
@@ -14,14 +13,6 @@ from .promises import agree
 
 EVERY = for_kinds(["sines, machine", "cosine, two works"])
 NAMES = ("pull_off_force", "pull_off_radius", "dissipated_energy", "loading_jumps", "delta_max", "turning_radius")
-
-
-@EVERY
-def test_from_python(kind: Kind) -> None:
-    scenes, found = drawn(kind)
-    points = {name: xarray.DataArray(values, dims="scene") for name, values in scenes.items()}
-    dataset = gr.solve(points, NAMES, profile=kind.how["profile"], control=kind.control, threads=1)
-    agree(kind, scenes, found | {name: dataset[name].to_numpy() for name in (*NAMES, "status")}, found, NAMES)
 
 
 def study(kind: Kind, folder: Path, parameters: dict[str, Any]) -> Path:

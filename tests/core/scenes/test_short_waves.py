@@ -90,16 +90,6 @@ def test_at_k_1_the_depth_is_exact_and_with_it_the_cycle(rim: float) -> None:
         assert found[name] == pytest.approx(exact[name], rel=0.0 if "jumps" in name else 1e-10), name
 
 
-@pytest.mark.parametrize("wavelength", [0.021, 1e-6])
-def test_several_rims_are_as_one_by_one(wavelength: float) -> None:
-    """Of the short waves, only the first two rims have few enough."""
-    rims = np.array([0.07, 0.31, 0.9, math.inf])
-    together = asymptotic(scene_of_ratio(0.42, 210.0, wavelength, 0.37, rims))
-    for i, rim in enumerate(rims):
-        for name, value in asymptotic(scene_of_ratio(0.42, 210.0, wavelength, 0.37, float(rim))).items():
-            np.testing.assert_array_equal(value, together[name][i], err_msg=name)
-
-
 def test_a_long_jump_in_is_integrated_in_closed_form() -> None:
     """Hardly a wave: 40,000 of them within the jump-in, to the smooth punch by the size of the wave alone."""
     length = 150.0 ** (-1 / 3.37)
