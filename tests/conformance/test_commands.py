@@ -11,7 +11,7 @@ import gradhesion as gr
 from .kinds import Kind, drawn, for_kinds, one_of, rng_of
 from .promises import agree
 
-EVERY = for_kinds(["sines, machine", "cosine, two works"])
+EVERY = for_kinds(["sines, machine, two works, turned"])
 NAMES = ("pull_off_force", "pull_off_radius", "dissipated_energy", "loading_jumps", "delta_max", "turning_radius")
 
 

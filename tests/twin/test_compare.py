@@ -40,7 +40,7 @@ def over_patterns(count: int) -> list[Case]:
 
 
 def turned(count: int) -> list[Case]:
-    """Scenes that turn at a depth or a load, one of each over some 200 waves, which the solver does not walk one by one."""
+    """Scenes that turn at a depth or a load, one of each over some 80 waves, which the solver does not walk one by one."""
     rng, made = np.random.default_rng(11), []
     for number in range(count):
         k = float(rng.choice([0.0, 0.1, 0.3, 0.5, 0.8, 1.0]))
@@ -49,7 +49,7 @@ def turned(count: int) -> list[Case]:
         scene = scene_of(*material, float(10.0 ** rng.uniform(-1.3, 0.0)), A, rim)
         target = {TURNS[0]: rng.uniform(-0.01, 0.3)} if number % 2 else {TURNS[1]: 10.0 ** rng.uniform(-2.0, 2.0)}
         made.append((scene | {name: float(value) for name, value in target.items()}, {}, PLAIN))
-    long = scene_of(0.3, 0.3, 3000.0, 0.01, 0.002, 0.01, math.inf)
+    long = scene_of(0.3, 0.3, 3000.0, 0.01, 0.005, 0.01, math.inf)
     return [*made, *((long | {turn: target}, {}, PLAIN) for turn, target in zip(TURNS, (0.06, 20.0), strict=True))]
 
 
@@ -58,7 +58,7 @@ DRAWS: dict[
 ] = {  # cases, most waves, outputs, fewest that are compared
     "hostile": (of_one_cosine(hostile(5, 120)), 20.0, OUTPUTS, 30),
     "eventful": (of_one_cosine(eventful(5, 120)), 20.0, OUTPUTS, 30),
-    "of any kind": (of_any_kind(7, 70), 12.0, OUTPUTS, 35),
+    "of any kind": (of_any_kind(7, 40), 12.0, OUTPUTS, 20),
     "over patterns": (over_patterns(16), math.inf, (*OUTPUTS, *EDGE), 11),
     "turned": (turned(40), math.inf, OUTPUTS, 40),
 }
