@@ -119,7 +119,9 @@ SHAPES = {
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "waves"), zip(SHAPES, [330.7, 4.1e3, 6.3e4, 4.9e5, 330.7, 4.1e3, 6.3e4], strict=True))
+@pytest.mark.parametrize(
+    ("name", "waves"), [*zip(SHAPES, [330.7, 4.1e3, 6.3e4, 4.9e5, 330.7, 4.1e3, 6.3e4], strict=True)]
+)
 def test_the_lowest_load_of_the_twin(name: str, waves: float) -> None:
     """At the rim, and about the lowest trough, wherever the phase is; the rim is `ratio` lengths of similarity."""
     shape, rim, c0 = SHAPES[name], 0.3, 0.1

