@@ -18,6 +18,8 @@ from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
 from .theory import Waves, stiffness, stretch, wave_size
 
 SEED: Final = int(os.environ.get("CONFORMANCE_SEED", "2013"))
+SCENES: Final = int(os.environ.get("CONFORMANCE_SCENES", "64"))
+"""Scenes of each kind."""
 DEPTH, LOAD = "indentation_max_over_R", "load_max"
 COUNTS: Final = ("loading_jumps", "unloading_jumps")
 ONE: Final = ((1, 1.0, 0.0),)
@@ -158,8 +160,8 @@ def rng_of(name: str) -> np.random.Generator:
 
 @cache
 def drawn(kind: Kind) -> tuple[Scenes, dict[str, NDArray[Any]]]:
-    """160 scenes of a kind and all their results, solved in one call for all laws, none of which may change them."""
-    scenes = kind.draw(rng_of(kind.name), 160)
+    """Scenes of a kind and all their results, solved in one call for all laws, none of which may change them."""
+    scenes = kind.draw(rng_of(kind.name), SCENES)
     return scenes, kind.solve(scenes)
 
 

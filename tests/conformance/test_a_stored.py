@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core import PARAMETERS, solve
-from gradhesion.core.problem.toughness import Rate, Toughness, ToughnessHarmonic
+from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
 
 from .kinds import DEPTH, LOAD, ONE, Kind, Scenes
 from .promises import SENSITIVITY, agree
@@ -77,18 +77,6 @@ def test_two_works_and_patterns(group: str, name: str) -> None:
     kind = Kind("stored", float(given.get("m", 2.0)), waves, control, turn, "ratio" in given)
     values = {key: np.array([np.nan if value is None else float(value)]) for key, value in result.items()}
     agrees_with_stored(kind, arrays([scene]), values, **how)
-
-
-@pytest.mark.parametrize("name", ["k0", "k03", "smooth"])
-def test_an_edge_with_a_speed(name: str) -> None:
-    """1e-10: two formulations of the same differential equation agree to 1e-12 in the force, 1e-11 in the energy."""
-    case = stored("moving_edge")["rate"][name]
-    scene = {KEYS[key]: value for key, value in case["input"].items()}
-    names = ("pull_off_force", "dissipated_energy")
-    for one in case["cases"]:
-        found = solve(scene | {"speed_over_reference": one["eps"]}, names, rate=Rate(exponent=one["n"]))
-        for value in names:
-            assert float(found[value]) == pytest.approx(one[value], rel=1e-10)
 
 
 def test_the_steps_of_the_sum_over_many_punches_on_one_plate() -> None:

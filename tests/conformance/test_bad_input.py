@@ -64,16 +64,19 @@ def test_what_lacks_a_parameter_is_refused(name: str) -> None:
 
 @for_kinds(KINDS)
 def test_out_of_range_has_no_value_and_does_not_reach_its_neighbours(kind: Kind) -> None:
-    scenes = some(drawn(kind)[0], slice(3))
-    expected = kind.solve(scenes)
-    for name, value in ((each, value) for each in scenes for value in OUT_OF_RANGE[each]):
-        bad = {n: np.insert(v, 1, value if n == name else v[1]) for n, v in scenes.items()}
-        with np.errstate(all="ignore"):
-            found = kind.solve(bad)
-        assert has(found, NO_VALUE)[1], (name, value)
+    """Each wrong scene stands between good ones, and is another good one but for one value."""
+    good = some(drawn(kind)[0], slice(2))
+    wrong = [(name, value) for name in good for value in OUT_OF_RANGE[name]]
+    bad = {n: np.array([value if n == name else values[1] for name, value in wrong]) for n, values in good.items()}
+    columns = {n: np.stack([np.full(len(wrong), values[0]), bad[n]], axis=1) for n, values in good.items()}
+    with np.errstate(all="ignore"):
+        found = kind.solve(columns)
+    for i, case in enumerate(wrong):
+        assert has(found, NO_VALUE)[i, 1], case
         for output in kind.outputs:
-            assert found[output][1] == -1 if output in COUNTS else np.isnan(found[output][1]), (name, value, output)
-        agree(kind, scenes, {n: np.delete(v, 1) for n, v in found.items()}, expected)
+            assert found[output][i, 1] == -1 if output in COUNTS else np.isnan(found[output][i, 1]), (case, output)
+    first = {n: np.full(len(wrong), values[0]) for n, values in good.items()}
+    agree(kind, first, some(found, np.s_[:, 0]), kind.solve(first))
 
 
 @for_kinds(KINDS)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from .kinds import BY_NAME, KINDS, Kind, Scenes, drawn, for_kinds, one_of, rng_of, some
+from .kinds import KINDS, SCENES, Kind, drawn, for_kinds, one_of, rng_of, some
 from .promises import NO_VALUE, agree, has
 
 EVERY = for_kinds(KINDS)
@@ -15,7 +15,7 @@ EVERY = for_kinds(KINDS)
 def test_in_any_order_in_pieces_and_alone_by_any_threads(kind: Kind) -> None:
     scenes, found = drawn(kind)
     order = rng_of(f"order {kind.name}").permutation(found["status"].size)
-    for piece in (*np.array_split(order, 5), *order[:12, None]):
+    for piece in (*np.array_split(order, 3), *order[:4, None]):
         other, twice = (kind.solve(some(scenes, piece), threads=threads) for threads in (1, 2))
         for name in other:
             np.testing.assert_array_equal(other[name], twice[name])  # threads change no bit
@@ -31,12 +31,10 @@ def test_two_neighbours(kind: Kind) -> None:
         first, second = (one_of(scenes, i) for i in rng.choice(found["status"].size, 2, replace=False))
         if name in ("k", "nu") and max(first["k"], second["k"]) > 0.98:
             continue  # only nu = 1/2 has a value there
-        for values in ([first[name], second[name]], [second[name], first[name]]):
-            own = {n: np.array(values if n == name else [first[n]] * 2) for n in first}
-            pair = kind.solve(first | {name: own[name]})
-            for i in range(2):
-                alone = kind.solve(some(own, [i]))
-                agree(kind, some(own, [i]), alone, some(pair, [i]), bits=True)
+        own = {n: np.array([first[n], second[n] if n == name else first[n]]) for n in first}
+        pair = kind.solve(first | {name: own[name]})
+        for i in range(2):
+            agree(kind, some(own, [i]), kind.solve(some(own, [i])), some(pair, [i]), bits=True)
 
 
 @EVERY
@@ -58,7 +56,7 @@ def test_a_grid_is_its_points(kind: Kind) -> None:
 
 @EVERY
 def test_what_is_asked_for_changes_no_value(kind: Kind) -> None:
-    scenes, found = (some(values, slice(50)) for values in drawn(kind))
+    scenes, found = (some(values, slice(SCENES // 2)) for values in drawn(kind))
     names = [name for name in kind.outputs if name != "contact_slope"]  # it is that of what else is asked for
     order = [str(name) for name in rng_of(f"asked {kind.name}").permutation(names)]
     alone = ["pull_off_force", "pull_off_radius", "turning_radius"]  # need no cycle; of short waves one without value
@@ -74,17 +72,9 @@ def test_what_is_asked_for_changes_no_value(kind: Kind) -> None:
 def test_a_ratio_beside_1_and_0(kind: Kind, ratio: float) -> None:
     """An array of ratios that holds 1 or 0 once gave every scene the values of its opening curve."""
     closing = replace(kind, ratio=True)
-    scenes = some(drawn(kind)[0], slice(30)) | {"closing_ratio": np.full(30, ratio)}
+    scenes = drawn(kind)[0]
+    scenes = scenes | {"closing_ratio": np.full_like(scenes["k"], ratio)}
     alone = closing.solve(scenes)
     for other in (1.0, 0.0, 0.9):
         both = closing.solve(scenes | {"closing_ratio": np.array([[ratio], [other]])})
         agree(closing, scenes, some(both, 0), alone)
-
-
-@pytest.mark.parametrize("ratios", [[0.5], [0.5, 0.9], [0.5, 1.0], [0.5, 0.0, 1.0]])
-def test_the_scene_whose_ratio_was_forgotten_beside_1(ratios: list[float]) -> None:
-    scene: Scenes = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.1, "lambda_over_R": 0.1, "A": 0.03}
-    scene |= {"a_max_over_R": 0.5, "closing_ratio": np.array(ratios)}
-    found = BY_NAME["cosine, two works"].solve(scene, ["delta_max", "loading_jumps"])
-    assert float(found["delta_max"][0]) == pytest.approx(0.14582587, abs=5e-9)  # the digits that were noted
-    assert found["loading_jumps"][0] == 4

@@ -50,9 +50,9 @@ def test_fresh_scenes(kind: Kind) -> None:
                 values.append(compared(kind, scene, some(found, i)))
         except ArithmeticError:  # one of the folds that even 51 digits do not tell apart
             continue
-        if len(values) == 3:
+        if len(values) == 2:
             break
-    assert sum(values) > 20
+    assert sum(values) > 14
 
 
 SMOOTH, ULP = {"A": 0.0}, 2.0**-53
@@ -104,7 +104,7 @@ def test_as_many_harmonics_as_there_may_be() -> None:
     """A rough series of 64 waves: the loop integral, and the same series on a wavelength twice as long."""
     angle, size = rng_of("64 harmonics").uniform(0, 2 * np.pi, 64), np.arange(1, 65) ** -1.5
     waves = tuple((n + 1, float(size[n] * np.cos(angle[n])), float(size[n] * np.sin(angle[n]))) for n in range(64))
-    kind, scenes = Kind("rough", waves=waves), some(drawn(Kind("cosine"))[0], slice(12))
+    kind, scenes = Kind("rough", waves=waves), some(drawn(Kind("cosine"))[0], slice(6))
     scenes |= {"A": 0.3 * scenes["A"], "lambda_over_R": 1.1 * scenes["a_max_over_R"]}
     found = kind.solve(scenes, [*kind.outputs, "energy_residual"])
     assert (np.abs(found["energy_residual"]) <= 100 * errors(kind, scenes, found)["dissipated_energy"]).all()

@@ -8,7 +8,22 @@ import pytest
 
 from gradhesion.core import FLAGS, draw_curves
 
-from .kinds import COUNTS, DEPTH, EXACT, KINDS, LOAD, Kind, Scenes, drawn, for_kinds, one_of, rescaled, rng_of, some
+from .kinds import (
+    COUNTS,
+    DEPTH,
+    EXACT,
+    KINDS,
+    LOAD,
+    SCENES,
+    Kind,
+    Scenes,
+    drawn,
+    for_kinds,
+    one_of,
+    rescaled,
+    rng_of,
+    some,
+)
 from .promises import (
     CLOSE,
     NO_VALUE,
@@ -28,7 +43,7 @@ from .theory import FORCE, Curve, stiffness
 @for_kinds(KINDS)
 def test_the_same_problem_in_other_numbers(kind: Kind) -> None:
     """Three numbers decide everything, among them M = theta(k, nu) E*/c0^k; what has no amplitude is not there."""
-    scenes, found = drawn(kind)
+    scenes, found = (some(values, slice(SCENES // 2)) for values in drawn(kind))
     rng, k, size = rng_of(f"similar {kind.name}"), scenes["k"], found["status"].size
     c = 2.0 ** rng.integers(-3, 4, size)
     others = {"similar": (kind, rescaled(kind, scenes, k, c), rescaled(kind, found, k, c))}
@@ -68,7 +83,7 @@ def test_parts_are_all_that_is_lost(kind: Kind) -> None:
 
 @for_kinds([kind for kind in EXACT if kind.control != "load"])
 def test_the_losses_are_the_loop_integral(kind: Kind) -> None:
-    scenes, found = (some(values, slice(80)) for values in drawn(kind))
+    scenes, found = drawn(kind)
     residual = kind.solve(scenes, ["energy_residual"])["energy_residual"]
     known, limit = np.isfinite(residual), errors(kind, scenes, found)["energy_residual"]
     assert known.mean() > 0.5
@@ -100,7 +115,7 @@ def test_rims_beside_each_other(kind: Kind) -> None:
 def test_a_turn_is_a_rim_where_it_turns(kind: Kind) -> None:
     scenes, found = drawn(kind)
     turned = (found["turning_radius"] > 0) & (found["turning_radius"] < scenes["a_max_over_R"])
-    assert turned.sum() >= 10
+    assert turned.mean() > 0.06
     scenes, found = some(scenes, turned), some(found, turned)
     rims = {name: values for name, values in scenes.items() if name != kind.turn}
     other = replace(kind, turn="").solve(rims | {"a_max_over_R": found["turning_radius"]})
@@ -113,7 +128,7 @@ def reached_by_loading(kind: Kind, turn: str, rng: np.random.Generator) -> tuple
     """Numbers of scenes, radii on their drawn loading paths, and depths or loads there that were not met before."""
     scenes, found = drawn(kind)
     turns = []
-    for i in rng.permutation(np.flatnonzero((found["loading_jumps"] > 0) & (found["loading_jumps"] < 3000)))[:24]:
+    for i in rng.permutation(np.flatnonzero((found["loading_jumps"] > 0) & (found["loading_jumps"] < 3000)))[:8]:
         path, _ = draw_curves(one_of(scenes, i), ["path"], **kind.how)
         loading = path["path_unloading"] == 0
         a, on = path["path_contact_radius"][loading], path["path_jump"][loading] == 0
@@ -146,7 +161,7 @@ def test_a_turn_at_what_loading_reaches_is_a_rim_there(kind: Kind, turn: str) ->
 @for_kinds(EXACT)
 def test_no_drawn_state_pulls_harder_than_the_pull_off(kind: Kind) -> None:
     scenes, found = drawn(kind)
-    for i in np.flatnonzero(is_sure(found) & (found["turning_radius"] < np.inf))[:40]:
+    for i in np.flatnonzero(is_sure(found) & (found["turning_radius"] < np.inf))[:12]:
         curve, _ = draw_curves(one_of(scenes, i), ["equilibrium"], **kind.how)
         inside = curve["contact_radius"] <= found["turning_radius"][i]
         allowed = errors(kind, some(scenes, [i]), some(found, [i]))["pull_off_force"][0]
@@ -159,7 +174,7 @@ def test_the_drawn_path(kind: Kind) -> None:
     scenes, found = drawn(kind)
     few = found["loading_jumps"] < 3000  # the most that every kind can draw is a few times that
     sure = np.flatnonzero(few & is_sure(found))
-    for i in rng_of(f"path {kind.name}").permutation(sure)[:6]:
+    for i in rng_of(f"path {kind.name}").permutation(sure)[:4]:
         scene, values, own = one_of(scenes, i), some(found, [i]), some(scenes, [i])
         path, status = draw_curves(scene, ["path", "jumps"], **kind.how)
         assert status & NO_VALUE == 0

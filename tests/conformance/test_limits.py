@@ -9,7 +9,7 @@ import pytest
 from gradhesion.core import solve
 from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
 
-from .kinds import EXACT, SINES, Kind, Scenes, drawn, for_kinds, some
+from .kinds import EXACT, Kind, Scenes, drawn, for_kinds
 from .promises import SHARE, agree, errors, work_size
 from .theory import stiffness, stretch, wave_size
 
@@ -49,12 +49,12 @@ def test_smooth_cycles_have_their_closed_forms(kind: Kind) -> None:
 @for_kinds([kind for kind in EXACT if kind.control == "machine"])
 def test_a_stiff_machine_prescribes_the_depth(kind: Kind) -> None:
     """What is prescribed differs by P/S from the depth: energies differ in proportion to 1/S."""
-    scenes = some(drawn(kind)[0], slice(60))
+    scenes = drawn(kind)[0]
     plain = replace(kind, control="displacement")
     expected = plain.solve({name: values for name, values in scenes.items() if name != "machine_stiffness"})
     bound = work_size(plain, scenes, scenes["a_max_over_R"])
     for stiff in (1e6, 1e9, 1e12):
-        found = kind.solve(scenes | {"machine_stiffness": np.full(60, stiff)})
+        found = kind.solve(scenes | {"machine_stiffness": np.full_like(scenes["k"], stiff)})
         # a turn may pass a fold that it just does not pass under the other control
         same = np.abs(found["turning_radius"] - expected["turning_radius"]) <= 1e-3 * scenes["a_max_over_R"]
         assert same.mean() > 0.9
@@ -67,7 +67,7 @@ def test_a_stiff_machine_prescribes_the_depth(kind: Kind) -> None:
 def test_a_soft_machine_prescribes_the_load(kind: Kind) -> None:
     """All but the last jump, whose energy grows as 1/S."""
     scenes, expected = drawn(kind)
-    soft = replace(kind, control="machine").solve(scenes | {"machine_stiffness": np.full(160, 1e-13)})
+    soft = replace(kind, control="machine").solve(scenes | {"machine_stiffness": np.full_like(scenes["k"], 1e-13)})
     agree(kind, scenes, soft, expected, ["pull_off_force", "loading_jumps", "unloading_jumps"])
     bound = work_size(kind, scenes, scenes["a_max_over_R"])
     assert (np.abs(soft["loading_energy"] - expected["loading_energy"]) <= 1e-8 * bound).all()
@@ -81,36 +81,6 @@ def short(k: float, chi: float, ratio: float) -> Scenes:
     A = chi * float(stretch(k, M) / wave_size(k, 1.0, ratio * length))
     scene = SMOOTH | {"k": k, "nu": nu, "lambda_over_R": ratio * length, "A": A, "a_max_over_R": 4.0 * length}
     return scene | {"mean": ratio * A / length}  # the mean height lambda A over L^2
-
-
-@pytest.mark.parametrize("k", [0.0, 0.31, 0.8])
-@pytest.mark.parametrize("angle", [0.0, 0.9, math.pi / 2])
-def test_short_waves_follow_their_envelopes_whatever_their_phase(k: float, angle: float) -> None:
-    """Force -> (3 + k)/3 (1 + chi)^2 in proportion to lambda, for a cosine, a sine and what is between.
-
-    The envelopes leave out the mean height lambda A of a cosine, by which the depth of the jump into contact is moved.
-    """
-    kind, off = Kind(waves=((1, math.cos(angle), math.sin(angle)),)), []
-    for ratio in (0.2, 0.02, 0.002):
-        scene = short(k, 0.4, ratio)
-        found, even = kind.solve(scene), replace(kind, solver="envelope").solve(scene)
-        assert float(even["pull_off_force"]) == pytest.approx((3 + k) / 3 * 1.4**2, rel=10 * SHARE)
-        names = ("pull_off_force", "dissipated_energy")
-        off.append([abs(float(found[name]) / float(even[name]) - 1) for name in names])
-        assert off[-1][0] <= ratio
-        assert off[-1][1] <= 3 * ratio + scene["mean"]
-    assert (np.array(off[2]) <= 0.3 * np.array(off[0])).all(), off
-
-
-@pytest.mark.parametrize("k", [0.0, 0.31, 0.8, 1.0])
-def test_the_asymptotic_form_is_the_limit_of_the_exact_one(k: float) -> None:
-    off = []
-    for ratio in (0.1, 0.01, 0.001):
-        values = [Kind(solver=solver, waves=SINES).solve(short(k, 0.4, ratio)) for solver in ("exact", "asymptotic")]
-        names = ("pull_off_force", "loading_energy", "unloading_energy")
-        off.append(max(abs(float(values[0][name]) / float(values[1][name]) - 1) for name in names))
-    assert off[2] < 0.01
-    assert off[2] < 0.2 * off[1] < 0.04 * off[0] or off[2] < 1e-4, off
 
 
 @pytest.mark.parametrize("k", [0.0, 0.31, 0.8])
@@ -129,8 +99,8 @@ def test_the_pattern_that_has_the_load_of_short_waves(k: float, ratio: float) ->
 @for_kinds([kind for kind in EXACT if kind.ratio])
 def test_a_tiny_ratio_is_none(kind: Kind) -> None:
     """Closing without adhesion is the limit: sqrt(Gamma) = 1e-12 is what enters depth and load."""
-    scenes = some(drawn(kind)[0], slice(60))
-    none, tiny = (kind.solve(scenes | {"closing_ratio": np.full(60, ratio)}) for ratio in (0.0, 1e-24))
+    scenes = drawn(kind)[0]
+    none, tiny = (kind.solve(scenes | {"closing_ratio": np.full_like(scenes["k"], ratio)}) for ratio in (0.0, 1e-24))
     same = np.abs(none["turning_radius"] - tiny["turning_radius"]) <= 1e-3 * scenes["a_max_over_R"]
     assert same.mean() > 0.9
     for name in ("dissipated_energy", "pull_off_force", "delta_max"):

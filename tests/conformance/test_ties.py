@@ -8,7 +8,7 @@ from scipy.interpolate import CubicSpline
 
 from gradhesion.core import FLAGS, draw_curves
 
-from .kinds import COUNTS, EXACT, Kind, Scenes, drawn, for_kinds, one_of, rng_of, some
+from .kinds import BY_NAME, COUNTS, EXACT, SCENES, Kind, Scenes, drawn, for_kinds, one_of, rng_of, some
 from .promises import CLOSE, has
 from .theory import Curve
 
@@ -17,7 +17,7 @@ NOT_ONE = FLAGS["loading_contact_not_one_disc"]
 
 @for_kinds(EXACT)
 def test_random_scenes_are_close_to_no_jump(kind: Kind) -> None:
-    """Ties within 1e-10 among some hundred decisions of 160 scenes: once in 10,000 seeds."""
+    """Ties within 1e-10 among some hundred decisions: once in 10,000 seeds."""
     assert not has(drawn(kind)[1], CLOSE).any()
 
 
@@ -28,16 +28,17 @@ def bisected(kind: Kind, scenes: Scenes, name: str, output: str) -> list[Scenes]
         return kind.solve(scenes | {name: amount}, [output])[output].astype(float)
 
     least = 0.5 if output in COUNTS else 0.02 * scenes["a_max_over_R"]
-    low, high = np.array(scenes[name], dtype=float), 1.12 * scenes[name]
+    use = np.abs(value(scenes[name]) - value(1.12 * scenes[name])) > least
+    scenes, least = some(scenes, use), np.broadcast_to(least, use.shape)[use]
+    low, high = scenes[name], 1.12 * scenes[name]
     first, last = value(low), value(high)
-    use = np.abs(first - last) > least
     for _ in range(64):
         middle = 0.5 * (low + high)
         found = value(middle)
         left = np.abs(found - first) > (least if output in COUNTS else np.abs(found - last))
         high, last = np.where(left, middle, high), np.where(left, found, last)
         low, first = np.where(left, low, middle), np.where(left, first, found)
-    use &= (np.abs(first - last) > least) & (high - low <= 4e-16 * high)
+    use = (np.abs(first - last) > least) & (high - low <= 4e-16 * high)
     return [some(scenes | {name: end}, use) for end in (low, high)]
 
 
@@ -46,22 +47,17 @@ def bisected(kind: Kind, scenes: Scenes, name: str, output: str) -> list[Scenes]
 def test_scenes_on_a_tie_are_close_to_a_jump(kind: Kind, at_1: bool) -> None:
     """Counts, and the place of the pull-off, are promised without the bit: at two neighbouring doubles they may differ."""
     scenes, tied = drawn(kind)[0], 0
-    scenes = some(scenes, np.flatnonzero((scenes["k"] == 1) == at_1)[:40])
-    steps = (
-        ("A", COUNTS[0]),
-        ("lambda_over_R", COUNTS[1]),
-        ("a_max_over_R", COUNTS[0]),
-        ("lambda_over_R", "pull_off_radius"),
-    )
-    for name, output in steps:
-        for ends in bisected(kind, scenes, name, output) if scenes["k"].size else ():
+    scenes = some(scenes, np.flatnonzero((scenes["k"] == 1) == at_1)[: SCENES // 2])
+    steps = (("A", COUNTS[0]), ("lambda_over_R", COUNTS[1]), ("lambda_over_R", "pull_off_radius"))
+    for name, output in steps if scenes["k"].size else ():
+        for ends in bisected(kind, scenes, name, output):
             if ends["A"].size:
                 on = has(kind.solve(ends, [output]), CLOSE)
                 assert on.all(), some(ends, ~on)
                 apart = has(kind.solve(ends | {name: ends[name] * (1 + 1e-6)}, [output]), CLOSE)
-                assert apart.sum() <= 0.1 * apart.size
+                assert apart.mean() <= 0.1
                 tied += on.size
-    assert tied > 6 or at_1
+    assert tied > 3 or at_1
 
 
 def least_gap(kind: Kind, scene: Scenes) -> float:
@@ -102,15 +98,22 @@ def beside_the_step(kind: Kind, scenes: Scenes) -> list[Scenes]:
     return [some(scenes | {"A": A}, last & ~first) for A in (0.99 * low, 1.01 * high)]
 
 
-@for_kinds(["cosine", "cosine, turned at a depth", "two harmonics", "cosine, machine", "exponent 1.5", "cosine, load"])
-@pytest.mark.parametrize("at_1", [False, True])
+DISCS = ["cosine", "cosine, load", "cosine, machine", "cosine, turned at a depth", "two harmonics", "exponent 1.5"]
+DISCS += ["two harmonics, turned at a depth", "cosine, turned at a load", "pattern of toughness"]
+
+
+@pytest.mark.parametrize(
+    ("kind", "at_1"), [*((BY_NAME[name], False) for name in DISCS), *((BY_NAME[name], True) for name in DISCS[:3])],
+    ids=lambda value: value.name if isinstance(value, Kind) else str(value),
+)  # fmt: skip
 def test_one_disc_against_the_gap_by_brute_force(kind: Kind, at_1: bool) -> None:
     """Where it is decided, from which random scenes are far; at k = 1 the gap is that of the profile at each radius."""
     rng, decided = rng_of(f"disc {kind.name}"), {True: 0, False: 0}
-    own = some(drawn(kind)[0], slice(60)) | ({"k": np.ones(60), "nu": np.full(60, 0.5)} if at_1 else {})
+    own = some(drawn(kind)[0], slice(SCENES // 2))
+    own = own | ({"k": np.ones_like(own["k"]), "nu": np.full_like(own["k"], 0.5)} if at_1 else {})
     for scenes in beside_the_step(kind, own):
         flagged = has(kind.solve(scenes), NOT_ONE)
-        for i in rng.permutation(flagged.size)[:8]:
+        for i in rng.permutation(flagged.size)[:6]:
             least, flag = least_gap(kind, one_of(scenes, i)), bool(flagged[i])
             if abs(least) > 2e-3 and not touches_elsewhere(kind, one_of(scenes, i)):  # nearer, radii between decide
                 assert (least < 0) == flag, (least, one_of(scenes, i))
@@ -121,6 +124,6 @@ def test_one_disc_against_the_gap_by_brute_force(kind: Kind, at_1: bool) -> None
 @for_kinds(["sines, load", "no first harmonic"])
 def test_a_punch_that_touches_elsewhere_first_is_flagged(kind: Kind) -> None:
     scenes, found = drawn(kind)
-    lower = np.array([touches_elsewhere(kind, one_of(scenes, i)) for i in range(160)])
+    lower = np.array([touches_elsewhere(kind, one_of(scenes, i)) for i in range(found["status"].size)])
     assert lower.any()
     assert has(found, NOT_ONE)[lower].all()

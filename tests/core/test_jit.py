@@ -75,40 +75,46 @@ def shared() -> Iterator[Path]:
 
 
 @pytest.fixture
-def tree(tmp_path: Path) -> Path:
-    """A copy of the core, in a package of its own."""
+def kept(shared: Path) -> Path:
+    """A folder of this user, two files deep, that others can read."""
+    inner = shared / "kernels" / "core"
+    inner.mkdir(parents=True)
+    for name in ("one.nbi", "one.nbc"):
+        (inner / name).touch()
+    for path in (inner, inner.parent):
+        path.chmod(0o755)
+    return inner.parent
+
+
+def test_kernels_are_found_again_compiled_anew_for_other_sources_and_kept_for_a_month(tmp_path: Path) -> None:
+    cache, script = tmp_path / "cache", tmp_path / "program.py"
+    days = {"kernels-000000000000000a": 31, "kernels-000000000000000b": 29, "kernels-old": 31, "numba": 31}
+
+    def run(tree: Path | None = None) -> dict[str, Any]:
+        return ended(script, tree, NUMBA_CACHE_DIR=str(cache))
+
+    first = run()
+    assert (first["compiled"], first["found"], first["why"]) == (1, 0, "")
+    assert Path(first["folder"]).parent == Path(first["own"]).parent == cache, "the user's own stay there"
+    assert first["untouched"]
+    for name, age in (days | {Path(first["folder"]).name: 31}).items():
+        (cache / name / "core").mkdir(parents=True, exist_ok=True)
+        then = (cache / name).stat().st_mtime - 86400 * age
+        os.utime(cache / name, (then, then))
+    assert run() == first | {"compiled": 0, "found": 1}, "its own stays, however long nobody used it"
+    assert [name for name in days if not (cache / name).exists()] == ["kernels-000000000000000a"]
     package = tmp_path / "tree" / "gradhesion"
     shutil.copytree(CORE, package / "core", ignore=shutil.ignore_patterns("__pycache__"))
     (package / "__init__.py").touch()
-    return package.parent
-
-
-def test_a_process_finds_what_another_has_compiled_and_leaves_the_kernels_of_the_user_alone(tmp_path: Path) -> None:
-    first, second = (ended(tmp_path / "program.py", NUMBA_CACHE_DIR=str(tmp_path / "cache")) for _ in range(2))
-    assert (first["compiled"], first["found"]) == (1, 0)
-    assert (second["compiled"], second["found"]) == (0, 1)
-    assert Path(first["folder"]).parent == Path(first["own"]).parent == tmp_path / "cache", "the user's own stay there"
-    assert first["untouched"]
-    assert first["why"] == ""
-
-
-def test_a_change_of_any_source_compiles_anew(tree: Path, tmp_path: Path) -> None:
-    def again() -> dict[str, Any]:
-        return ended(tmp_path / "program.py", tree, NUMBA_CACHE_DIR=str(tmp_path / "cache"))
-
-    before = again()
-    source = tree / "gradhesion" / "core" / "problem" / "names.py"  # it has no kernel
-    content = source.read_bytes()
-    source.write_bytes(content + b"\n")
-    after = again()
-    assert after["compiled"] == 1
-    assert after["folder"] != before["folder"]
-    assert after["digest"] != before["digest"]
-    source.write_bytes(content)
-    assert again() == before | {"found": 1, "compiled": 0}
-    here = ended(tmp_path / "program.py", NUMBA_CACHE_DIR=str(tmp_path / "cache"))
-    assert here["digest"] == before["digest"], "the same sources, wherever they stand"
-    assert here["folder"] != before["folder"], "numba keeps code by the path of its source"
+    copied = run(package.parent)
+    assert (copied["compiled"], copied["digest"]) == (1, first["digest"]), "the same sources, wherever they stand"
+    assert copied["folder"] != first["folder"], "numba keeps code by the path of its source"
+    with (package / "core" / "problem" / "names.py").open("a") as source:  # it has no kernel
+        source.write("\n")
+    changed = run(package.parent)
+    assert changed["compiled"] == 1
+    assert changed["folder"] != copied["folder"]
+    assert changed["digest"] != copied["digest"]
 
 
 def test_an_import_never_fails(tmp_path: Path) -> None:
@@ -123,54 +129,46 @@ def test_an_import_never_fails(tmp_path: Path) -> None:
     (tmp_path / f"gradhesion-{os.getuid()}").rename(tmp_path / "aside")
     (tmp_path / f"gradhesion-{os.getuid()}").touch()
     nowhere = ended(tmp_path / "program.py", TMPDIR=str(tmp_path), **blocked)
-    assert nowhere["folder"] == "None"
-    assert nowhere["found"] == 0
+    assert (nowhere["folder"], nowhere["found"]) == ("None", 0)
     assert nowhere["why"]
 
 
-def test_folders_of_other_versions_go_after_a_month(tmp_path: Path) -> None:
-    days = {"kernels-000000000000000a": 31, "kernels-000000000000000b": 29, "kernels-old": 31, "numba": 31}
-    for name, age in days.items():
-        (tmp_path / name / "core").mkdir(parents=True)
-        then = (tmp_path / name).stat().st_mtime - 86400 * age
-        os.utime(tmp_path / name, (then, then))
-    used = Path(ended(tmp_path / "program.py", NUMBA_CACHE_DIR=str(tmp_path))["folder"])
-    then = used.stat().st_mtime - 86400 * 31
-    os.utime(used, (then, then))
-    again = ended(tmp_path / "program.py", NUMBA_CACHE_DIR=str(tmp_path))
-    assert (again["folder"], again["compiled"]) == (str(used), 0), "its own stays, however long nobody used it"
-    assert [name for name in days if not (tmp_path / name).exists()] == ["kernels-000000000000000a"]
-
-
-@pytest.fixture
-def kept(shared: Path) -> Path:
-    """A folder of this user, two files deep, that others can read."""
-    inner = shared / "kernels" / "core"
-    inner.mkdir(parents=True)
-    for name in ("one.nbi", "one.nbc"):
-        (inner / name).touch()
-    for path in (inner, inner.parent):
-        path.chmod(0o755)
-    return inner.parent
+@as_root
+def test_a_pickle_of_another_user_is_not_run(shared: Path, tmp_path: Path) -> None:
+    """Indices that run a command when they are read stand where the program looks for its own."""
+    script, where = tmp_path / "program.py", {"NUMBA_CACHE_DIR": str(shared), "XDG_CACHE_HOME": str(shared / "home")}
+    folder = Path(ended(script, **where)["folder"])
+    planted = [*folder.rglob("*.nbi")]
+    assert planted
+    for path in planted:
+        path.write_text(f"cposix\nsystem\n(S'touch {tmp_path / 'run'}'\ntR.")
+        os.chown(path, OTHER, OTHER)
+    found = ended(script, **where)
+    assert not (tmp_path / "run").exists()
+    assert found["folder"] != str(folder)
+    assert str(folder) in found["why"]
+    for path in planted:  # the check of the check: what is ours is read
+        os.chown(path, os.getuid(), -1)
+    assert ended(script, **where)["folder"] == str(folder)
+    assert (tmp_path / "run").exists()
 
 
 def test_what_is_ours_in_a_folder_for_all(kept: Path) -> None:
     assert changeable(kept) == ""
 
 
-@pytest.mark.parametrize("name", [".", "core", "core/one.nbi", "core/one.nbc"])
+NAMES = [".", "core", "core/one.nbi", "core/one.nbc"]
+
+
+@pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("mode", [0o775, 0o757])
 def test_what_others_can_write(kept: Path, name: str, mode: int) -> None:
     (kept / name).chmod(mode)
     assert str(kept / name) in changeable(kept)
+    (kept / "aside").mkdir(mode=0o700)
+    assert str(kept / name) in changeable(kept), "what is closed beside it protects nothing"
     kept.chmod(0o700)
     assert changeable(kept) == "", "they cannot enter"
-
-
-def test_what_is_closed_beside_it_protects_nothing(kept: Path) -> None:
-    (kept / "aside").mkdir(mode=0o700)
-    (kept / "core").chmod(0o777)
-    assert str(kept / "core") in changeable(kept)
 
 
 @pytest.mark.parametrize(
@@ -179,15 +177,12 @@ def test_what_is_closed_beside_it_protects_nothing(kept: Path) -> None:
 def test_a_folder_above_in_which_others_can_rename(shared: Path, kept: Path, mode: int, safe: bool) -> None:
     shared.chmod(mode)
     assert (changeable(kept) == "") == safe
-
-
-def test_the_sticky_bit_of_the_folder_itself_is_no_help(kept: Path) -> None:
     kept.chmod(0o1777)
-    assert str(kept) in changeable(kept)
+    assert (changeable(kept) == "") == (mode == 0o700), "the sticky bit of the folder itself is no help"
 
 
 @as_root
-@pytest.mark.parametrize("name", ["..", ".", "core", "core/one.nbi", "core/one.nbc"])
+@pytest.mark.parametrize("name", ["..", *NAMES])
 def test_what_belongs_to_another_user(shared: Path, kept: Path, name: str) -> None:
     os.chown(kept / name, OTHER, OTHER)
     theirs = str(shared if name == ".." else kept / name)
@@ -202,43 +197,3 @@ def test_links(shared: Path, kept: Path) -> None:
     assert str(shared / "link") in changeable(shared / "link")
     (kept / "core" / "two.nbi").symlink_to(kept / "core" / "one.nbi")
     assert str(kept / "core" / "two.nbi") in changeable(kept)
-
-
-BELOW = {"NUMBA_CACHE_DIR": ".", "XDG_CACHE_HOME": "gradhesion", "TMPDIR": f"gradhesion-{os.getuid()}"}
-"""Where kernels are kept in a folder that the environment names."""
-
-
-def through(route: str, shared: Path, script: Path) -> dict[str, Any]:
-    """Run the program with its cache in a folder, by a variable of the environment."""
-    elsewhere = __file__ if route == "TMPDIR" else str(shared / "home")  # a file is in the way
-    return ended(script, **{"XDG_CACHE_HOME": elsewhere, route: str(shared)})
-
-
-@as_root
-@pytest.mark.parametrize(
-    ("route", "theirs"),
-    [
-        ("NUMBA_CACHE_DIR", "the files"),
-        ("XDG_CACHE_HOME", "the folder"),
-        ("TMPDIR", "the folder above"),
-        ("NUMBA_CACHE_DIR", ""),  # the check of the check: what is ours is read
-    ],
-)
-def test_a_pickle_of_another_user_is_not_run(shared: Path, tmp_path: Path, route: str, theirs: str) -> None:
-    """Indices that run a command when they are read stand where the program looks for its own."""
-    above, script = shared / BELOW[route], tmp_path / "program.py"
-    folder = Path(through(route, shared, script)["folder"])
-    assert folder.parent == above.resolve()
-    planted = [*folder.rglob("*.nbi")]
-    assert planted
-    for path in planted:
-        path.write_text(f"cposix\nsystem\n(S'touch {tmp_path / 'run'}'\ntR.")
-    files = [path for path in folder.rglob("*") if path.is_file()]
-    owned = {"": [], "the files": files, "the folder": [folder, *files], "the folder above": [above, folder, *files]}
-    for path in owned[theirs]:
-        os.chown(path, OTHER, OTHER)
-    found = through(route, shared, script)
-    assert (tmp_path / "run").exists() == (not theirs)
-    assert (found["folder"] == str(folder)) == (not theirs)
-    if theirs:
-        assert str(above) in found["why"]

@@ -14,8 +14,6 @@ Scenes: TypeAlias = dict[str, NDArray[np.float64]]
 EXPONENTS: Final = (0.0, 1e-16, 1e-12, 1e-6, 0.5, 1 - 1e-6, 1 - 1e-12, 1 - 2.0**-53, 1.0)
 """Exponents in every draw, beside random ones; each has a table of its own."""
 POOL: Final = 40
-MOST_WAVES: Final = math.inf
-"""Largest a_max/lambda of a draw, and of the place where folds end."""
 
 
 def log_uniform(rng: np.random.Generator, low: float, high: float, size: int) -> NDArray[np.float64]:
@@ -54,7 +52,7 @@ def groups(scenes: Scenes) -> dict[str, NDArray[np.float64]]:
     return {"L": m ** (-1 / (3 + k)), "chi": chi, "waves": waves, "jump_in": loading}
 
 
-def hostile(seed: int, size: int, most_waves: float = MOST_WAVES) -> Scenes:
+def hostile(seed: int, size: int, most_waves: float = math.inf) -> Scenes:
     """Draw every parameter by itself, over twenty and more decades; a tenth is smooth, a tenth unbounded."""
     rng = np.random.default_rng([seed, 1])
     scenes = _materials(rng, size) | {
@@ -69,7 +67,7 @@ def hostile(seed: int, size: int, most_waves: float = MOST_WAVES) -> Scenes:
     return limited(scenes, most_waves)
 
 
-def eventful(seed: int, size: int, most_waves: float = MOST_WAVES) -> Scenes:
+def eventful(seed: int, size: int, most_waves: float = math.inf) -> Scenes:
     """Draw the similarity groups around where folds are, on materials over all decades."""
     rng = np.random.default_rng([seed, 2])
     scenes = _materials(rng, size)

@@ -9,16 +9,23 @@ import argparse
 import math
 import sys
 import time
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
 from gradhesion.core import FAILED, OUTPUTS, solve
 from gradhesion.twin import stated
+from gradhesion.twin.general import PLAIN, Shape
 from gradhesion.twin.scene import waves_to_follow
 from tests.stress.draw import Scenes, eventful, hostile
 
 from .draw_general import general_scene, known_to_the_core
+
+Case = tuple[dict[str, float], dict[str, Any], Shape]
+"""A scene, what else `solve` is given, and its shape for the twin."""
 
 
 @dataclass
@@ -29,12 +36,13 @@ class Comparison:
     beyond: int = 0
     unsure: int = 0
     near: int = 0
-    found: dict[str, list[tuple[float, float, int]]] = field(default_factory=lambda: {name: [] for name in OUTPUTS})
+    found: dict[str, list[tuple[float, float, int]]] = field(default_factory=lambda: defaultdict(list))
 
-    def take(self, values: dict[str, float], expected: dict[str, stated.Expected], scene: int) -> None:
+    def take(self, values: dict[str, Any], expected: dict[str, stated.Expected], scene: int) -> None:
         """Add a scene."""
+        self.scenes += 1
         for name, of in expected.items():
-            deviation = stated.deviation(values[name], of)
+            deviation = stated.deviation(float(values[name]), of)
             if of.near and deviation > of.error:
                 self.near += 1
                 continue
@@ -58,84 +66,66 @@ class Comparison:
         return max(share for rows in self.found.values() for share, _, _ in rows)
 
 
-def one(scenes: Scenes, i: int) -> dict[str, float]:
-    """Give a scene of a draw."""
-    return {name: float(values[i]) for name, values in scenes.items()}
+def of_one_cosine(scenes: Scenes) -> list[Case]:
+    """Give the cases of a draw of the stress suite."""
+    rows = zip(*(column.tolist() for column in scenes.values()), strict=True)
+    return [(dict(zip(scenes, row, strict=True)), {}, PLAIN) for row in rows]
 
 
-def compare(
-    scenes: Scenes, waves: tuple[float, float] = (0.0, stated.MOST_WAVES), most: float = math.inf
-) -> Comparison:
-    """Solve the scenes that have that many waves both ways, up to `most` of them."""
-    values = solve(scenes, OUTPUTS)
-    made = Comparison()
-    for i in np.argsort(scenes["k"], kind="stable"):
-        if made.scenes >= most:
-            break
-        scene = one(scenes, i)
-        if values["status"][i] & FAILED or not waves[0] <= waves_to_follow(scene, cycle=True) <= waves[1]:
-            made.beyond += 1
-            continue
-        try:
-            expected = stated.expected(scene, OUTPUTS, "exact")
-        except ArithmeticError:
-            made.unsure += 1
-            continue
-        made.scenes += 1
-        made.take({name: float(values[name][i]) for name in expected}, expected, int(i))
+def of_any_kind(seed: int, count: int) -> list[Case]:
+    """Draw cases of any profile and control."""
+    rng, made = np.random.default_rng(seed), []
+    for _ in range(count):
+        scene, shape = general_scene(rng)
+        made.append((scene, known_to_the_core(shape), shape))
     return made
 
 
-def compare_general(seed: int, count: int, most_waves: float, most: float = math.inf) -> Comparison:
-    """Solve scenes of any profile and control both ways, up to `most` of them."""
+def compare(
+    cases: Iterable[Case],
+    waves: tuple[float, float] = (0.0, stated.MOST_WAVES),
+    most: float = math.inf,
+    names: Sequence[str] = OUTPUTS,
+) -> Comparison:
+    """Solve the scenes that have that many waves both ways, up to `most` of them; those of one k share its functions."""
     made = Comparison()
-    rng = np.random.default_rng(seed)
-    for i in range(count):
+    for i, (scene, how, shape) in sorted(enumerate(cases), key=lambda case: case[1][0]["k"]):
         if made.scenes >= most:
             break
-        scene, shape = general_scene(rng)
-        values = solve(scene, OUTPUTS, **known_to_the_core(shape))
         try:
-            if values["status"] & FAILED or waves_to_follow(scene, shape, cycle=True) > most_waves:
+            values = solve(scene, names, **how)
+            if values["status"] & FAILED or not waves[0] <= waves_to_follow(scene, shape, cycle=True) <= waves[1]:
                 made.beyond += 1
                 continue
-            expected = stated.expected(scene, OUTPUTS, "exact", shape)
+            made.take(values, stated.expected(scene, names, "exact", shape), i)
         except ArithmeticError:
             made.unsure += 1
-            continue
-        made.scenes += 1
-        made.take({name: float(values[name]) for name in expected}, expected, i)
     return made
 
 
 def main() -> int:
-    """Compare both draws and print what came out."""
+    """Compare the draws and print what came out."""
     parser = argparse.ArgumentParser(description="The solver against the twin.")
     parser.add_argument("--scenes", type=int, default=5000, help="scenes of each draw")
     parser.add_argument("--seed", type=int, default=2013)
     parser.add_argument("--waves", type=float, nargs=2, default=(0.0, 60.0), metavar=("FROM", "TO"))
     parser.add_argument("--general", action="store_true", help="scenes of any profile and control")
     arguments = parser.parse_args()
-    if arguments.general:
+    given, worst = (arguments.seed, arguments.scenes), 0.0
+    draws = {"general": of_any_kind(*given)} if arguments.general else {
+        draw.__name__: of_one_cosine(draw(*given)) for draw in (hostile, eventful)
+    }  # fmt: skip
+    for name, cases in draws.items():
         start = time.perf_counter()
-        made = compare_general(arguments.seed, arguments.scenes, arguments.waves[1])
-        took = time.perf_counter() - start
-        print(f"{made.scenes:,} scenes in {took:.0f} s, {made.beyond:,} beyond, {made.unsure} unsure, {made.near} near")
-        print("\n".join(made.told()))
-        return 1 if made.worst > 1.0 else 0
-    worst = 0.0
-    for draw in (hostile, eventful):
-        start = time.perf_counter()
-        scenes = draw(arguments.seed, arguments.scenes)
-        made = compare(scenes, tuple(arguments.waves))
+        made = compare(cases, tuple(arguments.waves))
         print(
-            f"{draw.__name__}: {made.scenes:,} scenes compared in {time.perf_counter() - start:.0f} s, {made.beyond:,} with "
+            f"{name}: {made.scenes:,} scenes compared in {time.perf_counter() - start:.0f} s, {made.beyond:,} with "
             f"other numbers of waves, {made.unsure:,} unsure, {made.near} values may be either of two"
         )
         print("\n".join(made.told()))
-        for name, rows in made.found.items():
-            if "jumps" not in name:
-                print(f"  worst {name}: {one(scenes, max(rows)[2])}")
+        for output, rows in made.found.items():
+            if "jumps" not in output:
+                print(f"  worst {output}: {cases[max(rows)[2]][0]}")
         worst = max(worst, made.worst)
     return 1 if worst > 1.0 else 0
 

@@ -56,8 +56,6 @@ def test_theta() -> None:
 @pytest.mark.parametrize("index", [3, 8, 30, 33, 34, 44, 47])
 def test_reference(index: int) -> None:
     """Reference scenes to the last bits of their doubles; k = 0.247, 0.109, 1, 0.999, 1e-6, 0.5, 1e-6."""
-    if not REFERENCE.exists():
-        pytest.skip("no reference scenes in tests/reference")
     scene = json.loads(REFERENCE.read_text(encoding="utf-8"))["scenes"][index]
     solution = solve(scene["parameters"])
     for name, value in scene["expected"].items():
@@ -69,7 +67,7 @@ def test_reference(index: int) -> None:
 @pytest.mark.parametrize("group", ["random", "hard"])
 def test_loop_integral(group: str) -> None:
     """The drops at the jumps sum to the loop integral, also where adhesion is weak and some are negative."""
-    for row in [r for r in stored() if r["group"] == group][::20][:12]:
+    for row in [r for r in stored() if r["group"] == group][::20][:8]:
         curve = Curve({name: float(str(row[name])) for name in PARAMETERS})
         path, _ = cycle(curve)
         drops = [dissipated(curve, jump) for jump in path.loading + path.unloading]
@@ -79,7 +77,7 @@ def test_loop_integral(group: str) -> None:
 
 def test_stored_values() -> None:
     """Some stored rows, solved again, give the same doubles."""
-    for row in stored()[:2100:70]:
+    for row in stored()[:2100:175]:
         solution = solve({name: float(str(row[name])) for name in PARAMETERS})
         for name in ("pull_off_force", "pull_off_radius", "dissipated_energy", "delta_max", "delta_jump_out"):
             value = getattr(solution, name)
@@ -127,10 +125,9 @@ def test_what_is_solved_does_not_depend_on_the_outputs() -> None:
     assert set(everything) == stated.KNOWN
     assert float(alone.pop("pull_off_force").value) == float(everything["pull_off_force"].value)
     assert not alone
-    assert (
-        stated.deviation(float(everything["delta_max"].value), everything["delta_max"]) <= everything["delta_max"].error
-    )
-    assert stated.deviation(math.nan, everything["delta_max"]) == math.inf
+    depth = everything["delta_max"]
+    assert stated.deviation(float(depth.value), depth) <= depth.error
+    assert stated.deviation(math.nan, depth) == math.inf
     assert stated.deviation(math.inf, stated.Expected(arb("inf"), 0.0)) == 0.0
 
 

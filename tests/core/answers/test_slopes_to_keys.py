@@ -8,36 +8,21 @@ import pytest
 from gradhesion.core import PARAMETERS, SENSITIVITIES, solve
 from gradhesion.core.answers.slopes_to_keys import POWERS, slopes_to_keys
 from gradhesion.core.closed.reduced import parameters_from, scales_in_si
+from tests.core.scene import ENDLESS, Scene, scene_of
 
-PLAIN: dict[str, Any] = dict(zip(PARAMETERS, (0.31, 0.27, 430.0, 0.013, 0.31, 0.023, 0.7), strict=True))
-REDUCED: dict[str, Any] = {
-    "k": 0.31,
-    "nu": 0.27,
-    "modulus": 430.0,
-    "c0_over_R": 0.013,
-    "lambda_over_L": 2.1,
-    "chi": 0.4,
-    "a_max_over_L": 6.0,
-}
-UNITS: dict[str, Any] = {
-    "k": 0.31,
-    "nu": 0.27,
-    "R": 1e-6,
-    "E": 8e8,
-    "work_of_adhesion": 0.05,
-    "c0": 2e-8,
-    "wavelength": 1.7e-7,
-    "amplitude": 4e-9,
-    "a_max": 7e-7,
-}
+FORCE = SENSITIVITIES[0]
+PLAIN = scene_of(0.31, 0.27, 430.0, 0.013, 0.31, 0.023, 0.7)
+REDUCED = dict(zip((*PARAMETERS[:4], "lambda_over_L", "chi", "a_max_over_L"), (0.31, 0.27, 430.0, 0.013, 2.1, 0.4, 6.0), strict=True))  # fmt: skip
+UNITS = {"k": 0.31, "nu": 0.27, "R": 1e-6, "E": 8e8, "work_of_adhesion": 0.05, "c0": 2e-8}
+UNITS |= {"wavelength": 1.7e-7, "amplitude": 4e-9, "a_max": 7e-7}
 
 
-@pytest.mark.parametrize("given", [PLAIN, REDUCED, UNITS])
+@pytest.mark.parametrize("given", [PLAIN, REDUCED, UNITS], ids=["plain", "reduced", "units"])
 @pytest.mark.parametrize("output", SENSITIVITIES)
-def test_against_differences(given: dict[str, Any], output: str) -> None:
+def test_against_differences(given: Scene, output: str) -> None:
     value = output.removesuffix("_sensitivity")
 
-    def values(scene: dict[str, Any]) -> Any:
+    def values(scene: Scene) -> Any:
         found = solve(parameters_from(scene), [value])[value]
         if "R" not in scene:
             return found
@@ -55,25 +40,21 @@ def test_against_differences(given: dict[str, Any], output: str) -> None:
 
 
 def test_what_is_zero_has_no_slope_and_what_has_no_influence_none() -> None:
-    ball = PLAIN | {"k": 0.0, "A": 0.0, "a_max_over_R": np.inf}
-    found = solve(ball, SENSITIVITIES[:1])[SENSITIVITIES[0]]
-    slopes = slopes_to_keys(ball, ["A", "c0_over_R", "a_max_over_R"], PARAMETERS, 1.0, found, {})
+    ball = PLAIN | ENDLESS | {"k": 0.0, "A": 0.0}
+    slopes = slopes_to_keys(ball, ["A", "c0_over_R", "a_max_over_R"], PARAMETERS, 1.0, solve(ball, [FORCE])[FORCE], {})
     assert np.isnan(slopes["A"])
-    assert slopes["c0_over_R"] == 0.0
-    assert slopes["a_max_over_R"] == 0.0
+    assert slopes["c0_over_R"] == slopes["a_max_over_R"] == 0.0
 
 
-def test_at_the_ends_of_k_slopes_are_inwards() -> None:
+@pytest.mark.parametrize(("k", "nu", "side"), [(0.0, 0.3, 1.0), (1.0, 0.5, -1.0)])
+def test_at_the_ends_of_k_slopes_are_inwards(k: float, nu: float, side: float) -> None:
     """With lambda/L given, lambda follows from k too."""
-    for k, nu in ((0.0, 0.3), (1.0, 0.5)):
-        scene = REDUCED | {"k": k, "nu": nu}
-        sensitivity = solve(parameters_from(scene), SENSITIVITIES[:1])[SENSITIVITIES[0]]
-        force = solve(parameters_from(scene), ["pull_off_force"])["pull_off_force"]
-        slope = slopes_to_keys(scene, ["k"], PARAMETERS, force, sensitivity, {})["k"]
-        side, step = (1.0 if k == 0.0 else -1.0), 1e-3
-        ahead = [
-            float(solve(parameters_from(scene | {"k": k + side * i * step}), ["pull_off_force"])["pull_off_force"])
-            for i in range(5)
-        ]
-        exact = side * np.dot([-25.0, 48.0, -36.0, 16.0, -3.0], ahead) / (12.0 * step)
-        assert slope == pytest.approx(exact, rel=1e-6)
+    scene, step = REDUCED | {"k": k, "nu": nu}, 1e-3
+    ahead = [
+        float(solve(parameters_from(scene | {"k": k + side * i * step}), ["pull_off_force"])["pull_off_force"])
+        for i in range(5)
+    ]
+    own = solve(parameters_from(scene), [FORCE])[FORCE]
+    slope = slopes_to_keys(scene, ["k"], PARAMETERS, ahead[0], own, {})["k"]
+    exact = side * np.dot([-25.0, 48.0, -36.0, 16.0, -3.0], ahead) / (12.0 * step)
+    assert slope == pytest.approx(exact, rel=1e-6)

@@ -8,9 +8,9 @@ import pytest
 
 from gradhesion.core import CURVES, draw_curves
 from gradhesion.core.problem.status import NO_VALUE
+from tests.core.scene import scene_of
 
-SCENE = {"k": 0.31, "nu": 0.27, "modulus": 1730.0, "c0_over_R": 0.037, "lambda_over_R": 0.043, "A": 0.0137}
-SCENE |= {"a_max_over_R": 0.47}
+SCENE = scene_of(0.31, 0.27, 1730.0, 0.037, 0.043, 0.0137, 0.47)
 BEYOND = {"k": 0.0164, "nu": -0.09, "modulus": 88.0, "c0_over_R": 0.11, "lambda_over_R": 0.128, "A": 0.167}
 SCENES: dict[str, dict[str, float]] = {
     "wavy": {},

@@ -1,6 +1,5 @@
 """Curves by the printed equations, and how far they are from the chords of drawn points."""
 
-import math
 from collections.abc import Callable
 from typing import Any
 
@@ -8,19 +7,7 @@ import numpy as np
 
 from gradhesion.core import Profile
 from gradhesion.core.equations import general
-from gradhesion.core.problem.material import stiffness
-
-
-def material_of(scene: dict[str, float]) -> float:
-    return float(stiffness(*(scene[name] for name in ("k", "nu", "modulus", "c0_over_R"))))
-
-
-def strengths_of(scene: dict[str, float]) -> tuple[float, float]:
-    """The strengths of adhesion, s, and of the waves, r."""
-    k = scene["k"]
-    wave = scene["lambda_over_R"] ** ((1 + k) / 2)
-    strength = math.pi ** ((1 - k) / 2) * math.gamma((1 + k) / 2) * scene["A"] * wave
-    return math.sqrt(2 ** (1 + k) * math.pi / material_of(scene)), strength
+from tests.core.scene import material_of
 
 
 def series_of(scene: dict[str, float], profile: Profile | None = None) -> tuple[float, list[float], list[float]]:

@@ -5,39 +5,27 @@ import math
 import numpy as np
 import pytest
 
-from gradhesion.core import draw_curves, solve
+from gradhesion.core import Profile, draw_curves, solve
 from gradhesion.core.draw import states
 from gradhesion.core.equations import general, jkr
-from gradhesion.core.problem.material import stiffness
-from gradhesion.core.problem.profile import Harmonic, Profile
+from tests.core.scene import ENDLESS, material_of, profile_of, scene_of
 
-SCENE = {
-    "k": 0.1,
-    "nu": 0.3,
-    "modulus": 500.0,
-    "c0_over_R": 0.01,
-    "lambda_over_R": 0.2,
-    "A": 0.055,
-    "a_max_over_R": 0.45,
-}
+SCENE = scene_of(0.1, 0.3, 500.0, 0.01, 0.2, 0.055, 0.45)
 
 
 def test_named_states_lie_on_the_path() -> None:
     found, status = states.named_states(SCENE)
     path, _ = draw_curves(SCENE, ["path"])
     radius, depth, load = (path[f"path_{name}"] for name in ("contact_radius", "indentation", "load"))
-    back = path["path_unloading"] == 1
-    turn = np.flatnonzero(back)[0] - 1
-    assert found[:, 0].tolist() == [0.45, pytest.approx(depth[turn], rel=1e-12)]
-    lowest = int(np.argmin(load))
-    np.testing.assert_allclose(found[:, 1], [radius[lowest], depth[lowest]], rtol=1e-9)
+    turn = np.flatnonzero(path["path_unloading"] == 1)[0] - 1
     last = int(np.flatnonzero(path["path_jump"] == 1)[-1]) - 1
-    np.testing.assert_allclose(found[:, 2], [radius[last], depth[last]], rtol=1e-9)
+    for state, i in zip(found.T, (turn, int(np.argmin(load)), last), strict=True):
+        np.testing.assert_allclose(state, [radius[i], depth[i]], rtol=1e-9)
     assert status == int(solve(SCENE)["status"])
 
 
 def test_absent_states_are_nan() -> None:
-    unbounded, _ = states.named_states(SCENE | {"a_max_over_R": math.inf})
+    unbounded, _ = states.named_states(SCENE | ENDLESS)
     assert np.isnan(unbounded[:, 0]).all()
     assert np.isfinite(unbounded[:, 1:]).all()
     linear = SCENE | {"k": 1.0, "nu": 0.5, "A": 0.0}  # contact shrinks to a point
@@ -46,16 +34,15 @@ def test_absent_states_are_nan() -> None:
     assert np.isnan(given[:, 1:]).all()
     drawn = states.draw_states(SCENE, given, states.STATE_CURVES)
     assert all(np.isnan(values[1:]).all() and not np.isnan(values[0, 0]) for values in drawn.values())
+    with pytest.raises(ValueError, match="pressures"):
+        states.draw_states(SCENE, given, ["pressures"])
 
 
-@pytest.mark.parametrize(
-    "profile", [Profile(), Profile(exponent=1.7, harmonics=(Harmonic(n=1), Harmonic(n=3, sin=0.2)))]
-)
+@pytest.mark.parametrize("profile", [Profile(), profile_of(1.7, (1, 1.0, 0.0), (3, 0.0, 0.2))])
 def test_the_pressure_carries_the_load(profile: Profile) -> None:
     given = states.equilibrium_states(SCENE, [0.11, 0.31], profile)
     found = states.draw_states(SCENE, given, ["pressure"], profile)
-    M = float(stiffness(0.1, 0.3, 500.0, 0.01))
-    wave = (0.2, *states.series_of(0.055, profile), profile.exponent)
+    M, wave = material_of(SCENE), (0.2, *states.series_of(0.055, profile), profile.exponent)
     for (a, _), r, p in zip(given.T, found["pressure_radius"], found["pressure"], strict=True):
         # with X = a^2 - r^2, int r p dr = int p X^0.45 d(X^0.55)/1.1 has no singular end; at X = 0 the flat punch is left
         edge = float(jkr.adhesive_depth(0.1, M, a))
@@ -70,20 +57,13 @@ def test_the_pressure_carries_the_load(profile: Profile) -> None:
 def test_the_surface_lies_on_the_punch_and_opens_from_it() -> None:
     chosen, _ = states.named_states(SCENE)
     found = states.draw_states(SCENE, chosen, ["surface"])
-    for (a, depth), r, u, gap in zip(
-        chosen.T, found["surface_radius"], found["surface_displacement"], found["surface_gap"], strict=True
-    ):
+    columns = (found[f"surface_{name}"] for name in ("radius", "displacement", "gap"))
+    for (a, depth), r, u, gap in zip(chosen.T, *columns, strict=True):
         height = 0.5 * r * r + 0.011 * (1 - np.cos(2 * math.pi * r / 0.2))
-        assert np.array_equal(np.isnan(gap), r > 0.45)
-        inner = r <= a
-        assert (gap[inner] == 0).all()
         assert a in r
+        assert np.array_equal(np.isnan(gap), r > 0.45)
+        assert (gap[r <= a] == 0).all()
         shown = ~np.isnan(gap)
         np.testing.assert_allclose(u[shown], (depth - height + gap)[shown], atol=1e-15)
         assert (gap[shown] >= 0).all()  # the scene is one disc
         assert abs(u[-1]) < 0.5 * abs(depth - height[-1])  # far away the surface is at rest
-
-
-def test_unknown_curves() -> None:
-    with pytest.raises(ValueError, match="pressures"):
-        states.draw_states(SCENE, states.equilibrium_states(SCENE, [0.2]), ["pressures"])

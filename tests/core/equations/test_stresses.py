@@ -48,11 +48,9 @@ def _integral(k: float, a: float, power: float, values: Values) -> float:
     return within + float(np.sum(weights * 0.5 * r ** (power - 1.0) * values(r)))
 
 
-@pytest.mark.parametrize("k", [0.0, 0.43, 0.9, 1.0])
-@pytest.mark.parametrize(("cosines", "sines", "m"), PROFILES)
-def test_the_pressure_makes_the_load_and_the_depth(
-    k: float, cosines: list[float], sines: list[float], m: float
-) -> None:
+@pytest.mark.parametrize(("k", "profile"), [(0.0, 0), (0.43, 0), (0.0, 1), (0.43, 2), (0.43, 3), (0.95, 1), (1.0, 2)])
+def test_the_pressure_makes_the_load_and_the_depth(k: float, profile: int) -> None:
+    cosines, sines, m = PROFILES[profile]
     wave, front = (WAVELENGTH, cosines, sines, m), 2.0 ** (1.0 - k) * M / (2.0 * math.pi)
     for a, raised in ((0.11, 0.0), (0.31, -0.7)):
         stretch, disc = float(jkr.adhesive_depth(k, M, a)), float(hertz.disc_stiffness(k, M, a))
@@ -150,9 +148,9 @@ def test_the_surface_around_a_punch_is_that_of_flat_discs(k: float) -> None:
     assert quadrature.series_surface(k, r, a, depth, *wave) == pytest.approx(expected, abs=1e-9)
 
 
-@pytest.mark.parametrize("k", [0.0, 0.37, 0.9, 1 - 1e-3, 1 - 1e-6, 1 - 1e-13])
-@pytest.mark.parametrize(("a", "r", "wave"), [(0.013, 0.29, (1.0, [-0.01])), (0.05, 0.17, (0.1, [-0.01], [0.012]))])
-def test_quadrature_of_the_gap(k: float, a: float, r: float, wave: tuple[float, list[float], list[float]]) -> None:
+@pytest.mark.parametrize("k", [0.0, 0.37, 1 - 1e-3, 1 - 1e-13])
+def test_quadrature_of_the_gap(k: float) -> None:
+    a, r, wave = (0.013, 0.29, (1.0, [-0.01], [])) if k in (0.0, 1 - 1e-3) else (0.05, 0.17, (0.1, [-0.01], [0.012]))
     depth = float(general.indentation(k, 300.0, a, *wave))
     with mpmath.workdps(25):  # the integral of what is left of the density at r has a closed form
         c, end = (1 - mpmath.mpf(k)) / 2, mpmath.mpf(r)
@@ -161,12 +159,8 @@ def test_quadrature_of_the_gap(k: float, a: float, r: float, wave: tuple[float, 
             return s**k * (float(general.hertz_indentation(k, float(s), *wave)) - depth) * (end + s) ** (c - 1)
 
         def rest(v: mpmath.mpf) -> mpmath.mpf:  # r - s = (r-a) v^4
-            s = end - (end - a) * v**4
-            return (
-                (density(s) - density(end)) * ((end - a) * v**4) ** (c - 1) * 4 * (end - a) * v**3
-                if v
-                else mpmath.mpf(0)
-            )
+            inner = density(end - (end - a) * v**4) - density(end)
+            return inner * ((end - a) * v**4) ** (c - 1) * 4 * (end - a) * v**3 if v else mpmath.mpf(0)
 
         total = mpmath.quad(rest, mpmath.linspace(0, 1, 13), maxdegree=5) + density(end) * (end - a) ** c / c
         expected = float(2 / mpmath.pi * mpmath.sin(mpmath.pi * c) * total)
@@ -180,16 +174,8 @@ def test_the_gap_of_one_cosine_and_of_sums(k: float) -> None:
     one, series = quadrature.gap(k, r, 0.2, 0.03, 0.1, 0.02), quadrature.series_gap(k, r, 0.2, 0.03, 0.1, [-0.02])
     np.testing.assert_allclose(series, one, atol=1e-15)
     # the gap is linear in the profile and the depth: sines and cosines by their sum
-    parts = [
-        quadrature.series_gap(k, r, 0.2, 0.0, 0.1, cosines, sines)
-        for cosines, sines in (
-            ([-0.02, 0.003], [0.0, 0.01]),
-            ([-0.02], []),
-            ([0.0, 0.003], []),
-            ([], [0.0, 0.01]),
-            ([], []),
-        )
-    ]
+    waves = (([-0.02, 0.003], [0.0, 0.01]), ([-0.02], []), ([0.0, 0.003], []), ([], [0.0, 0.01]), ([], []))
+    parts = [quadrature.series_gap(k, r, 0.2, 0.0, 0.1, *wave) for wave in waves]
     np.testing.assert_allclose(parts[0], sum(parts[1:4]) - 2 * parts[4], atol=1e-13)
     # (3.6), (3.7): the surface meets the punch at the edge, without adhesion and with it
     for depth in (hertz.indentation(k, 0.2, 0.1, 0.02), jkr.indentation(k, 300.0, 0.2, 0.1, 0.02)):
@@ -199,10 +185,3 @@ def test_the_gap_of_one_cosine_and_of_sums(k: float) -> None:
     if k < 1.0:  # without adhesion it opens as (r-a)^((3-k)/2)
         gaps = quadrature.gap(k, 0.2 + np.array([1e-6, 1e-5]), 0.2, hertz.indentation(k, 0.2, 0.1, 0.02), 0.1, 0.02)
         assert gaps[1] / gaps[0] == pytest.approx(10 ** (0.5 * (3 - k)), rel=1e-3)
-
-
-def test_a_rising_profile_does_not_ensure_contact_over_one_disc() -> None:
-    amplitude = 4.59 * 0.1 / (4 * math.pi**2)
-    assert general.is_monotonic(0.1, amplitude)
-    depth = jkr.indentation(0.0, 1e7, 0.0511, 0.1, amplitude)
-    assert quadrature.gap(0.0, 0.0811, 0.0511, depth, 0.1, amplitude) == pytest.approx(-2.6e-4, abs=0.05e-4)

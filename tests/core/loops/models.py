@@ -11,8 +11,8 @@ from gradhesion.core import draw_curves
 from gradhesion.core.loops.paths.model import LINEAR
 from gradhesion.core.loops.paths.path import LoopModel
 from gradhesion.core.problem.control import Loading
-from gradhesion.core.problem.profile import Harmonic, Profile
-from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
+from gradhesion.core.problem.profile import Profile
+from tests.core.scene import pattern_of, profile_of
 
 Array = NDArray[np.float64]
 
@@ -23,10 +23,12 @@ TRUE: Final = {"E_star": 1e7, "work_of_adhesion": 0.03, "wavelength": 0.5e-6, "A
 SCENE: Final = {"k": 0.0, "nu": 0.3, "modulus": 1e7 * R / 0.03, "c0_over_R": 1.0, "lambda_over_R": 0.1, "A": 0.012}
 TURN: Final = 0.05
 """Depth at which loading turns, over R."""
-SERIES: Final = Profile(exponent=2.2, harmonics=(Harmonic(n=1, cos=1.0), Harmonic(n=2, sin=0.3)))
-RINGS: Final = Toughness((ToughnessHarmonic(n=1, cos=0.2, sin=0.1),))
+SERIES: Final = profile_of(2.2, (1, 1.0, 0.0), (2, 0.0, 0.3))
+RINGS: Final = pattern_of("toughness", (1, 0.2, 0.1))
 SPRING: Final = 10.0
 """N/m."""
+PULLED: Final = {"spring_constant": SPRING, "indentation_max": TURN * R}
+BY_MACHINE: Final = {"loading": Loading(control="machine")}
 
 
 @dataclass(frozen=True)
@@ -63,15 +65,9 @@ CASES: Final = {
     "series": Case(more={"profile": SERIES}),
     "rim": Case({"a_max": 0.2 * R}, scene={"a_max_over_R": 0.2}),
     "preload": Case({"preload": 5e-8}, scene={"load_max": 5e-8 / UNIT}),
-    "machine": Case(
-        {"spring_constant": SPRING, "indentation_max": TURN * R},
-        {"loading": Loading(control="machine")},
-        {"machine_stiffness": SPRING / (1e7 * R)},
-    ),
+    "machine": Case(PULLED, BY_MACHINE, {"machine_stiffness": SPRING / (1e7 * R)}),
     "machine at the rim": Case(
-        {"spring_constant": SPRING, "indentation_max": TURN * R, "a_max": 0.2 * R},
-        {"loading": Loading(control="machine")},
-        {"machine_stiffness": SPRING / (1e7 * R), "a_max_over_R": 0.2},
+        PULLED | {"a_max": 0.2 * R}, BY_MACHINE, {"machine_stiffness": SPRING / (1e7 * R), "a_max_over_R": 0.2}
     ),
     "load control": Case(more={"loading": Loading(control="load")}, scene={"load_max": 5e-7 / UNIT}, highest=5e-7),
     "load control to a depth": Case({"indentation_max": TURN * R}, {"loading": Loading(control="load")}),
@@ -91,10 +87,6 @@ CASES: Final = {
 
 def vector(model: LoopModel, **more: float) -> Array:
     """The numbers of a loop, as they are searched."""
-    known = (
-        {"k": 0.0, "turn": TURN * R, "indentation_offset": 2e-9, "load_offset": 1e-8, "load_slope": 0.02}
-        | TRUE
-        | model.fixed
-        | more
-    )
+    known = {"k": 0.0, "turn": TURN * R, "indentation_offset": 2e-9, "load_offset": 1e-8, "load_slope": 0.02}
+    known |= TRUE | model.fixed | more
     return np.array([known[name] if name in LINEAR else math.log(known[name]) for name in model.names])

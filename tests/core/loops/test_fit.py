@@ -92,15 +92,13 @@ def test_means_weigh_as_much_as_their_points() -> None:
     for name in FREE:
         assert four.values[name] == pytest.approx(one.values[name], rel=1e-6)
         assert four.standard_deviations[name] == pytest.approx(one.standard_deviations[name], rel=1e-6)
-
-
-def test_the_contact_point_of_means_is_that_of_points_as_exact() -> None:
-    *points, noise = ball(6, zero=(4e-7, 0.0))
-    counts, more = np.full(points[0].size, 4.0), {"offsets": Offsets(indentation="contact")}
-    one = fit_loop(*points, SMOOTH, FREE, noise=noise, **more).contact
-    four = fit_loop(*points, SMOOTH, FREE, noise=(2 * noise[0], 2 * noise[1]), counts=counts, **more).contact
-    assert one is not None
-    assert one == four
+    at_contact: dict[str, Any] = {"offsets": Offsets(indentation="contact")}
+    alone = fit_loop(*points, SMOOTH, FREE, noise=noise, **at_contact).contact
+    means = fit_loop(
+        *points, SMOOTH, FREE, noise=(2 * noise[0], 2 * noise[1]), counts=np.full(points[0].size, 4.0), **at_contact
+    )
+    assert alone is not None
+    assert alone == means.contact
 
 
 def test_a_model_that_does_not_hold_is_a_poor_fit() -> None:
@@ -146,14 +144,14 @@ def test_waves_zeros_and_material_at_once() -> None:
 
 
 def test_the_intervals_of_smooth_loops_cover_the_truth() -> None:
-    """Of 30 loops the 95 % intervals of each number hold it in 24 or more: fewer have a chance of 1e-3."""
+    """Of 20 loops the 95 % intervals of each number hold it in 15 or more: fewer have a chance of 3e-4."""
     covered = dict.fromkeys(FREE, 0)
-    for seed in range(30):
+    for seed in range(20):
         *points, noise = ball(seed, points=150)
         found = fit_loop(*points, SMOOTH, FREE, noise=noise, offsets=NO_OFFSETS)
         for name in FREE:
             covered[name] += found.low[name] <= TRUE[name] <= found.high[name]
-    assert min(covered.values()) >= 24
+    assert min(covered.values()) >= 15
 
 
 @pytest.mark.parametrize("pair", [("E_star", "c0"), ("E_star", "nu"), ("c0", "nu")])
@@ -198,7 +196,7 @@ def test_a_turn_between_points_leaves_what_is_found_with_unequal_works() -> None
 
 def test_flat_points_at_the_pull_off_are_no_base_line() -> None:
     """Loops whose first point is the contact have none, so that nothing can be said of its tilt."""
-    for seed in range(4):
+    for seed in range(2):
         depth, load, back, noise = ball(seed, pressed=200.0, points=900)
         own = (back & (load < -2.0 * noise[1])) | (depth > 0.0)
         found = fit_loop(depth[own], load[own], back[own], SMOOTH, FREE, noise=noise, offsets=Offsets())
@@ -211,20 +209,13 @@ def test_what_has_no_effect_is_refused() -> None:
         fit_loop(*points, SMOOTH, FREE | {"wavelength": (1e-7, 1e-6)}, noise=noise)
 
 
-D, P, U = (
-    np.array(row)
-    for row in (
-        [0.0, 1e-8, 2e-8, 1e-8, 0.0, -1e-8],
-        [-1e-8, 0.0, 1e-8, 0.0, -1e-8, -2e-8],
-        [False, False, False, True, True, True],
-    )
-)
+D, P, U = 1e-8 * np.array([0, 1, 2, 1, 0, -1]), 1e-8 * np.array([-1, 0, 1, 0, -1, -2]), np.arange(6) > 2
 WRONG: dict[str, tuple[dict[str, Any], str]] = {
     "few points": ({"indentation": D[:4], "load": P[:4], "unloading": U[:4]}, "4 points cannot give 4 numbers"),
     "nan": ({"load": P * np.nan}, "finite numbers"),
     "lengths": ({"unloading": U[:5]}, "one length"),
     "noise": ({"noise": (0.0, 1e-9)}, "both standard deviations are above 0"),
-    "range falls": ({"free": {"E_star": (1e8, 1e6)}}, "E_star: the ends 1e+08 and 1e+06 of a range rise"),
+    "range falls": ({"free": {"E_star": (1e8, 1e6)}}, "E_star: the ends"),
     "range from 0": ({"free": {"E_star": (0.0, 1e6)}}, "above 0"),
 }  # fmt: skip
 
@@ -232,14 +223,6 @@ WRONG: dict[str, tuple[dict[str, Any], str]] = {
 @pytest.mark.parametrize("name", WRONG)
 def test_what_cannot_be_fitted_is_refused(name: str) -> None:
     change, words = WRONG[name]
-    given = {
-        "indentation": D,
-        "load": P,
-        "unloading": U,
-        "fixed": SMOOTH,
-        "free": FREE,
-        "noise": (1e-10, 1e-9),
-    }
-    with pytest.raises(ValueError, match=r"\w") as caught:
+    given = {"indentation": D, "load": P, "unloading": U, "fixed": SMOOTH, "free": FREE, "noise": (1e-10, 1e-9)}
+    with pytest.raises(ValueError, match=words):
         fit_loop(**(given | change))
-    assert words in str(caught.value)

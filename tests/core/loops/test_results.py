@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core import solve
-from gradhesion.core.closed.reduced import parameters_from
-from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop
+from gradhesion.core.loops.fitted import FittedLoop
 from gradhesion.core.loops.minima import others
 from gradhesion.core.loops.paths.misfit import Data, Misfit
 from gradhesion.core.loops.results import (
@@ -122,30 +121,6 @@ def test_a_bound_is_a_hundredth_of_the_range_wide(value: float, ends: tuple[floa
     assert is_on_bound(value, ends) == bound
 
 
-@pytest.mark.parametrize(
-    ("name", "names", "known"),
-    [
-        ("smooth", ("E_star", "c0"), {"k": 0.3, "c0": 0.1 * R}),
-        ("smooth", ("R", "E_star", "work_of_adhesion"), {}),
-        ("wavy", ("R", "E_star", "work_of_adhesion", "wavelength", "A"), {}),
-    ],
-)
-def test_what_acts_alike_has_no_covariance(name: str, names: tuple[str, ...], known: dict[str, float]) -> None:
-    """A loop in which all lengths, or the modulus and c0, are scaled together is the same loop."""
-    known = {"R": R} | known
-    own, here = loop(names, name=name, **{one: x for one, x in known.items() if one in names or one == "k"})
-    with pytest.raises(CannotTellApartError) as caught:
-        covariance_of(own, here)
-    assert set(caught.value.names) == set(names)
-
-
-def test_one_number_without_effect_is_refused() -> None:
-    """A rim that is not met, searched alone: all derivatives are 0."""
-    own, here = loop(("a_max",), a_max=10.0 * R)
-    with pytest.raises(ValueError, match="a_max: without effect on this loop; fix it"):
-        covariance_of(own, here)
-
-
 def test_the_status_is_that_of_the_scene() -> None:
     """Deep waves touch the surface before they should: loading is not one disc."""
     model = CASES["wavy"].model(("A",))
@@ -165,13 +140,6 @@ def test_a_rim_that_is_met_is_reported_and_a_turn_before_it_is_not() -> None:
     assert status_of(model, here, 0.02) & JUMP_IN_TO_RIM
     assert status_of(model, here, np.nextafter(0.02, 0.0)) & JUMP_IN_TO_RIM, "a radius in m, over R, is rounded"
     assert not status_of(CASES["wavy"].model(("A",)), here, 0.02) & JUMP_IN_TO_RIM
-
-
-def test_equal_works_are_so_in_either_order() -> None:
-    """Where both works are fitted, noise puts that of closing above the other as often as below."""
-    model = CASES["smooth"].model(("work_of_adhesion_closing",))
-    for ratio in (0.99, 1.01):
-        assert status_of(model, np.log([ratio * 0.03]), 0.3) == 0
 
 
 def said(case: Case, names: tuple[str, ...], noise: float, spread: float = 1.0) -> tuple[str, ...]:
@@ -203,11 +171,3 @@ def test_a_closing_ratio_may_be_fine_waves_and_these_a_closing_ratio(
     found = said(case, names, noise, spread)
     assert len(found) == bool(numbers)
     assert all(number in found[0] for number in numbers)
-
-
-def test_the_force_of_fine_waves_is_that_of_a_smooth_punch_with_more_work() -> None:
-    """(1 + chi)^2 times the work: 1.44 at k = 0."""
-    wavy = {name: value for name, value in SCENE.items() if name != "A"} | {"chi": 0.2, "lambda_over_R": 2e-3}
-    made = parameters_from(wavy | {"a_max_over_R": np.inf})
-    force = float(solve(made, ["pull_off_force"], threads=1)["pull_off_force"])
-    assert force == pytest.approx(1.44, rel=1e-2)

@@ -11,6 +11,8 @@ from gradhesion.core.problem.inputs import INPUTS, PHYSICAL, Input
 from gradhesion.core.problem.outputs import CURVES, OUTPUTS, OVER, VARIABLES, without_scale
 from gradhesion.core.problem.toughness import EXPONENTS, Rate
 
+UNITS = pint.UnitRegistry()
+
 
 def test_what_an_input_names_is_declared() -> None:
     for name, one in INPUTS.items():
@@ -39,15 +41,15 @@ def test_the_bounds_are_exact(name: str) -> None:
 
 @pytest.mark.parametrize("name", [name for name, one in PHYSICAL.items() if one.follows])
 def test_a_formula_has_the_dimension_of_what_follows(name: str) -> None:
-    units, own = pint.UnitRegistry(), INPUTS[name]
+    own = INPUTS[name]
 
     def quantity(one: Input, value: float) -> pint.Quantity:
-        return units.Quantity(value, "" if one.unit == "1" else one.unit)
+        return UNITS.Quantity(value, "" if one.unit == "1" else one.unit)
 
     assert own.follows is not None
     others = [quantity(INPUTS[need], 0.3 + 0.1 * i) for i, need in enumerate(own.needs)]
     found = own.follows(quantity(own, 0.7), *others)
-    assert units.Quantity(found).is_compatible_with(quantity(INPUTS[own.instead_of or own.gives], 1.0))
+    assert UNITS.Quantity(found).is_compatible_with(quantity(INPUTS[own.instead_of or own.gives], 1.0))
 
 
 def test_the_words_of_a_value_say_what_it_is_over() -> None:
@@ -55,8 +57,6 @@ def test_the_words_of_a_value_say_what_it_is_over() -> None:
         for unit, over in OVER.items():
             assert any(words in one.about for words in over) == (one.unit == unit), (name, unit)
     for one in OUTPUTS.values():
-        assert one.symbol.count("$") % 2 == 0
-        assert (one.symbol == one.symbol_in_si) == (one.unit == "")
         assert one.unit == "" or without_scale(one.about, one.unit) != one.about
 
 

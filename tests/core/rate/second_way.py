@@ -1,4 +1,4 @@
-"""The moving edge a second way: the profile by Gauss-Jacobi quadrature, and explicit steps along the curve of (s, lag).
+"""The moving edge a second way: the profile by Gauss-Jacobi quadrature, and explicit steps along the curve of (s, lag), as the edge opens.
 
 Nothing of core/ is used but the material. With need = a delta_H'/Delta - q0 rho and force = eps a u^(-1/n)/((1+tau) Delta)
 
@@ -20,9 +20,7 @@ from gradhesion.core.problem.material import stiffness
 
 _END = math.log(1e9)
 _FIRST = 1e-11
-_LAST = 1e-8
 _EXACT = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-14}
-_FINER = {"method": "DOP853", "rtol": 3e-14, "atol": 1e-17}  # where a state is read off the dense output
 
 
 @dataclass
@@ -119,57 +117,4 @@ def opened(punch: Punch, eps: float, n: float, radius: float) -> dict[str, float
         "opening_energy": energy,
         "delta_jump_out": depth,
         "edge_speed_at_pull_off": 1.0 / slow(rho - 1.0),
-    }
-
-
-def closed(punch: Punch, eps: float, n: float, ratio: float, turn: float) -> dict[str, float]:
-    """Return what closing comes to that turns at a coordinate, in the units of `close_at_speed`."""
-    root, inner = math.sqrt(ratio), 1e-9
-
-    def slow(lag: float) -> float:
-        rho = root - lag
-        return float((lag * (root + rho) / rho**2) ** (-1.0 / n)) if rho > 0.0 else 0.0
-
-    def rates_of(sign: float) -> Any:
-        def rates(_y: float, state: Any) -> list[float]:
-            s, lag, _ = state
-            a = inner * math.exp(s)
-            need, force = punch.terms(a, root - lag)
-            force *= eps * slow(lag) if lag > 0.0 else math.inf
-            if force == math.inf:
-                return [0.0, sign, 0.0]
-            w = 1.0 / (math.sqrt(1.0 + need * need) + force)
-            return [w, w * (sign * force - need), w * 2.0 * math.pi * (a * (root - lag)) ** 2]
-
-        return rates
-
-    def turned(_y: float, state: Any) -> float:
-        return punch.coordinate(inner * math.exp(state[0]), root - state[1]) - turn
-
-    def stopped(_y: float, state: Any) -> float:
-        return float(state[1] - _LAST)
-
-    def followed(_y: float, state: Any) -> float:
-        return float(state[1] - root)
-
-    def until(end: Any, sign: float, state: Any) -> Any:
-        """Go on to an end, by way of places where rho = 0: the rates have a kink there."""
-        while True:
-            found = solve_ivp(rates_of(sign), (0.0, 1e9), state, events=[end, followed], **_FINER)
-            state = found.y[:, -1]
-            if found.t_events[0].size > 0:
-                return state
-            state[1] = root - math.copysign(1e-15, punch.terms(inner * math.exp(state[0]), 0.0)[0])
-
-    turned.terminal = stopped.terminal = followed.terminal = True  # type: ignore[attr-defined]
-    up = until(turned, 1.0, [0.0, root - punch.at(inner)[0] / punch.adhesion(inner), 0.0])
-    s, lag, energy = until(stopped, -1.0, up)
-    a = inner * math.exp(s)
-    force = punch.terms(a, root)[1] * eps * slow(lag)
-    a *= math.exp(n / (1.0 + n) * lag / force)
-    return {
-        "turning_radius": a,
-        "closing_energy": energy,
-        "radius_at_turn": inner * math.exp(up[0]),
-        "coordinate_edge_stops": punch.coordinate(a, root),
     }

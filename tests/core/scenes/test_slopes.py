@@ -8,43 +8,27 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import PARAMETERS, SENSITIVITIES, Harmonic, Loading, Profile, solve
-from gradhesion.core.problem.names import PATTERN as OF_PATTERN
-from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
+from gradhesion.core import PARAMETERS, SENSITIVITIES, Loading, solve
+from tests.core.scene import ENDLESS, pattern_of, profile_of, scene_of
 
 FORCE, ENERGY = VALUES = ("pull_off_force", "dissipated_energy")
-SCENE: dict[str, Any] = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.1, "lambda_over_R": 0.1, "A": 0.03}
-SCENE |= {"a_max_over_R": 0.57}
+SCENE = scene_of(0.3, 0.3, 500.0, 0.1, 0.1, 0.03, 0.57)
 STEPS, WEIGHTS = np.array([-2, -1, 1, 2]), np.array([1, -8, 8, -1]) / 12
-PATTERN = Toughness((ToughnessHarmonic(n=1, cos=0.4, sin=0.2), ToughnessHarmonic(n=2, cos=0.1)))
-OF_WORK = Toughness((ToughnessHarmonic(n=1, cos=0.2, sin=0.1), ToughnessHarmonic(n=2, sin=0.1)), "work")
-BOTH = Profile(harmonics=(Harmonic(n=1, cos=0.8, sin=0.2), Harmonic(n=3, cos=0.1, sin=0.25)))
+PATTERN = pattern_of("toughness", (1, 0.4, 0.2), (2, 0.1, 0.0))
+OF_WORK = pattern_of("work", (1, 0.2, 0.1), (2, 0.0, 0.1))
+BOTH = profile_of(2.0, (1, 0.8, 0.2), (3, 0.1, 0.25))
 BY_LOAD, BY_MACHINE = Loading(control="load"), Loading(control="machine")
-FREE = {"a_max_over_R": np.inf}
-DEEP = FREE | {"indentation_max_over_R": 0.05}
 LENGTH = {"toughness_wavelength_over_R": 0.113, "toughness_amplitude": 0.8}
+AT_TURN = ENDLESS | LENGTH | {"lambda_over_R": 0.2, "A": 0.055, "c0_over_R": 0.01, "k": 0.1, "toughness_amplitude": 0.2}
 KINDS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
-    "unbounded": (FREE, {}),
+    "unbounded": (ENDLESS, {}),
     "two harmonics under a load, two works": ({"closing_ratio": 0.4}, {"profile": BOTH, "loading": BY_LOAD}),
-    "a machine, two works, turned": (
-        DEEP | {"machine_stiffness": 0.4, "closing_ratio": 0.4},
-        {"loading": BY_MACHINE, "profile": Profile(exponent=1.5)},
-    ),
-    "two works, turned at a load": (FREE | {"load_max": 0.7, "closing_ratio": 0.4}, {"profile": BOTH}),
     "two works, turned where a jump lands": (
-        FREE | {"indentation_max_over_R": 1e-3, "machine_stiffness": 0.05, "closing_ratio": 0.4},
+        ENDLESS | {"indentation_max_over_R": 1e-3, "machine_stiffness": 0.05, "closing_ratio": 0.4},
         {"loading": BY_MACHINE},
     ),
     "a pattern, a load": (LENGTH, {"toughness": PATTERN, "loading": BY_LOAD}),
-    "a pattern of the work, a machine, turned": (
-        DEEP | LENGTH | {"machine_stiffness": 0.3},
-        {"toughness": OF_WORK, "loading": BY_MACHINE},
-    ),
-    "a pull-off at the turn": (
-        {"lambda_over_R": 0.2, "A": 0.055, "c0_over_R": 0.01, "k": 0.1, **FREE, "indentation_max_over_R": 0.005}
-        | (LENGTH | {"toughness_amplitude": 0.2}),
-        {"toughness": OF_WORK},
-    ),
+    "a pull-off at the turn": (AT_TURN | {"indentation_max_over_R": 0.005}, {"toughness": OF_WORK}),
     "600 waves": ({"lambda_over_R": 0.57 / 600.3, "A": 0.01}, {}),
 }
 
@@ -53,8 +37,9 @@ KINDS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
 def test_against_differences_of_fourth_order(change: dict[str, Any], how: dict[str, Any]) -> None:
     """Of cases between the kinds of tests/conformance; none passes a fold within the steps."""
     scene = SCENE | change
-    further = ("machine_stiffness", "indentation_max_over_R", "load_max", "closing_ratio", *OF_PATTERN)
-    names = [*PARAMETERS, *(name for name in further if name in scene)]
+    names = [*PARAMETERS, *(name for name in scene if name not in PARAMETERS)]
+    order = ["machine_stiffness", "indentation_max_over_R", "load_max", "closing_ratio", *LENGTH]
+    names[len(PARAMETERS) :] = sorted(names[len(PARAMETERS) :], key=order.index)
     found = solve(scene, (*VALUES, *SENSITIVITIES), **how)
     step = 2e-5 if scene["lambda_over_R"] > 0.01 else 2e-7
     points = {name: np.full((len(names), 4), value) for name, value in scene.items()}
@@ -73,15 +58,14 @@ def test_against_differences_of_fourth_order(change: dict[str, Any], how: dict[s
 
 def test_the_smooth_cycle() -> None:
     """The energy is a number of k times M^(-2/(3+k)), and the force (3+k)/3 (section 3 of docs/theory.md)."""
-    k = SCENE["k"]
-    found = solve(SCENE | FREE | {"A": 0.0}, SENSITIVITIES)
+    k, found = SCENE["k"], solve(SCENE | ENDLESS | {"A": 0.0}, SENSITIVITIES)
     force, energy = (dict(zip(PARAMETERS, found[name], strict=True)) for name in SENSITIVITIES)
     assert energy["modulus"] == pytest.approx(-2.0 / (3.0 + k), rel=1e-12)
     assert abs(force["modulus"]) < 1e-12
     assert force["k"] == pytest.approx(1.0 / (3.0 + k), rel=1e-9)
 
 
-NOTHING = [({"A": 0.0}, ("lambda_over_R", "A")), ({"k": 0.0}, ("c0_over_R", "nu")), (FREE, ("a_max_over_R",))]
+NOTHING = [({"A": 0.0}, ("lambda_over_R", "A")), ({"k": 0.0}, ("c0_over_R", "nu")), (ENDLESS, ("a_max_over_R",))]
 
 
 @pytest.mark.parametrize(("change", "names"), NOTHING)
@@ -107,7 +91,7 @@ def test_at_equal_works_the_slope_is_that_from_below_and_the_others_stay() -> No
     inside = np.log(solve(SCENE | {"closing_ratio": np.exp(-1e-4 * np.arange(5))}, [ENERGY])[ENERGY])
     slope = -float(np.array([-25.0 / 12.0, 4.0, -3.0, 4.0 / 3.0, -0.25]) @ inside) / 1e-4
     assert float(one[f"{ENERGY}_sensitivity"][-1]) == pytest.approx(slope, rel=1e-6)
-    endless = solve(SCENE | FREE | {"closing_ratio": [0.5, 1.0]}, SENSITIVITIES)  # the first loses without bound
+    endless = solve(SCENE | ENDLESS | {"closing_ratio": [0.5, 1.0]}, SENSITIVITIES)  # the first loses without bound
     assert endless[f"{FORCE}_sensitivity"][:, -1].tolist() == [0.0, 0.0]
     assert np.isnan(endless[f"{ENERGY}_sensitivity"]).tolist() == [[True] * 8, [False] * 7 + [True]]
 
@@ -136,8 +120,7 @@ def test_without_a_value_there_is_no_sensitivity() -> None:
 def test_the_last_axis_has_what_is_given_in_order() -> None:
     further = {"machine_stiffness": 0.4, "indentation_max_over_R": 0.02, "closing_ratio": 0.4}
     further |= {"toughness_wavelength_over_R": 0.3, "toughness_amplitude": [[0.3], [0.5]]}
-    outputs = [SENSITIVITIES[1], "delta_max", SENSITIVITIES[0]]
-    how: Any = {"toughness": PATTERN, "loading": BY_MACHINE}
+    outputs, how = [SENSITIVITIES[1], "delta_max", SENSITIVITIES[0]], {"toughness": PATTERN, "loading": BY_MACHINE}
     found = solve(SCENE | further | {"A": [0.01, 0.02, 0.03]}, outputs, **how)
     assert list(found) == [*outputs, "status"]
     assert found[SENSITIVITIES[0]].shape == found[SENSITIVITIES[1]].shape == (2, 3, 12)
@@ -146,11 +129,3 @@ def test_the_last_axis_has_what_is_given_in_order() -> None:
         np.testing.assert_array_equal(found[name][1, 1], alone[name])
     del further["toughness_amplitude"]
     assert solve(SCENE | further, SENSITIVITIES, **how)[SENSITIVITIES[0]].shape == (11,)
-
-
-def test_threads_make_no_difference() -> None:
-    rng = np.random.default_rng(9)
-    scenes = SCENE | {"k": rng.uniform(0.01, 0.95, 2500), "A": 10 ** rng.uniform(-3, -1, 2500)}
-    one, two = (solve(scenes, SENSITIVITIES, threads=threads) for threads in (1, 2))
-    for name in SENSITIVITIES:
-        np.testing.assert_array_equal(one[name], two[name])

@@ -21,26 +21,18 @@ def drawn(points: int, waves: int = 0, seed: int = 0, size: float = 1.0) -> tupl
     half = points // 2
     true = np.concatenate([np.linspace(-503.0, 300.0, half), np.linspace(300.0, -503.0, points - half)])
     depth = true + 0.3 * size * rng.standard_normal(points)
-    return (
-        depth,
-        curve(true, waves) + 2.0 * size * rng.standard_normal(points),
-        np.arange(points) >= half,
-        np.ones(points, np.int32),
-    )
+    load = curve(true, waves) + 2.0 * size * rng.standard_normal(points)
+    return depth, load, np.arange(points) >= half, np.ones(points, np.int32)
 
 
 def far(found: Averaged, waves: int, noise: tuple[float, float]) -> Array:
     """How far means are from the curve, in their own standard deviations; those beside the jump are at no depth."""
     slope = (curve(found.depth + 0.01, waves) - curve(found.depth - 0.01, waves)) / 0.02
-    return (
-        (found.load - curve(found.depth, waves))
-        * np.sqrt(found.counts)
-        / np.hypot(noise[1], noise[0] * slope)
-        * (np.abs(found.depth) > 1.0)
-    )
+    apart = (found.load - curve(found.depth, waves)) * np.sqrt(found.counts) / np.hypot(noise[1], noise[0] * slope)
+    return apart * (np.abs(found.depth) > 1.0)
 
 
-@pytest.mark.parametrize("points", [10_000, 200_000, 1_000_000])
+@pytest.mark.parametrize("points", [10_000, 300_000])
 @pytest.mark.parametrize("waves", [0, 20])
 def test_means_are_on_the_curve_to_within_their_noise(points: int, waves: int) -> None:
     raw = drawn(points, waves)
@@ -74,22 +66,16 @@ def test_branches_and_cycles_stay_apart() -> None:
         assert set(found.unloading[own]) == set(back[raw])
 
 
-def test_few_points_stay_as_they_are() -> None:
+def test_few_points_stay_as_they_are_and_others_are_averaged_whatever_their_noise_and_order() -> None:
     raw = drawn(MOST)
     found = averaged(*raw, (0.3, 2.0))
     np.testing.assert_array_equal(found.depth, raw[0])
     np.testing.assert_array_equal(found.load, raw[1])
     assert (found.counts == 1.0).all()
-
-
-def test_a_displacement_without_noise_is_averaged() -> None:
     _, load, back, cycle = drawn(100_000)
     depth = np.concatenate([np.linspace(-500.0, 300.0, 50_000), np.linspace(300.0, -500.0, 50_000)])
     found = averaged(depth, load, back, cycle, noise_of(depth, load, back, cycle))
-    assert found.depth.size < 1.1 * MOST
-
-
-def test_points_in_no_order_are_averaged_along_the_depth() -> None:
+    assert found.depth.size < 1.1 * MOST, "also a displacement without noise"
     raw = drawn(10_000)
     mix = np.random.default_rng(1).permutation(10_000)
     found = averaged(*(row[mix] for row in raw), noise=(0.3, 2.0))

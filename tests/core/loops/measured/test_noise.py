@@ -20,17 +20,13 @@ def loop(points: int, waves: int = 0) -> tuple[Array, Array, Array, Array]:
     return depth, load, back, np.ones(points, np.int32)
 
 
-@pytest.mark.parametrize("points", [600, 10_000, 1_000_000])
+@pytest.mark.parametrize("points", [600, 10_000, 200_000])
 @pytest.mark.parametrize("size", [1.0, 1e-4])
 def test_noise_is_that_of_the_points_with_jumps_and_slopes(points: int, size: float) -> None:
     rng = np.random.default_rng(points)
     depth, load, back, cycle = loop(points)
-    found = noise_of(
-        depth + 0.3 * rng.standard_normal(points),
-        load + 2.0 * size * rng.standard_normal(points),
-        back,
-        cycle,
-    )
+    errors = rng.standard_normal((2, points))
+    found = noise_of(depth + 0.3 * errors[0], load + 2.0 * size * errors[1], back, cycle)
     bend = 750.0 / 300.0**1.5 / 50.0**0.5 * (1600.0 / points) ** 2 / 6.0**0.5  # second difference at a depth of 50
     assert found[0] == pytest.approx(0.3, rel=0.1 if points < 10_000 else 0.04)
     bend = max(bend, FLOOR * np.ptp(load))

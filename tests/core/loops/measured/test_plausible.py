@@ -27,7 +27,7 @@ def test_wrong_signs_are_told_with_a_base_line_long_or_short(signs: tuple[int, i
     assert told(points, 1, *signs, from_=from_) == SIGNS[signs]
 
 
-@pytest.mark.parametrize("to", [5.0, 20.0, 60.0, 150.0])
+@pytest.mark.parametrize("to", [5.0, 60.0, 150.0])
 @pytest.mark.parametrize("from_", [-500.0, -45.0, 1.0])
 def test_loops_that_hardly_press_or_have_no_base_line_are_right(from_: float, to: float) -> None:
     for seed in range(5):

@@ -44,18 +44,6 @@ def test_points_far_outside_of_a_sharp_bend_have_its_distances(count: int, most:
     assert np.abs(np.diff(found.distance)).max() < most / 100.0, "without jumps"
 
 
-def test_normals_are_those_in_which_distances_grow() -> None:
-    x = np.linspace(0.0, 3.0, 30)
-    chain, curved = np.column_stack([x, np.sin(2.0 * x)]), np.append(False, np.ones(29, bool))
-    tangents = np.column_stack([np.ones(30), 2.0 * np.cos(2.0 * x)])
-    points = np.column_stack([np.linspace(0.3, 2.7, 50), np.sin(2.0 * np.linspace(0.3, 2.7, 50)) + 0.05])
-    found = feet(points, chain, tangents, curved)
-    for axis in range(2):
-        step = 1e-6 * np.eye(2)[axis]
-        ends = [feet(points + sign * step, chain, tangents, curved).distance for sign in (1.0, -1.0)]
-        np.testing.assert_allclose((ends[0] - ends[1]) / 2e-6, found.normal[:, axis], atol=2e-3)
-
-
 def test_slopes_are_those_of_the_distances_as_the_vertices_move() -> None:
     rng = np.random.default_rng(4)
     chain, points = rng.standard_normal((7, 2)), rng.standard_normal((40, 2))

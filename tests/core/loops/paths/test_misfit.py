@@ -9,31 +9,20 @@ NOISE = (1e-4 * R, 0.01 * UNIT)
 MOVED = np.array([0.5, -0.7])
 
 
-def of(name: str, names: tuple[str, ...], counts: float = 1.0) -> tuple[Misfit, Array]:
+def of(name: str, names: tuple[str, ...]) -> tuple[Misfit, Array]:
     """A loop without noise: the vertices of its path."""
     model = CASES[name].model(names)
     here = vector(model)
     drawn = model.path(here)
     assert drawn is not None
     back = np.arange(len(drawn.places)) > drawn.turn
-    data = Data(drawn.places, back, NOISE, np.full(back.size, counts))
+    data = Data(drawn.places, back, NOISE, np.ones(back.size))
     return Misfit(data, model, here - 2.0, here + 2.0), here
-
-
-def test_points_of_the_path_have_no_distance() -> None:
-    own, here = of("wavy", ("E_star", "A"))
-    assert np.abs(own.residual(here)).max() < 1e-6
-
-
-def test_means_weigh_by_the_root_of_their_count() -> None:
-    one, here = of("wavy", ("E_star", "A"))
-    four, _ = of("wavy", ("E_star", "A"), counts=4.0)
-    np.testing.assert_allclose(four.residual(here + 0.01), 2.0 * one.residual(here + 0.01), rtol=1e-14)
-    np.testing.assert_allclose(four.jacobian(here + 0.01), 2.0 * one.jacobian(here + 0.01), rtol=1e-14)
 
 
 def test_a_scene_without_a_path_is_far_from_all_points_and_flat() -> None:
     own, here = of("wavy", ("E_star", "wavelength"))
+    assert np.abs(own.residual(here)).max() < 1e-6, "its own points"
     nowhere = here - [0.0, 20.0]  # waves of 1e-15 m: too many radii
     assert own.model.path(nowhere) is None
     assert set(own.residual(nowhere)) == {LOST}

@@ -14,17 +14,9 @@ def test_both_zeros_are_fitted_unless_said_otherwise() -> None:
     assert Offsets(indentation="contact").names == ("load_offset",)
 
 
-@pytest.mark.parametrize(
-    "wrong",
-    [
-        {"indentation": "fre"},
-        {"indentation": True},
-        {"load": "contact"},
-        {"load": (1.0, 1.0)},
-        {"load": (0.0, float("inf"))},
-        {"indentation": (1.0,)},
-    ],
-)
-def test_what_is_no_zero_is_refused(wrong: dict[str, Any]) -> None:
-    with pytest.raises(ValueError, match="or the rising ends of a range"):
-        Offsets(**wrong)
+@pytest.mark.parametrize("name", ["indentation", "load"])
+@pytest.mark.parametrize("wrong", ["fre", (1.0, 1.0), (0.0, float("inf")), (1.0,)])
+def test_what_is_no_zero_is_refused(name: str, wrong: Any) -> None:
+    for given in ({name: wrong}, {"indentation": True}, {"load": "contact"}):
+        with pytest.raises(ValueError, match="or the rising ends of a range"):
+            Offsets(**given)
