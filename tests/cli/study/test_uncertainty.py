@@ -12,6 +12,7 @@ from click.testing import Result
 import gradhesion as gr
 from gradhesion.cli.dataset import compute
 from gradhesion.cli.names.outputs import SPREAD
+from gradhesion.cli.picture.doubts import doubts_in
 from gradhesion.cli.study import study_from
 
 Call = Callable[..., Result]
@@ -187,6 +188,17 @@ def test_a_deviation_is_doubtful_where_the_line_is_off(data: dict[str, Any]) -> 
     assert bool(off.any())
     assert not bool(dataset.gr.valid("pull_off_force_std").where(off, other=False).any())
     assert dataset.gr.valid("pull_off_force").values.sum() > dataset.gr.valid("pull_off_force_std").values.sum()
+
+
+def test_a_deviation_of_samples_is_as_good_as_its_value_wherever_it_is_shown(data: dict[str, Any]) -> None:
+    spread = {"uncertainty": {"lambda_over_R": "30 %", "samples": 64}, "outputs": ["pull_off_force"]}
+    dataset = compute(study_from(data | spread))
+    off = dataset.gr.flagged("linear_deviation_off")
+    assert bool(off.any())
+    for name, doubtful in (("pull_off_force_std", False), ("pull_off_force_std_linear", True)):
+        drawn = [doubt.bit for doubt in doubts_in(dataset["status"].values, name, dataset)]
+        assert (gr.FLAGS["linear_deviation_off"] in drawn) == doubtful
+        assert bool(dataset.gr.valid(name).where(off, other=False).any()) != doubtful
 
 
 def test_a_percentage_of_zero(data: dict[str, Any]) -> None:
