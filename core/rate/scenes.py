@@ -195,8 +195,9 @@ def move(
     def work(k: float) -> None:
         """Solve the scenes of one exponent."""
         own = np.flatnonzero(scenes[rows.K] == k)
-        table, found = long_table(punch, k, EXACT, 1, float(far[own].max()))[0], out[:, own]
-        move_edges(punch, table, scenes[:, own], reduced[:, own], rate.exponent, opens, track, found)
+        table = long_table(punch, k, EXACT, 1, float(far[own].max()))[0]
+        chosen, numbers, found = (np.ascontiguousarray(array[:, own]) for array in (scenes, reduced, out))
+        move_edges(punch, table, chosen, numbers, rate.exponent, opens, track, found)
         out[:, own] = found
 
     with ThreadPoolExecutor(known["threads"] or processors()) as pool:
