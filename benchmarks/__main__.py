@@ -55,8 +55,8 @@ to all digits: this limits the second ratio.
 functions for each k, folds found by a scan and Newton's steps, Gauss's rule over the jumps. For each error it is given
 the quickest setting whose worst scene of a call keeps that error (`benchmarks/expert.py`); a scan that is too coarse
 misses folds. Its tables, its compilation and the stiffness of its materials are not timed; calls of gradhesion are
-timed whole, with the test of whether contact is one disc. Processor time on one thread, us a scene. Aims: 2 times in
-calls of 200 scenes for the force and for the energy at 1e-6; 3 and 7.5 times in calls of 20,000.
+timed whole, with the test of whether contact is one disc. Processor time on one thread, us a scene. Aims: 1.5 times for
+the force and 3 times for the energy at 1e-6 in calls of 200 scenes; 2 and 4.5 times in calls of 20,000.
 
 {expert.expert_table(repeat=3 if quick else 9)}"""
     yield f"""## Scenes
