@@ -31,7 +31,7 @@ CURVE: dict[str, Any] = {
     "kind": "curve",
     "parameters": PUNCH | {"k": 0.31, "lambda_over_R": 0.17, "a_max_over_R": [0.41, 0.7]},
 }
-REDUCED = MATERIAL | {"lambda_over_L": [0.2, 0.7], "chi": [0.0, 0.4], "a_max_over_L": [2.5, math.inf]}
+REDUCED = MATERIAL | {"lambda_over_L": [0.5, 0.9], "chi": [0.0, 0.4], "a_max_over_L": [1.5, 2.5]}
 RIM = {name: value for name, value in PUNCH.items() if name != "a_max_over_R"} | {"a_max_over_a2": [0.7, math.inf]}
 SEARCHED = PUNCH | {"A": 0.02, "a_max_over_R": 1.0, "lambda_over_R": {"start": 0.05, "stop": 1.0, "spacing": "log"}}
 

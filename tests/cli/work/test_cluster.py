@@ -126,7 +126,8 @@ def test_where_no_scheduler_answers_or_dask_is_missing_it_is_said(
     assert result.exit_code == 2, result.stderr
     assert ("pip install dask" if scheduler == "no dask" else scheduler) in result.stderr
     monkeypatch.setenv("GRADHESION_CHUNK", "100")
-    assert gradhesion(*command).exit_code == 0, "one block needs no cluster"
+    one_block = gradhesion(*command)
+    assert one_block.exit_code == (2 if scheduler == "no dask" else 0), "which needs no cluster"
 
 
 def test_an_interrupt_ends_the_workers_of_this_machine_and_keeps_blocks(study_file: Path, tmp_path: Path) -> None:

@@ -1,8 +1,5 @@
 """The first run of a version says that it compiles, once; what starts meanwhile waits, and nothing is compiled twice."""
 
-import os
-import subprocess
-import sys
 import threading
 from collections.abc import Callable
 from pathlib import Path
@@ -107,25 +104,3 @@ def test_a_warmup_takes_the_options_of_earlier_versions(gradhesion: Call, monkey
         assert result.exit_code == 0
         assert ("--quiet" in arguments) == (result.stderr == "")
     assert asked == [False, True, True]
-
-
-@pytest.mark.slow
-def test_after_a_warmup_a_map_compiles_nothing(study_file: Path, tmp_path: Path) -> None:
-    """By processes that share a cache of their own."""
-
-    def command(*arguments: str | Path) -> tuple[str, set[str]]:
-        """Return what a command writes to stderr, and the files of compiled code that are there then."""
-        done = subprocess.run(
-            [sys.executable, "-m", "gradhesion", *arguments],
-            env=os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "cache")},
-            cwd=tmp_path,
-            capture_output=True,
-            text=True,
-            check=True,
-        )
-        return done.stderr, {path.name for path in (tmp_path / "cache").rglob("*.nbc")}
-
-    said, compiled = command("warmup")
-    assert str(tmp_path / "cache") in said
-    assert compiled
-    assert command("run", study_file, "--quiet", "-o", "out.nc") == ("", compiled)

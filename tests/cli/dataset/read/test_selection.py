@@ -71,6 +71,14 @@ def test_interpolation_keeps_flags_of_both_neighbours_and_takes_jumps_from_the_n
     np.testing.assert_array_equal(jumps, dataset["loading_jumps"].values[1])
 
 
+@pytest.mark.parametrize(("how", "share"), [("p05", 0.05), ("p50", 0.5), ("median", 0.5), ("p95", 0.95)])
+def test_quantiles_are_those_of_numpy(how: str, share: float, dataset: xarray.Dataset) -> None:
+    dataset["status"][3] = INFORMED
+    taken = take(dataset, selection_of(dataset, over=[f"k={how}"]))
+    np.testing.assert_allclose(taken.values, np.quantile(dataset["pull_off_force"].values, share, axis=0), rtol=4e-16)
+    assert (taken.status == INFORMED).all()
+
+
 def test_the_place_of_an_extreme_may_be_reduced_further(dataset: xarray.Dataset) -> None:
     dataset["pull_off_force"][2, 1, :] = 50.0
     dataset["pull_off_force"][0, 3, :] = 60.0
