@@ -148,8 +148,3 @@ def quadrature(function: _Function) -> _Function:
 def quadrature_leaf(function: _Function) -> _Function:
     """Compile such a loop into each of its callers."""
     return _compiled(function, fastmath=_REORDERED, forceinline=True)
-
-
-def inlined(function: _Function) -> _Function:
-    """Write what is called in one place into its caller, so that it is compiled once."""
-    return _compiled(function, fastmath=_CONTRACTED, inline="always")

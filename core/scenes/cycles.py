@@ -19,7 +19,7 @@ from gradhesion.core.cycle.residual import work_of_cycle
 from gradhesion.core.cycle.ties import loading_is_tied, rim_is_tied, target_is_tied, unloading_is_tied
 from gradhesion.core.cycle.turning import turning_radius
 from gradhesion.core.edge.pattern import Pattern, edge_area, patterned_table, toughness_at
-from gradhesion.core.jit import inlined, kernel, leaf
+from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.problem.status import (
     CLOSE_TO_A_JUMP,
     JUMP_IN_TO_RIM,
@@ -240,7 +240,7 @@ def _target_is_tied(walked: Walked, turn: int, y: float, reduced: Floats, i: int
     )
 
 
-@inlined
+@leaf
 def _is_tied(walked: Walked, opened: int, y: float, at_rim: bool) -> bool:
     """Return whether a decision of a cycle that turns at y is close, but for the turn."""
     closing, opening = walked.closing, walked.opening
@@ -324,7 +324,7 @@ def put_losses(
     return JUMP_IN_TO_RIM if loaded.in_to_rim and cycle.turn == reduced[RIM_Y, i] else 0
 
 
-@inlined
+@leaf
 def _put_cycle(walked: Walked, wanted: Wanted, opened: int, y: float, reduced: Floats, i: int, out: Floats) -> int:
     """Store what the cycle of scene i, which turns at y, loses; return its bits of status, -1: too short a table."""
     closing, opening, loading, visited = walked.closing, walked.opening, walked.loading, walked.columns[0]
@@ -421,7 +421,7 @@ def open_curve(walked: Walked, turn: int, first: int, last: int, out: Floats) ->
     return opened, farthest
 
 
-@inlined
+@leaf
 def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Solve the scenes `first` to `last` - 1, all of one curve and valid; store their results, or SHORT as status."""
     wanted, turn = task.wanted, task.punch.turn
@@ -482,7 +482,7 @@ def put_force(lowest: Lowest, reduced: Floats, i: int, out: Floats) -> None:
     out[STATUS, i] = put_pull_off(lowest, reduced[RIM_Y, i], reduced, i, out) if lowest.known else SHORT
 
 
-@inlined
+@leaf
 def solve_patterned_forces(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Solve the pull-off alone of the scenes `first` to `last` - 1 with a pattern: no farther than it can be."""
     rooms = task.rooms
@@ -497,3 +497,20 @@ def solve_patterned_forces(task: Task, scenes: Floats, reduced: Floats, first: i
                 pull = Curve(own.table, own.B, own.g, 0.0, 1.0)
                 lowest = lowest_load(pull, reduced[RIM_Y, i], 0, own.table.bins)
         put_force(lowest, reduced, i, out)
+
+
+@kernel
+def solve_exponent(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
+    """Solve the scenes `first` to `last` - 1 of one exponent.
+
+    It stays a function of its own: in the one that Python calls, scenes would take a quarter longer.
+    """
+    if not task.wanted.cycle and task.punch.turn == AT_RIM:  # of an interface with a pattern
+        solve_patterned_forces(task, scenes, reduced, first, last, out)
+        return
+    start = first
+    while start < last:
+        end = curve_end(task.reach, scenes, reduced, start, last, out)
+        if end > start:
+            solve_curve(task, scenes, reduced, start, end, out)
+        start = max(end, start + 1)

@@ -12,9 +12,9 @@ from gradhesion.core.curve.values import Curve, bin_of
 from gradhesion.core.cycle.disc import profile_of
 from gradhesion.core.cycle.pull_off import Lowest, envelope_place, lowest_load, serves
 from gradhesion.core.edge.pattern import bins_of_wave, bounds_of
-from gradhesion.core.jit import inlined, kernel
+from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
-from gradhesion.core.scenes.cycles import curve_end, put_force, solve_curve, solve_patterned_forces
+from gradhesion.core.scenes.cycles import curve_end, put_force, solve_exponent
 from gradhesion.core.scenes.long import solve_summed
 from gradhesion.core.scenes.reduced import (
     AT_RIM,
@@ -70,7 +70,7 @@ Group: TypeAlias = Callable[[int, Floats, Floats, Floats], None]
 """What solves scenes of one fineness of bins: takes that, scenes, their reduced numbers, and room for results."""
 
 
-@inlined
+@leaf
 def _near_lowest(basis: Basis, kept: Kept, place: int, curve: Curve, rim: float) -> Lowest:
     """Return the lowest load of a curve on a kept table, whose bins are filled where the search arrives."""
     table, most, around = curve.table, basis.values.shape[0] - 1, _AROUND
@@ -117,19 +117,12 @@ def solve_cycles(
 ) -> None:
     """Solve cycles in the order of their exponents; scenes that reach beyond the tables are left as SHORT."""
     punch, tables, profile, scenes, reduced, out = borrowed((punch, tables, profile, scenes, reduced, out))
-    forces = not wanted.cycle and punch.turn == AT_RIM  # of an interface with a pattern
     first = int(np.int64(0))  # a plain 0 would be a type of its own, for which callees are compiled once more
     while first < scenes.shape[1]:
         last = end_of_exponent(scenes, first)
         task = task_of(punch, wanted, tables, profile, scenes, reduced, first, last)
-        if forces:
-            solve_patterned_forces(task, scenes, reduced, first, last, out)
-            first = last
-        while first < last:
-            end = curve_end(task.reach, scenes, reduced, first, last, out)
-            if end > first:
-                solve_curve(task, scenes, reduced, first, end, out)
-            first = max(end, first + 1)
+        solve_exponent(task, scenes, reduced, first, last, out)
+        first = last
 
 
 @kernel
