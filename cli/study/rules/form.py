@@ -199,10 +199,12 @@ def deviation_of(value: object, name: str) -> Deviation:
     forms = f'write for example {name} = "5 %", a standard deviation in its unit, or {{ low = .., high = .. }}'
 
     def number(one: object) -> float:
+        if isinstance(one, int | float) and not isinstance(one, bool):
+            if own.table == "physical":
+                raise ValueError(f"a number without a unit; {forms}")
+            return float(one)
         if own.table == "physical":
             return si_value(one, name)
-        if isinstance(one, int | float) and not isinstance(one, bool):
-            return float(one)
         raise ValueError((isinstance(one, str) and ratio_sentence(one, name)) or f"not a deviation; {forms}")
 
     if isinstance(value, Mapping):

@@ -42,6 +42,8 @@ _USUAL: Final = ("m", "mm", "um", "nm", "Pa", "kPa", "MPa", "GPa", "N", "mN", "u
 """Units as they are usually written, for those who write "Mpa"."""
 _QUANTITY: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,4})?|[+-]?inf|nan)\s*\*?\s*(.*)")
 _COMMA: Final = re.compile(r"([+-]?\d+),(\d+)")
+_THOUSANDS: Final = re.compile(r"([+-]?[1-9]\d{0,2}(?:,\d{3})+(?![\d,]))(\.\d*)?")
+"""A number that may have commas between its thousands, and its decimals after a point."""
 _POWER: Final = re.compile(r"([^\W\d_])([+-]?\d)")
 """A power as UDUNITS and astropy write it, `m-2`."""
 
@@ -81,9 +83,20 @@ def _parts_of(text: str) -> tuple[str, str]:
 
 
 def _comma_in(text: str) -> str:
-    """Describe a comma in a number, and how to write it without; nothing where there is none."""
-    comma = _COMMA.match(text.strip())
-    return f"a comma in a number; write a decimal point, {comma[1]}.{comma[2]}, and none at thousands" if comma else ""
+    """
+    Describe the comma in a number, and how to write the number without it; "" without one.
+
+    >>> _comma_in("300,5 nm"), _comma_in("1,000 nm"), _comma_in("1,234.5 nm")  # doctest: +NORMALIZE_WHITESPACE
+    ('a decimal comma; write a point, 300.5', 'a comma of decimals or between thousands; write 1.000 or 1000',
+    'a comma between thousands; write 1234.5')
+    """
+    thousands, comma = _THOUSANDS.match(text.strip()), _COMMA.match(text.strip())
+    if thousands:
+        plain = thousands[0].replace(",", "")
+        if thousands[2] or thousands[1].count(",") > 1:
+            return f"a comma between thousands; write {plain}"
+        return f"a comma of decimals or between thousands; write {thousands[1].replace(',', '.')} or {plain}"
+    return f"a decimal comma; write a point, {comma[1]}.{comma[2]}" if comma else ""
 
 
 def ratio_sentence(text: str, name: str) -> str:

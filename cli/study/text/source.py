@@ -143,8 +143,10 @@ def included(
 def _text(path: Path, most: int) -> str:
     """Read the text of a study file."""
     try:
-        with path.open("rb") as file:
-            content = file.read(most + 1)
+        content = bytearray()
+        with path.open("rb") as file:  # bit by bit: memory for the most that it may be is not always there
+            while len(content) <= most and (piece := file.read(2**20)):
+                content += piece
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise StudyError(f"{path}: cannot be read ({reason}); name a study in TOML") from None
