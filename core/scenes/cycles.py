@@ -8,6 +8,7 @@ traces; what each of them gets does not depend on the others.
 import math
 from typing import NamedTuple
 
+from gradhesion.core.borrowed import borrowed
 from gradhesion.core.curve.folds import CLOSE, find_folds
 from gradhesion.core.curve.levels import polished
 from gradhesion.core.curve.trace import END, END_LEVEL, LANDING, START
@@ -505,6 +506,7 @@ def solve_exponent(task: Task, scenes: Floats, reduced: Floats, first: int, last
 
     It stays a function of its own: in the one that Python calls, scenes would take a quarter longer.
     """
+    task, scenes, reduced, out = borrowed((task, scenes, reduced, out))
     if not task.wanted.cycle and task.punch.turn == AT_RIM:  # of an interface with a pattern
         solve_patterned_forces(task, scenes, reduced, first, last, out)
         return
