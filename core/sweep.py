@@ -31,8 +31,8 @@ from gradhesion.core.problem.names import (
 from gradhesion.core.problem.profile import WAVY, Profile, in_own_wavelength, starts_downwards
 from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE
 from gradhesion.core.problem.toughness import rows_of_pattern
-from gradhesion.core.scenes.requests import Request
-from gradhesion.core.scenes.results import INTEGERS, NAMES, Wanted
+from gradhesion.core.scenes import rows as at
+from gradhesion.core.scenes.requests import Request, Wanted
 from gradhesion.core.scenes.tasks import solve_all
 from gradhesion.core.table.layout import BY_DEPTH, EXACT
 
@@ -43,7 +43,7 @@ Results: TypeAlias = dict[str, NDArray[Any]]
 _GAINS: Final = {"adhesion_gain": "pull_off_force", "energy_gain": "dissipated_energy"}
 """Results compared with those of the smooth punch on the same interface."""
 _COLUMNS: Final = (*PARAMETERS, "machine_stiffness", "target", CLOSING, *PATTERN)
-"""The rows of parameters in the order of scenes/reduced.py; `target` is the one of `TURNS` that is given."""
+"""The rows of parameters in the order of scenes/rows.py; `target` is the one of `TURNS` that is given."""
 _DEFAULTS: Final = {"machine_stiffness": np.inf, "target": 0.0, CLOSING: 1.0, PATTERN[0]: 1.0, PATTERN[1]: 1.0}
 
 
@@ -147,9 +147,9 @@ def _solved(
         needed |= {"loading_energy", "loading_jumps", "dissipated_energy"}
     if cycle and solver == "asymptotic":
         needed |= {"dissipated_energy"}
-    names = [name for name in NAMES if name in needed]
+    names = [name for name in at.NAMES if name in needed]
     form = BY_DEPTH if solver == "asymptotic" else EXACT
-    rows, status = solve_all(request, wanted, form, [NAMES.index(name) for name in names], threads)
+    rows, status = solve_all(request, wanted, form, [at.NAMES.index(name) for name in names], threads)
     found: Results = {name: row.reshape(shape) for name, row in zip(names, rows, strict=True)}
     status = status.reshape(shape)
     if "dissipated_energy" in found:  # NaN is beyond all numbers, and a gain a contact that is no larger than a wave
@@ -168,7 +168,7 @@ def _solved(
 
 def _typed(name: str, values: NDArray[np.float64]) -> NDArray[Any]:
     """Return values as the type of their result: counts as int32, -1 for NaN, 2^31 - 1 for more."""
-    if name not in INTEGERS:
+    if name not in at.INTEGERS:
         return values
     return np.where(np.isnan(values), -1.0, np.minimum(values, np.iinfo(np.int32).max)).astype(np.int32)
 

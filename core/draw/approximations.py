@@ -23,7 +23,7 @@ from gradhesion.core.curve.values import Curve
 from gradhesion.core.draw.sampling import Line, line_of, sample, spans_of
 from gradhesion.core.draw.scene import Drawn, Frame, extrema_of, table_for, waves_of
 from gradhesion.core.problem.profile import swings
-from gradhesion.core.scenes.reduced import BY_POWER, BY_WAVES, WINDOW
+from gradhesion.core.scenes import rows as at
 from gradhesion.core.table.layout import BY_DEPTH, BY_LOAD
 from gradhesion.core.table.leading import amplitude_of
 from gradhesion.core.types import Floats
@@ -34,7 +34,7 @@ REACH: Final = 2.0
 
 def _smooth_line(frame: Frame, pull: float, height: float = 0.0) -> Line:
     """Return the line of a punch without waves, of a pull, its depth raised by a height."""
-    k, m, B, units = frame.k, frame.punch.exponent, frame.reduced[BY_POWER, 0], frame.units
+    k, m, B, units = frame.k, frame.punch.exponent, frame.reduced[at.BY_POWER, 0], frame.units
 
     def points(y: Floats) -> Floats:
         """Return states at radii."""
@@ -78,10 +78,10 @@ def draw_asymptotic(drawn: Drawn) -> tuple[Floats, ...] | None:
     wave.
     """
     frame, end = drawn.frame, drawn.end
-    if frame.reduced[BY_WAVES, 0] == 0.0:
+    if frame.reduced[at.BY_WAVES, 0] == 0.0:
         return draw_smooth(drawn)
-    B, g = frame.reduced[[BY_POWER, BY_WAVES], 0].tolist()
-    need = min(frame.reduced[WINDOW, 0], end)
+    B, g = frame.reduced[[at.BY_POWER, at.BY_WAVES], 0].tolist()
+    need = min(frame.reduced[at.WINDOW, 0], end)
     while True:
         made, by_load = (table_for(frame, form, need) for form in (BY_DEPTH, BY_LOAD))
         if made is None or by_load is None:
@@ -97,7 +97,7 @@ def draw_asymptotic(drawn: Drawn) -> tuple[Floats, ...] | None:
 
 def _envelopes(frame: Frame) -> tuple[float, float, float]:
     """Return the pulls of the envelopes of loading and unloading, and the mean height of the waves."""
-    g, waves = frame.reduced[BY_WAVES, 0], frame.punch.waves
+    g, waves = frame.reduced[at.BY_WAVES, 0], frame.punch.waves
     up, down = swings(frame.k, tuple(map(tuple, waves.tolist())))
     one = g * amplitude_of(frame.k)
     return float(1.0 - one * up), float(1.0 + one * down), float(g * waves[:, 1].sum())

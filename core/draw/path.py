@@ -26,7 +26,7 @@ from gradhesion.core.cycle.jumps import (
 from gradhesion.core.draw.sampling import sample, spans_of
 from gradhesion.core.draw.scene import Drawn, Frame, Side
 from gradhesion.core.jit import kernel
-from gradhesion.core.scenes.reduced import BY_DEPTH, BY_LOAD
+from gradhesion.core.scenes import rows as at
 from gradhesion.core.types import Floats, Integers
 
 _Corner: TypeAlias = tuple[float, ...]
@@ -99,7 +99,7 @@ class Corners(NamedTuple):
 
 def _level_of(frame: Frame, corner: _Corner) -> float:
     """Return what is prescribed at a corner, in its unit for opening."""
-    by_depth, by_load = frame.reduced[[BY_DEPTH, BY_LOAD], 0] / frame.units[1:]
+    by_depth, by_load = frame.reduced[[at.BY_DEPTH, at.BY_LOAD], 0] / frame.units[1:]
     return float(by_depth * corner[DEPTH] + by_load * corner[LOAD])
 
 
@@ -120,7 +120,7 @@ def _put_jump(frame: Frame, side: Side, corners: list[_Corner], y: float, branch
     dead load that lets go keeps its depth.
     """
     before = corners[-1]
-    by_depth, by_load = frame.reduced[[BY_DEPTH, BY_LOAD], 0]
+    by_depth, by_load = frame.reduced[[at.BY_DEPTH, at.BY_LOAD], 0]
     y, depth, load = side.line.points(np.array([y]))[:, 0].tolist()
     stiffness = y ** (1.0 + frame.k) * frame.units[2] / frame.units[1]
     softness = _level_of(frame, (y, 1.0, stiffness))
@@ -194,7 +194,7 @@ def draw_jumps(drawn: Drawn, *, grows: bool) -> tuple[NDArray[Any], ...]:
     jumps, unloading = corners.jumps, np.arange(corners.jumps.shape[1]) >= corners.loading
     if grows:
         jumps, unloading = jumps[:, 1:], unloading[1:]
-    kept = (jumps[LANDED] > 0.0) | (frame.reduced[BY_DEPTH, 0] > 0.0)
+    kept = (jumps[LANDED] > 0.0) | (frame.reduced[at.BY_DEPTH, 0] > 0.0)
     jumps, unloading, after = jumps[:, kept], unloading[kept], after[kept]
     before, rim = after - 1, drawn.turn if drawn.turn == frame.rim else np.nan
     work = 2.0 * np.pi * frame.units[0] ** 2 * np.where(unloading, 1.0, frame.root**2)

@@ -19,29 +19,8 @@ from gradhesion.core.cycle.path import walk_loading
 from gradhesion.core.draw.sampling import Line, line_of
 from gradhesion.core.edge.pattern import Pattern, patterned_table
 from gradhesion.core.jit import kernel
-from gradhesion.core.scenes.reduced import (
-    BY_DEPTH,
-    BY_LOAD,
-    BY_POWER,
-    BY_WAVES,
-    CLOSING,
-    DEPTH,
-    LENGTH,
-    LOAD,
-    MOST,
-    PATTERN_AMPLITUDE,
-    PATTERN_WAVES,
-    PULL,
-    RIM,
-    RIM_Y,
-    STEEP,
-    UNIT_OF_FORCE,
-    VALID,
-    WINDOW,
-    K,
-    Punch,
-    crest_of,
-)
+from gradhesion.core.scenes import rows as at
+from gradhesion.core.scenes.reduced import UNIT_OF_FORCE, Punch, crest_of
 from gradhesion.core.scenes.requests import Request, columns_of, punch_of, scenes_of, set_lengths
 from gradhesion.core.scenes.tables import MOST_BINS, long_table
 from gradhesion.core.scenes.tasks import FINEST, prepared
@@ -76,23 +55,23 @@ class Frame(NamedTuple):
     @property
     def k(self) -> float:
         """The gradient exponent."""
-        return float(self.scenes[K, 0])
+        return float(self.scenes[at.K, 0])
 
     @property
     def units(self) -> Floats:
         """The units of radius and depth in R and of load in 1.5 pi R w_o, (3,)."""
-        length, depth, load = self.reduced[[LENGTH, DEPTH, LOAD], 0]
+        length, depth, load = self.reduced[[at.LENGTH, at.DEPTH, at.LOAD], 0]
         return np.array([length, depth, load * UNIT_OF_FORCE])
 
     @property
     def root(self) -> float:
         """The root of the ratio of the works of closing and opening."""
-        return math.sqrt(self.reduced[CLOSING, 0])
+        return math.sqrt(self.reduced[at.CLOSING, 0])
 
     @property
     def rim(self) -> float:
         """The radius y of the rim."""
-        return float(self.reduced[RIM_Y, 0])
+        return float(self.reduced[at.RIM_Y, 0])
 
     @property
     def is_patterned(self) -> bool:
@@ -102,11 +81,11 @@ class Frame(NamedTuple):
     def place(self, level: float, pull: float) -> float:
         """Return y where B y^m is a level times a pull of y^((1-k)/2), 0 for a pull below 0."""
         power = self.punch.exponent - 0.5 * (1.0 - self.k)
-        return float((level * max(0.0, pull) / self.reduced[BY_POWER, 0]) ** (1.0 / power))
+        return float((level * max(0.0, pull) / self.reduced[at.BY_POWER, 0]) ** (1.0 / power))
 
     def radii(self, y: Floats, end: float) -> Floats:
         """Return a/R of radii y; that of the rim as it was given."""
-        rim = self.scenes[RIM, 0] if end == self.rim else end * self.units[0]
+        rim = self.scenes[at.RIM, 0] if end == self.rim else end * self.units[0]
         return np.where(y == end, rim, y * self.units[0])
 
 
@@ -155,7 +134,7 @@ def frame_of(request: Request) -> Frame | None:
     punch, scenes = punch_of(request), scenes_of(columns_of(request)[0], 0, 1)
     set_lengths(punch, scenes)
     reduced, finer = prepared(punch, EXACT, scenes)
-    known = finer[0] <= FINEST and bool(reduced[VALID, 0])
+    known = finer[0] <= FINEST and bool(reduced[at.VALID, 0])
     return Frame(punch, scenes, reduced, int(finer[0])) if known else None
 
 
@@ -182,10 +161,10 @@ def extrema_of(curve: Curve, y_end: float) -> Floats | None:
 def waves_of(frame: Frame) -> tuple[float, float]:
     """Return half the shortest wave of a scene in y, and a bound of its waves of depth over y^((1-k)/2)."""
     half = math.pi / float(frame.punch.waves[:, 0].max())
-    crest = crest_of(frame.k, frame.punch.waves) * frame.reduced[BY_WAVES, 0]
+    crest = crest_of(frame.k, frame.punch.waves) * frame.reduced[at.BY_WAVES, 0]
     if frame.is_patterned:
-        half = min(half, math.pi / (frame.punch.rows.shape[1] * frame.reduced[PATTERN_WAVES, 0]))
-        crest += frame.reduced[MOST, 0] ** 2 - 1.0
+        half = min(half, math.pi / (frame.punch.rows.shape[1] * frame.reduced[at.PATTERN_WAVES, 0]))
+        crest += frame.reduced[at.MOST, 0] ** 2 - 1.0
     return half if crest > 0.0 else math.inf, crest
 
 
@@ -199,11 +178,11 @@ def table_for(frame: Frame, form: int, y_end: float) -> tuple[Table, Source, flo
 def _side(frame: Frame, root: float, made: tuple[Table, Source, float], y_end: float) -> Side | None:
     """Return the curve of a work of adhesion, `root`^2 of that of opening; None: the table is too short."""
     table, source, crest = made
-    B, g, by_depth, by_load = frame.reduced[[BY_POWER, BY_WAVES, BY_DEPTH, BY_LOAD], 0].tolist()
+    B, g, by_depth, by_load = frame.reduced[[at.BY_POWER, at.BY_WAVES, at.BY_DEPTH, at.BY_LOAD], 0].tolist()
     B, g = B / root, g / root
     if frame.is_patterned:
-        numbers = frame.reduced[PATTERN_WAVES, 0], frame.scenes[PATTERN_AMPLITUDE, 0]
-        bounds = frame.reduced[MOST, 0], frame.reduced[STEEP, 0]
+        numbers = frame.reduced[at.PATTERN_WAVES, 0], frame.scenes[at.PATTERN_AMPLITUDE, 0]
+        bounds = frame.reduced[at.MOST, 0], frame.reduced[at.STEEP, 0]
         pattern = Pattern(frame.punch.rows, *numbers, frame.punch.of_work, *bounds)
         end, room = min(y_end, span_of(table)), room_of(table.bins, LANES + 1)
         table, g = patterned_table(table, crest, g, pattern, end, *room), 1.0
@@ -253,7 +232,7 @@ def draw_scene(frame: Frame, turn: float | None, pulled: float) -> Drawn:
     turned = frame.rim if turn is None else turn / length
     if y_end == math.inf and turn is not None:
         y_end = BEYOND * float(np.fmax(turned, pulled / length))
-    end, need = y_end, min(max(frame.reduced[WINDOW, 0], frame.reduced[PULL, 0]), y_end)
+    end, need = y_end, min(max(frame.reduced[at.WINDOW, 0], frame.reduced[at.PULL, 0]), y_end)
     if frame.is_patterned and y_end < math.inf:
         need = y_end
     while not complete and (made := table_for(frame, EXACT, need)) is not None:

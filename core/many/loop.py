@@ -31,15 +31,7 @@ from gradhesion.core.curve.trace import (
     UNLOADED,
     UNLOADING_JUMPS,
 )
-from gradhesion.core.curve.values import (
-    Curve,
-    coordinate_of,
-    depth_and_load,
-    load_curve,
-    place_of,
-    softness,
-    state_in,
-)
+from gradhesion.core.curve.values import Curve, coordinate_of, depth_and_load, load_curve, place_of, softness, state_in
 from gradhesion.core.cycle.disc import gap_is_open, loading_is_one_disc
 from gradhesion.core.cycle.path import (
     Loaded,

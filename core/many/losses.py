@@ -4,24 +4,10 @@ from typing import Final
 
 import numpy as np
 
-from gradhesion.core.curve.trace import (
-    LANDING,
-    LOADED,
-    LOADING_JUMPS,
-    START_LEVEL,
-    UNLOADED,
-    UNLOADING_JUMPS,
-)
-from gradhesion.core.curve.values import (
-    Curve,
-    slope_at,
-)
+from gradhesion.core.curve.trace import LANDING, LOADED, LOADING_JUMPS, START_LEVEL, UNLOADED, UNLOADING_JUMPS
+from gradhesion.core.curve.values import Curve, slope_at
 from gradhesion.core.cycle.disc import gap_is_open
-from gradhesion.core.cycle.path import (
-    end_state,
-    fill_unloading,
-    walk_on,
-)
+from gradhesion.core.cycle.path import end_state, fill_unloading, walk_on
 from gradhesion.core.jit import kernel
 from gradhesion.core.many.search import (
     BORN,

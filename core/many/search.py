@@ -20,19 +20,9 @@ from gradhesion.core.curve.trace import (
     UNLOADED,
     room_for,
 )
-from gradhesion.core.curve.values import (
-    Curve,
-    coordinate_at,
-    coordinate_of,
-    depth_and_load,
-    slope_at,
-    softness,
-)
+from gradhesion.core.curve.values import Curve, coordinate_at, coordinate_of, depth_and_load, slope_at, softness
 from gradhesion.core.cycle.disc import Disc
-from gradhesion.core.cycle.path import (
-    end_state,
-    walk_on,
-)
+from gradhesion.core.cycle.path import end_state, walk_on
 from gradhesion.core.cycle.turning import turning_radius
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.many.waves import Waves, fill_from_zero, wave_of, waves_from

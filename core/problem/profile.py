@@ -117,9 +117,7 @@ class Profile:
         ge=1.0,
     )
     harmonics: tuple[Harmonic, ...] = setting(
-        "waves of the series [one cosine]",
-        "[{ n = 1, cos = 1.0 }, { n = 2, sin = 0.3 }]",
-        default=(Harmonic(n=1),),
+        "waves of the series [one cosine]", "[{ n = 1, cos = 1.0 }, { n = 2, sin = 0.3 }]", default=(Harmonic(n=1),)
     )
 
     def __post_init__(self) -> None:

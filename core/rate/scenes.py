@@ -19,7 +19,8 @@ from gradhesion.core.problem.toughness import MOST_WAVES, Rate
 from gradhesion.core.processors import processors
 from gradhesion.core.rate.edge import Edge, goal, lag_of, load_at, place_at, pulls_at, state_of
 from gradhesion.core.rate.step import LAG, NODES, RADIUS, SLOW, STAGES, Room, Way, step_until, stride
-from gradhesion.core.scenes import reduced as rows
+from gradhesion.core.scenes import rows as at
+from gradhesion.core.scenes.reduced import AT_RIM, UNIT_OF_FORCE, Punch, reduced_of
 from gradhesion.core.scenes.requests import columns_of, punch_of, scenes_of
 from gradhesion.core.scenes.tables import long_table
 from gradhesion.core.sweep import request_of
@@ -133,26 +134,26 @@ def close_edge(edge: Edge, rim: float, target: float, furthest: float, room: Roo
 
 @kernel
 def move_edges(
-    punch: rows.Punch, table: Table, scenes: Floats, reduced: Floats, n: float, opens: bool, track: Floats, out: Floats
+    punch: Punch, table: Table, scenes: Floats, reduced: Floats, n: float, opens: bool, track: Floats, out: Floats
 ) -> None:
     """Open or close the contacts of scenes of one exponent by a law of the power n.
 
-    `scenes` and `reduced` are those of scenes/reduced.py, the first with a last row of V/v*. `out` has a row a result,
+    `scenes` and `reduced` are those of scenes/rows.py, the first with a last row of V/v*. `out` has a row a result,
     NaN where nothing is stored, and a last one of status. `track` takes where the edge of the last scene has been.
     """
     room = Room(np.empty((9, STAGES)), np.empty((STAGES, STAGES + 1)), track)
     for i in range(scenes.shape[1]):
         speed, units, found = scenes[-1, i], reduced[:, i].copy(), out[:, i]
-        root, rim = 1.0 if opens else math.sqrt(scenes[rows.RATIO, i]), units[rows.RIM_Y]
-        target = math.inf if punch.turn == rows.AT_RIM else units[rows.TARGET_VALUE]
-        if not (units[rows.VALID] and 0.0 < speed < math.inf and root > 0.0 and min(rim, target) < math.inf):
+        root, rim = 1.0 if opens else math.sqrt(scenes[at.RATIO, i]), units[at.RIM_Y]
+        target = math.inf if punch.turn == AT_RIM else units[at.TARGET_VALUE]
+        if not (units[at.VALID] and 0.0 < speed < math.inf and root > 0.0 and min(rim, target) < math.inf):
             continue
-        shortest = 2.0 * math.pi / np.max(punch.waves[:, 0]) if units[rows.BY_WAVES] > 0.0 else math.inf
+        shortest = 2.0 * math.pi / np.max(punch.waves[:, 0]) if units[at.BY_WAVES] > 0.0 else math.inf
         curve, furthest = (
-            Curve(table, units[rows.BY_POWER], units[rows.BY_WAVES], 1.0, units[rows.BY_LOAD]),
+            Curve(table, units[at.BY_POWER], units[at.BY_WAVES], 1.0, units[at.BY_LOAD]),
             MOST_WAVES * shortest,
         )
-        edge = Edge(curve, shortest, speed * units[rows.LENGTH] / units[rows.DEPTH], n, root, 1.0 if opens else -1.0)
+        edge = Edge(curve, shortest, speed * units[at.LENGTH] / units[at.DEPTH], n, root, 1.0 if opens else -1.0)
         if target == math.inf and rim > furthest:
             status = NO_VALUE | TOO_MANY_WAVES
         elif opens:
@@ -186,28 +187,28 @@ def move(
     request, shape = request_of(parameters, turn, known["profile"], known["loading"], None)
     punch, names, (columns, count) = punch_of(request), OPENED if opens else CLOSED, columns_of(request)
     scenes = np.vstack([scenes_of(columns, 0, count), np.broadcast_to(parameters[SPEED], shape).reshape(1, -1)])
-    reduced = rows.reduced_of(punch, basis_of(punch.exponent, punch.waves), scenes, np.ones(count), np.zeros(count))
+    reduced = reduced_of(punch, basis_of(punch.exponent, punch.waves), scenes, np.ones(count), np.zeros(count))
     out, track = np.full((len(names) + 1, count), np.nan), np.zeros((3, points))
     out[-1] = NO_VALUE
-    far = np.where(reduced[rows.BY_WAVES] > 0.0, reduced[rows.RIM_Y if turn is None else rows.NEED], 0.0)
+    far = np.where(reduced[at.BY_WAVES] > 0.0, reduced[at.RIM_Y if turn is None else at.NEED], 0.0)
     far = np.fmin(np.where(far < np.inf, far, 0.0), 2.0 * math.pi * MOST_WAVES / punch.waves[:, 0].max())
 
     def work(k: float) -> None:
         """Solve the scenes of one exponent."""
-        own = np.flatnonzero(scenes[rows.K] == k)
+        own = np.flatnonzero(scenes[at.K] == k)
         table = long_table(punch, k, EXACT, 1, float(far[own].max()))[0]
         chosen, numbers, found = (np.ascontiguousarray(array[:, own]) for array in (scenes, reduced, out))
         move_edges(punch, table, chosen, numbers, rate.exponent, opens, track, found)
         out[:, own] = found
 
     with ThreadPoolExecutor(known["threads"] or processors()) as pool:
-        list(pool.map(work, [k for k in np.unique(scenes[rows.K]).tolist() if 0.0 <= k <= 1.0]))
-    length, depth = reduced[rows.LENGTH], reduced[rows.DEPTH]
-    load, area = reduced[rows.LOAD] * rows.UNIT_OF_FORCE, 2.0 * math.pi * length**2
+        list(pool.map(work, [k for k in np.unique(scenes[at.K]).tolist() if 0.0 <= k <= 1.0]))
+    length, depth = reduced[at.LENGTH], reduced[at.DEPTH]
+    load, area = reduced[at.LOAD] * UNIT_OF_FORCE, 2.0 * math.pi * length**2
     units = (-load, length, 1.0, area, depth) if opens else (length, depth, area, depth)
     found: dict[str, NDArray[Any]] = {name: row * unit for name, row, unit in zip(names, out, units, strict=False)}
     if not opens:  # a rim that is met is the one that was given
-        rim, radius = scenes[rows.RIM], found["turning_radius"]
+        rim, radius = scenes[at.RIM], found["turning_radius"]
         found["turning_radius"] = np.where(radius > rim * (1.0 - 1e-15), rim, radius)
     if points > 0:
         found["track"] = track[:, 1 : int(track[0, 0]) + 1] * np.array([length, depth, load])

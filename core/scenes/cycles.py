@@ -8,10 +8,12 @@ traces; what each of them gets does not depend on the others.
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from gradhesion.core.borrowed import borrowed
 from gradhesion.core.curve.folds import CLOSE, find_folds
 from gradhesion.core.curve.levels import polished
-from gradhesion.core.curve.trace import END, END_LEVEL, LANDING, START
+from gradhesion.core.curve.trace import END, END_LEVEL, LANDING, START, room_for
 from gradhesion.core.curve.values import Curve, load_curve, softness, state_in
 from gradhesion.core.cycle.disc import Disc, gap_is_open, loading_is_one_disc
 from gradhesion.core.cycle.path import Loaded, Unloaded, load_to, snap_in, unload_from, visited_within, walk_loading
@@ -29,56 +31,37 @@ from gradhesion.core.problem.status import (
     NO_VALUE,
     PULL_OFF_AT_RIM,
 )
-from gradhesion.core.scenes.reduced import (
-    AT_A_LOAD,
-    AT_DEPTH,
-    AT_RIM,
-    BY_DEPTH,
-    BY_LOAD,
-    BY_POWER,
-    BY_WAVES,
-    CLOSING,
-    DEPTH,
-    EXPONENT,
-    LENGTH,
-    LOAD,
-    MOST,
-    NEED,
-    PATTERN_AMPLITUDE,
-    PATTERN_WAVES,
-    RIM_Y,
-    STEEP,
-    TARGET,
-    TARGET_VALUE,
-    UNIT_OF_FORCE,
-    VALID,
-    WINDOW,
-    Punch,
-)
-from gradhesion.core.scenes.results import (
-    DEEPEST,
-    ENERGY,
-    FORCE,
-    FRONT,
-    JUMP_OUT,
-    LOADING,
-    LOADING_JUMPS,
-    PINNED,
-    PULL_OFF_RADIUS,
-    REACH,
-    RESIDUAL,
-    SATURATION,
-    SHORT,
-    SNAP,
-    STATUS,
-    TURN,
-    UNLOADING,
-    UNLOADING_JUMPS,
-    Rooms,
-    Wanted,
-)
-from gradhesion.core.table.layout import Table, end_of
+from gradhesion.core.scenes import rows as at
+from gradhesion.core.scenes.reduced import AT_A_LOAD, AT_DEPTH, AT_RIM, UNIT_OF_FORCE, Punch
+from gradhesion.core.scenes.requests import Wanted
+from gradhesion.core.table.basis import room_of
+from gradhesion.core.table.layout import LANES, Table, end_of
 from gradhesion.core.types import Floats, Integers
+
+
+class Rooms(NamedTuple):
+    """Room for the curves of one task, so that little is allocated in its loops.
+
+    traces      of closing, of opening, and of what is measured for the turn, (3, ROWS, branches)
+    columns     those that loading visits, and a stack of unloading, (2, branches)
+    nodes       of the tables of closing and of opening of interfaces with a pattern, (2, ROWS, bins + 1)
+    polys       their polynomials, (2, bins, LANES + 1, N)
+    limits      those of `loading_is_one_disc` of the last curve, (2,)
+    """
+
+    traces: Floats
+    columns: Integers
+    nodes: Floats
+    polys: Floats
+    limits: Floats
+
+
+def rooms_for(bins: int, patterned: bool) -> Rooms:
+    """Return room for tables of that many bins."""
+    nodes, polys = room_of(bins if patterned else 0, LANES + 1)
+    traces = np.empty((3, *room_for(bins).shape))
+    columns = np.empty((2, traces.shape[2]), dtype=np.int64)
+    return Rooms(traces, columns, np.stack((nodes, nodes)), np.stack((polys, polys)), np.empty(2))
 
 
 class Task(NamedTuple):
@@ -137,8 +120,8 @@ CLOSING_TRACE, OPENING_TRACE, MEASURED_TRACE = range(3)
 @kernel
 def pattern_of(punch: Punch, scenes: Floats, reduced: Floats, i: int) -> Pattern:
     """Return the pattern of toughness of scene i."""
-    amplitude = scenes[PATTERN_AMPLITUDE, i]
-    waves, most, steep = reduced[PATTERN_WAVES, i], reduced[MOST, i], reduced[STEEP, i]
+    amplitude = scenes[at.PATTERN_AMPLITUDE, i]
+    waves, most, steep = reduced[at.PATTERN_WAVES, i], reduced[at.MOST, i], reduced[at.STEEP, i]
     return Pattern(punch.rows, waves, amplitude, punch.of_work, most, steep)
 
 
@@ -158,20 +141,20 @@ def curve_of(
 
     `crest` is that of a task, `nodes` and `polys` are room for the table with a pattern.
     """
-    B, g = reduced[BY_POWER, i] / root, reduced[BY_WAVES, i] / root
+    B, g = reduced[at.BY_POWER, i] / root, reduced[at.BY_WAVES, i] / root
     if pattern.rows.shape[1] > 0:
         table = patterned_table(table, crest, g, pattern, min(y_end, end_of(table)), nodes, polys)
         g = 1.0
-    return Curve(table, B, g, reduced[BY_DEPTH, i], reduced[BY_LOAD, i])
+    return Curve(table, B, g, reduced[at.BY_DEPTH, i], reduced[at.BY_LOAD, i])
 
 
 @kernel
 def same_curve(scenes: Floats, reduced: Floats, i: int, j: int) -> bool:
     """Return whether two scenes differ in rim and target alone."""
-    for row in (EXPONENT, BY_POWER, BY_WAVES, LENGTH, BY_LOAD, CLOSING, PATTERN_WAVES):
+    for row in (at.EXPONENT, at.BY_POWER, at.BY_WAVES, at.LENGTH, at.BY_LOAD, at.CLOSING, at.PATTERN_WAVES):
         if reduced[row, i] != reduced[row, j]:
             return False
-    return bool(scenes[PATTERN_AMPLITUDE, i] == scenes[PATTERN_AMPLITUDE, j])
+    return bool(scenes[at.PATTERN_AMPLITUDE, i] == scenes[at.PATTERN_AMPLITUDE, j])
 
 
 @leaf
@@ -195,7 +178,7 @@ def _polish_landings(closing: Curve, loading: Floats, visited: Integers, visits:
 @kernel
 def _turn(walked: Walked, turn: int, reduced: Floats, i: int) -> float:
     """Return where scene i turns; its rim if nowhere within the table before, 0 if there is no contact."""
-    target = reduced[TARGET_VALUE, i] / math.sqrt(walked.ratio)
+    target = reduced[at.TARGET_VALUE, i] / math.sqrt(walked.ratio)
     if turn == AT_DEPTH and target < 0.0:
         return 0.0
     found = turning_radius(
@@ -207,15 +190,15 @@ def _turn(walked: Walked, turn: int, reduced: Floats, i: int) -> float:
         walked.turning,
         walked.measured,
     )
-    return min(found, float(reduced[RIM_Y, i]))
+    return min(found, float(reduced[at.RIM_Y, i]))
 
 
 @kernel
 def _loading_keeps_one_disc(task: Task, walked: Walked, y: float, reduced: Floats, i: int) -> bool:
     """Return whether the contact stays one disc on loading up to y, where the cycle turns, and around it there."""
-    rim, root, plain = reduced[RIM_Y, i], math.sqrt(walked.ratio), walked.closing
+    rim, root, plain = reduced[at.RIM_Y, i], math.sqrt(walked.ratio), walked.closing
     if walked.pattern.rows.shape[1] > 0:
-        B, g = reduced[BY_POWER, i] / root, reduced[BY_WAVES, i] / root
+        B, g = reduced[at.BY_POWER, i] / root, reduced[at.BY_WAVES, i] / root
         plain = Curve(task.table, B, g, plain.by_depth, plain.by_load)
     visited, visits = walked.columns[0], walked.visits
     one = loading_is_one_disc(plain, task.disc, walked.loading, visited, visits, y, task.rooms.limits)
@@ -228,7 +211,7 @@ def _loading_keeps_one_disc(task: Task, walked: Walked, y: float, reduced: Float
 @kernel
 def _target_is_tied(walked: Walked, turn: int, y: float, reduced: Floats, i: int) -> bool:
     """Return whether the target of scene i, which turns at y, is close to a highest one before."""
-    target = reduced[TARGET_VALUE, i] / math.sqrt(walked.ratio)
+    target = reduced[at.TARGET_VALUE, i] / math.sqrt(walked.ratio)
     return target_is_tied(
         measured_curve(walked.closing, turn),
         target,
@@ -254,25 +237,25 @@ def _is_tied(walked: Walked, opened: int, y: float, at_rim: bool) -> bool:
 def no_value(out: Floats, i: int, status: float) -> None:
     """Store that a scene has no value."""
     out[:, i] = math.nan
-    out[STATUS, i] = status
+    out[at.STATUS, i] = status
 
 
 @kernel
 def put_no_contact(scenes: Floats, i: int, out: Floats) -> None:
     """Store a cycle that turns before contact is made."""
     out[:, i] = 0.0
-    out[PULL_OFF_RADIUS, i] = out[JUMP_OUT, i] = out[SNAP, i] = math.nan
-    out[DEEPEST, i], out[STATUS, i] = scenes[TARGET, i], NO_CONTACT
+    out[at.PULL_OFF_RADIUS, i] = out[at.JUMP_OUT, i] = out[at.SNAP, i] = math.nan
+    out[at.DEEPEST, i], out[at.STATUS, i] = scenes[at.TARGET, i], NO_CONTACT
 
 
 @kernel
 def put_pull_off(lowest: Lowest, y: float, reduced: Floats, i: int, out: Floats) -> int:
     """Store the pull-off of a cycle that turns at y; return its bits of status."""
     if not lowest.load < 0.0:  # a centre without toughness: the contact shrinks to a point, and never pulls
-        out[FORCE, i], out[PULL_OFF_RADIUS, i] = 0.0, math.nan
+        out[at.FORCE, i], out[at.PULL_OFF_RADIUS, i] = 0.0, math.nan
         return 0
-    out[FORCE, i] = -lowest.load * reduced[LOAD, i] * UNIT_OF_FORCE
-    out[PULL_OFF_RADIUS, i] = lowest.y * reduced[LENGTH, i]
+    out[at.FORCE, i] = -lowest.load * reduced[at.LOAD, i] * UNIT_OF_FORCE
+    out[at.PULL_OFF_RADIUS, i] = lowest.y * reduced[at.LENGTH, i]
     tied = lowest.second < lowest.load * (1.0 - CLOSE) and lowest.second_y != lowest.y
     return (PULL_OFF_AT_RIM if lowest.y == y else 0) | (CLOSE_TO_A_JUMP if tied else 0)
 
@@ -281,16 +264,16 @@ def put_pull_off(lowest: Lowest, y: float, reduced: Floats, i: int, out: Floats)
 def _put_edge(opening: Curve, pattern: Pattern, ratio: float, y: float, reduced: Floats, i: int, out: Floats) -> None:
     """Store what depends on the edge being stuck between closing and opening, for a cycle that turns at y."""
     root, k = math.sqrt(ratio), opening.table.k
-    out[FRONT, i] = out[PINNED, i] = 0.0
+    out[at.FRONT, i] = out[at.PINNED, i] = 0.0
     if ratio == 1.0:
         return
-    out[FRONT, i] = out[PINNED, i] = math.inf
+    out[at.FRONT, i] = out[at.PINNED, i] = math.inf
     if y < math.inf:
-        area = 2.0 * math.pi * reduced[LENGTH, i] ** 2
-        out[FRONT, i] = (1.0 - ratio) * area * edge_area(opening.table, pattern, y)
-        stretch = toughness_at(pattern, y) * y ** (0.5 * (1.0 - k)) * reduced[DEPTH, i]
+        area = 2.0 * math.pi * reduced[at.LENGTH, i] ** 2
+        out[at.FRONT, i] = (1.0 - ratio) * area * edge_area(opening.table, pattern, y)
+        stretch = toughness_at(pattern, y) * y ** (0.5 * (1.0 - k)) * reduced[at.DEPTH, i]
         by_machine = softness(opening, y ** (1.0 + k)) if opening.by_depth > 0.0 else 1.0
-        out[PINNED, i] = (1.0 - root) * stretch * by_machine
+        out[at.PINNED, i] = (1.0 - root) * stretch * by_machine
 
 
 class Cycle(NamedTuple):
@@ -313,16 +296,19 @@ def put_losses(
     cycle: Cycle, opening: Curve, pattern: Pattern, ratio: float, reduced: Floats, i: int, out: Floats
 ) -> int:
     """Store what the cycle of scene i loses; return its bits of status."""
-    area, root = 2.0 * math.pi * reduced[LENGTH, i] ** 2, math.sqrt(ratio)
+    area, root = 2.0 * math.pi * reduced[at.LENGTH, i] ** 2, math.sqrt(ratio)
     loaded, unloaded = cycle.loaded, cycle.unloaded
-    out[LOADING, i], out[UNLOADING, i] = loaded.lost * area * ratio, unloaded.lost * area
-    out[LOADING_JUMPS, i], out[UNLOADING_JUMPS, i] = loaded.jumps, unloaded.jumps
-    out[DEEPEST, i], out[JUMP_OUT, i] = loaded.deepest * reduced[DEPTH, i] * root, unloaded.last * reduced[DEPTH, i]
-    out[SNAP, i] = cycle.snap * root * reduced[LOAD, i] * UNIT_OF_FORCE if opening.by_depth > 0.0 else 0.0
+    out[at.LOADING, i], out[at.UNLOADING, i] = loaded.lost * area * ratio, unloaded.lost * area
+    out[at.LOADING_JUMPS, i], out[at.UNLOADING_JUMPS, i] = loaded.jumps, unloaded.jumps
+    out[at.DEEPEST, i], out[at.JUMP_OUT, i] = (
+        loaded.deepest * reduced[at.DEPTH, i] * root,
+        unloaded.last * reduced[at.DEPTH, i],
+    )
+    out[at.SNAP, i] = cycle.snap * root * reduced[at.LOAD, i] * UNIT_OF_FORCE if opening.by_depth > 0.0 else 0.0
     _put_edge(opening, pattern, ratio, cycle.turn, reduced, i, out)
-    out[ENERGY, i] = out[LOADING, i] + out[UNLOADING, i] + out[FRONT, i]
-    out[TURN, i], out[REACH, i] = cycle.turn * reduced[LENGTH, i], cycle.reach * reduced[LENGTH, i]
-    return JUMP_IN_TO_RIM if loaded.in_to_rim and cycle.turn == reduced[RIM_Y, i] else 0
+    out[at.ENERGY, i] = out[at.LOADING, i] + out[at.UNLOADING, i] + out[at.FRONT, i]
+    out[at.TURN, i], out[at.REACH, i] = cycle.turn * reduced[at.LENGTH, i], cycle.reach * reduced[at.LENGTH, i]
+    return JUMP_IN_TO_RIM if loaded.in_to_rim and cycle.turn == reduced[at.RIM_Y, i] else 0
 
 
 @leaf
@@ -333,8 +319,8 @@ def _put_cycle(walked: Walked, wanted: Wanted, opened: int, y: float, reduced: F
     if not loaded.known:
         return -1
     unloaded = unload_from(opening, y, walked.unloading, opened, walked.columns[1])
-    n, rim = visited_within(loading, visited, walked.visits, y), reduced[RIM_Y, i]
-    beyond = n > 0 and y == rim and reduced[WINDOW, i] < y <= loading[END, visited[n - 1]]
+    n, rim = visited_within(loading, visited, walked.visits, y), reduced[at.RIM_Y, i]
+    beyond = n > 0 and y == rim and reduced[at.WINDOW, i] < y <= loading[END, visited[n - 1]]
     if beyond and walked.pattern.rows.shape[1] == 0:
         # on the endless branch: whether the table reaches to this rim depends on the scenes beside (far_rims)
         loaded = Loaded(loaded.lost, loaded.jumps, math.inf, loaded.in_to_rim, True)
@@ -347,7 +333,7 @@ def _put_cycle(walked: Walked, wanted: Wanted, opened: int, y: float, reduced: F
         if walked.ratio == 1.0 and n > 0 and loading[END, visited[n - 1]] == math.inf:
             top = min(y, 1.01 * reach, end_of(closing.table))
         work = work_of_cycle(closing, opening, top, loading, walked.visits, visited, walked.unloading, opened)
-        out[RESIDUAL, i] = out[ENERGY, i] - work * 2.0 * math.pi * reduced[LENGTH, i] ** 2
+        out[at.RESIDUAL, i] = out[at.ENERGY, i] - work * 2.0 * math.pi * reduced[at.LENGTH, i] ** 2
     return bits | (CLOSE_TO_A_JUMP if _is_tied(walked, opened, y, y >= rim) else 0)
 
 
@@ -358,11 +344,11 @@ def turns_of(task: Task, scenes: Floats, reduced: Floats, first: int, last: int,
     The curve is traced as far as some scene is sure to turn, and farther where a jump has passed its target.
     """
     rooms, turn, table, far = task.rooms, task.punch.turn, task.table, 0.0
-    nodes, polys, ratio = rooms.nodes, rooms.polys, reduced[CLOSING, first]
+    nodes, polys, ratio = rooms.nodes, rooms.polys, reduced[at.CLOSING, first]
     pattern = pattern_of(task.punch, scenes, reduced, first)
     loading, columns = rooms.traces[CLOSING_TRACE], rooms.columns
     for i in range(first, last):
-        far = max(far, reduced[NEED, i] if turn != AT_RIM else reduced[RIM_Y, i])
+        far = max(far, reduced[at.NEED, i] if turn != AT_RIM else reduced[at.RIM_Y, i])
     while True:
         closing = curve_of(table, task.crest, pattern, reduced, first, math.sqrt(ratio), far, nodes[0], polys[0])
         opening, unloading, turning = closing, loading, loading
@@ -385,10 +371,14 @@ def turns_of(task: Task, scenes: Floats, reduced: Floats, first: int, last: int,
         )
         farther = False
         for i in range(first, last):
-            out[TURN, i] = math.nan
+            out[at.TURN, i] = math.nan
             if branches >= 0:
-                out[TURN, i] = reduced[RIM_Y, i] if turn == AT_RIM else _turn(walked, turn, reduced, i)
-            if turn != AT_RIM and out[TURN, i] == reduced[RIM_Y, i] and far < min(reduced[RIM_Y, i], end_of(table)):
+                out[at.TURN, i] = reduced[at.RIM_Y, i] if turn == AT_RIM else _turn(walked, turn, reduced, i)
+            if (
+                turn != AT_RIM
+                and out[at.TURN, i] == reduced[at.RIM_Y, i]
+                and far < min(reduced[at.RIM_Y, i], end_of(table))
+            ):
                 farther = True  # not reached as far as the curve is traced
         if not farther:
             return walked
@@ -412,11 +402,11 @@ def open_curve(walked: Walked, turn: int, first: int, last: int, out: Floats) ->
     """
     end, farthest, opened = end_of(walked.opening.table), 0.0, walked.branches
     for i in range(first, last):
-        beyond = turn != AT_RIM and out[TURN, i] >= end and opened >= 0
-        if math.isnan(out[TURN, i]) or beyond:
-            no_value(out, i, SHORT)
+        beyond = turn != AT_RIM and out[at.TURN, i] >= end and opened >= 0
+        if math.isnan(out[at.TURN, i]) or beyond:
+            no_value(out, i, at.SHORT)
         else:
-            farthest = max(farthest, out[TURN, i])
+            farthest = max(farthest, out[at.TURN, i])
     if walked.ratio < 1.0 and opened >= 0 and farthest > 0.0:
         opened = find_folds(walked.opening, farthest, walked.unloading)
     return opened, farthest
@@ -438,7 +428,7 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
     if wanted.saturation and walked.branches >= 0:
         last_fold = _last_fold(walked.opening, task.rooms.traces[MEASURED_TRACE])
     for i in range(first, last):
-        y = out[TURN, i]
+        y = out[at.TURN, i]
         if math.isnan(y):
             continue
         if y == 0.0:
@@ -450,14 +440,14 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
         if walked.branches >= 0 and opened >= 0 and own.known and (own.load < 0.0 or patterned):
             bits = _put_cycle(walked, wanted, opened, y, reduced, i, out)
         if bits < 0:
-            no_value(out, i, SHORT)
+            no_value(out, i, at.SHORT)
             continue
         if turn != AT_RIM and _target_is_tied(walked, turn, y, reduced, i):
             bits |= CLOSE_TO_A_JUMP
         if wanted.contact and not _loading_keeps_one_disc(task, walked, y, reduced, i):
             bits |= LOADING_NOT_ONE_DISC
-        out[STATUS, i] = bits | put_pull_off(own, y, reduced, i, out)
-        out[SATURATION, i] = last_fold * reduced[LENGTH, i]
+        out[at.STATUS, i] = bits | put_pull_off(own, y, reduced, i, out)
+        out[at.SATURATION, i] = last_fold * reduced[at.LENGTH, i]
 
 
 @kernel
@@ -468,19 +458,19 @@ def curve_end(reach: float, scenes: Floats, reduced: Floats, start: int, last: i
     """
     end, solvable = start, True
     while end < last and solvable and (end == start or same_curve(scenes, reduced, start, end)):  # NaN is no curve
-        solvable = reduced[VALID, end] > 0.0 and reduced[NEED, end] <= reach
+        solvable = reduced[at.VALID, end] > 0.0 and reduced[at.NEED, end] <= reach
         if solvable:
             end += 1
         else:
-            no_value(out, end, SHORT if reduced[VALID, end] > 0.0 else NO_VALUE)
+            no_value(out, end, at.SHORT if reduced[at.VALID, end] > 0.0 else NO_VALUE)
     return end
 
 
 @kernel
 def put_force(lowest: Lowest, reduced: Floats, i: int, out: Floats) -> None:
     """Store the pull-off of scene i, whose cycle ends at its rim; the rest of its column is left as it is."""
-    out[TURN, i] = reduced[RIM_Y, i] * reduced[LENGTH, i]
-    out[STATUS, i] = put_pull_off(lowest, reduced[RIM_Y, i], reduced, i, out) if lowest.known else SHORT
+    out[at.TURN, i] = reduced[at.RIM_Y, i] * reduced[at.LENGTH, i]
+    out[at.STATUS, i] = put_pull_off(lowest, reduced[at.RIM_Y, i], reduced, i, out) if lowest.known else at.SHORT
 
 
 @leaf
@@ -492,11 +482,11 @@ def solve_patterned_forces(task: Task, scenes: Floats, reduced: Floats, first: i
             continue
         pattern = pattern_of(task.punch, scenes, reduced, i)
         lowest = Lowest(0.0, 0.0, 0.0, 0.0, False)
-        for y_end in (reduced[NEED, i], end_of(task.table)):
+        for y_end in (reduced[at.NEED, i], end_of(task.table)):
             if not lowest.known:
                 own = curve_of(task.table, task.crest, pattern, reduced, i, 1.0, y_end, rooms.nodes[0], rooms.polys[0])
                 pull = Curve(own.table, own.B, own.g, 0.0, 1.0)
-                lowest = lowest_load(pull, reduced[RIM_Y, i], 0, own.table.bins)
+                lowest = lowest_load(pull, reduced[at.RIM_Y, i], 0, own.table.bins)
         put_force(lowest, reduced, i, out)
 
 

@@ -17,6 +17,7 @@ from gradhesion.core.many.loop import begin, last_fold, loop_far, lowest_far, tu
 from gradhesion.core.many.search import MOST, NEAR, Long, end_of_folds, from_birth, space_for
 from gradhesion.core.many.waves import Waves, reach_of, start_of, waves_of
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE, TOO_MANY_WAVES
+from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.cycles import (
     Cycle,
     Task,
@@ -27,38 +28,14 @@ from gradhesion.core.scenes.cycles import (
     put_losses,
     put_no_contact,
     put_pull_off,
+    rooms_for,
 )
-from gradhesion.core.scenes.reduced import (
-    AT_DEPTH,
-    AT_RIM,
-    BY_DEPTH,
-    BY_LOAD,
-    BY_POWER,
-    BY_WAVES,
-    CLOSING,
-    LENGTH,
-    NEED,
-    RIM_Y,
-    TARGET_VALUE,
-    VALID,
-    WINDOW,
-    K,
-    Punch,
-    depth_factor_of,
-)
-from gradhesion.core.scenes.results import RESULT_ROWS, SATURATION, SHORT, STATUS, Wanted, rooms_for
-from gradhesion.core.scenes.tables import (
-    MOST_BINS,
-    long_table,
-)
+from gradhesion.core.scenes.reduced import AT_DEPTH, AT_RIM, Punch, depth_factor_of
+from gradhesion.core.scenes.requests import Wanted
+from gradhesion.core.scenes.tables import MOST_BINS, long_table
 from gradhesion.core.table.filling import width_of
 from gradhesion.core.table.layout import BY_LOAD as OF_PULL_OFF
-from gradhesion.core.table.layout import (
-    EXACT,
-    GEOMETRIC,
-    PER_WAVE,
-    end_of,
-)
+from gradhesion.core.table.layout import EXACT, GEOMETRIC, PER_WAVE, end_of
 from gradhesion.core.table.leading import crests_of
 from gradhesion.core.types import Floats
 
@@ -77,8 +54,8 @@ _KEPT_WAVES: Final = 64e6
 @leaf
 def _curve(task: Task, reduced: Floats, i: int, root: float) -> Curve:
     """Return a curve of scene i, sizes over `root`."""
-    B, g = reduced[BY_POWER, i] / root, reduced[BY_WAVES, i] / root
-    return Curve(task.table, B, g, reduced[BY_DEPTH, i], reduced[BY_LOAD, i])
+    B, g = reduced[at.BY_POWER, i] / root, reduced[at.BY_WAVES, i] / root
+    return Curve(task.table, B, g, reduced[at.BY_DEPTH, i], reduced[at.BY_LOAD, i])
 
 
 @kernel
@@ -94,31 +71,31 @@ def solve_long(
     turn, bins = task.punch.turn, task.by_load.bins
     for i in range(scenes.shape[1]):
         no_value(out, i, NO_VALUE)
-        if not reduced[VALID, i]:
+        if not reduced[at.VALID, i]:
             continue
-        if turn == AT_DEPTH and reduced[TARGET_VALUE, i] < 0.0:
+        if turn == AT_DEPTH and reduced[at.TARGET_VALUE, i] < 0.0:
             put_no_contact(scenes, i, out)
             continue
-        edge, tied, root = reduced[RIM_Y, i], False, math.sqrt(reduced[CLOSING, i])
+        edge, tied, root = reduced[at.RIM_Y, i], False, math.sqrt(reduced[at.CLOSING, i])
         closing, opening = _curve(task, reduced, i, root), _curve(task, reduced, i, 1.0)
         long = from_birth(every, closing)
         if start_of(long.waves, long.near + 2.0) > end_of(long.table):
-            out[STATUS, i] = NO_VALUE | TOO_MANY_WAVES
+            out[at.STATUS, i] = NO_VALUE | TOO_MANY_WAVES
             continue
         folds, y = end_of_folds(long, closing), edge
         begun, starts = begin(long, closing, folds)
         if turn != AT_RIM:
-            target = reduced[TARGET_VALUE, i] / root
+            target = reduced[at.TARGET_VALUE, i] / root
             y, tied = turn_far(long, closing, measured_curve(closing, turn), target, begun, edge)
         if y < start_of(long.waves, long.near + 4.0):
-            no_value(out, i, SHORT)
-            reduced[NEED, i] = start_of(long.waves, long.near + 8.0)
+            no_value(out, i, at.SHORT)
+            reduced[at.NEED, i] = start_of(long.waves, long.near + 8.0)
             continue
         load = Curve(task.by_load, opening.B, opening.g, 0.0, 1.0)
         lowest = lowest_load(load, y, 0, bins)
         if not lowest.known:
             lowest = lowest_far(pull, load, y)
-        out[STATUS, i] = NO_VALUE | TOO_MANY_WAVES
+        out[at.STATUS, i] = NO_VALUE | TOO_MANY_WAVES
         if not (lowest.known and lowest.load < 0.0):
             continue
         if not task.wanted.cycle and turn == AT_RIM:
@@ -126,15 +103,15 @@ def solve_long(
             continue
         looped = loop_far(long, closing, opening, root == 1.0, folds, begun, starts, y, edge)
         if not looped.loaded.known:
-            no_value(out, i, SHORT if reduced[NEED, i] < walkable else NO_VALUE | TOO_MANY_WAVES)
+            no_value(out, i, at.SHORT if reduced[at.NEED, i] < walkable else NO_VALUE | TOO_MANY_WAVES)
             continue
         cycle = Cycle(looped.loaded, looped.unloaded, y, looped.reach, looped.snap)
         pattern = pattern_of(task.punch, scenes, reduced, i)
-        bits = put_losses(cycle, opening, pattern, reduced[CLOSING, i], reduced, i, out)
+        bits = put_losses(cycle, opening, pattern, reduced[at.CLOSING, i], reduced, i, out)
         bits |= put_pull_off(lowest, y, reduced, i, out)
         if not looped.one_disc:
             bits |= LOADING_NOT_ONE_DISC
-        out[STATUS, i] = bits | (CLOSE_TO_A_JUMP if tied or looped.tied else 0)
+        out[at.STATUS, i] = bits | (CLOSE_TO_A_JUMP if tied or looped.tied else 0)
 
 
 @kernel
@@ -142,11 +119,11 @@ def fill_saturation(task: Task, long: Long, reduced: Floats, out: Floats) -> Non
     """Store the radii of the outermost folds of opening, of scenes that have a value."""
     task, long, reduced, out = borrowed((task, long, reduced, out))
     for i in range(reduced.shape[1]):
-        if out[STATUS, i] < NO_VALUE or not int(out[STATUS, i]) & NO_VALUE:
-            y = last_fold(long, _curve(task, reduced, i, 1.0)) if reduced[WINDOW, i] < math.inf else math.inf
-            out[SATURATION, i] = y * reduced[LENGTH, i]  # NaN, and flagged, if there are too many waves up to it
+        if out[at.STATUS, i] < NO_VALUE or not int(out[at.STATUS, i]) & NO_VALUE:
+            y = last_fold(long, _curve(task, reduced, i, 1.0)) if reduced[at.WINDOW, i] < math.inf else math.inf
+            out[at.SATURATION, i] = y * reduced[at.LENGTH, i]  # NaN, and flagged, if there are too many waves up to it
             if math.isnan(y):
-                out[STATUS, i] = int(out[STATUS, i]) | TOO_MANY_WAVES
+                out[at.STATUS, i] = int(out[at.STATUS, i]) | TOO_MANY_WAVES
 
 
 _waves: OrderedDict[tuple[object, ...], Waves] = OrderedDict()
@@ -196,16 +173,16 @@ def solve_summed(
 
     `walk` solves those of them that prove irregular.
     """
-    out[STATUS] = SHORT
+    out[at.STATUS] = at.SHORT
     walked = _walked(punch, wanted)
-    far = np.flatnonzero(reduced[NEED] > walked)
+    far = np.flatnonzero(reduced[at.NEED] > walked)
     if not far.size:
         return
     chosen, own = np.ascontiguousarray(scenes[:, far]), np.ascontiguousarray(reduced[:, far])
-    found = np.empty((RESULT_ROWS, far.size))
-    k, reach = float(scenes[K, 0]), own[NEED]
+    found = np.empty((at.RESULT_ROWS, far.size))
+    k, reach = float(scenes[at.K, 0]), own[at.NEED]
     if punch.turn != AT_RIM:  # a jump may pass where a cycle turns
-        reach = np.minimum(np.fmax(reach, own[WINDOW]), own[RIM_Y])
+        reach = np.minimum(np.fmax(reach, own[at.WINDOW]), own[at.RIM_Y])
     most = int(min(reach.max() / (2.0 * math.pi) + 3.0, MOST + 8.0))
     task, long = _long_of(punch, wanted, k, form, profile, most)
     pull = long
@@ -214,9 +191,9 @@ def solve_summed(
         task = task._replace(by_load=by_load.table)
     walkable = (MOST_BINS - 2 * GEOMETRIC) * width_of(punch.waves)
     solve_long(task, long, pull, chosen, own, walkable, found)
-    left = np.flatnonzero(found[STATUS] == SHORT)
+    left = np.flatnonzero(found[at.STATUS] == at.SHORT)
     if left.size:
-        rest = np.full((RESULT_ROWS, left.size), np.nan)
+        rest = np.full((at.RESULT_ROWS, left.size), np.nan)
         again, numbers = np.ascontiguousarray(chosen[:, left]), np.ascontiguousarray(own[:, left])
         walk(again, numbers, rest)
         found[:, left] = rest

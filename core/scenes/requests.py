@@ -9,18 +9,24 @@ import numpy as np
 
 from gradhesion.core.edge.pattern import rows_by_number
 from gradhesion.core.processors import processors
-from gradhesion.core.scenes.reduced import (
-    AMPLITUDE,
-    PATTERN_WAVELENGTH,
-    WAVELENGTH,
-    Punch,
-)
+from gradhesion.core.scenes import rows as at
+from gradhesion.core.scenes.reduced import Punch
 from gradhesion.core.types import Floats
 
 _SCENES: Final = 1000
 """Scenes of a part, at least: a millisecond or more."""
 _MOST_SCENES: Final = 4000
 """And at most: a megabyte of results. (No powers of 2, by which all rows would share the same few lines of a cache.)"""
+
+
+class Wanted(NamedTuple):
+    """What of a scene is wanted."""
+
+    cycle: bool  # anything but the pull-off
+    depth: bool  # the depth at rims beyond the table
+    contact: bool  # whether loading keeps the contact one disc
+    residual: bool  # the loop integral
+    saturation: bool  # the radius beyond which there is no fold
 
 
 class Request(NamedTuple):
@@ -63,9 +69,9 @@ def scenes_of(columns: list[Floats], first: int, last: int) -> Floats:
 def set_lengths(punch: Punch, scenes: Floats) -> None:
     """Give smooth punches on a pattern its wavelength, where that is shorter: another has no meaning for them."""
     if punch.rows.shape[1] > 0:
-        smooth = (scenes[AMPLITUDE] == 0.0) & (scenes[PATTERN_WAVELENGTH] < scenes[WAVELENGTH])
-        smooth &= scenes[WAVELENGTH] < np.inf  # which is out of range
-        scenes[WAVELENGTH, smooth] = scenes[PATTERN_WAVELENGTH, smooth]
+        smooth = (scenes[at.AMPLITUDE] == 0.0) & (scenes[at.PATTERN_WAVELENGTH] < scenes[at.WAVELENGTH])
+        smooth &= scenes[at.WAVELENGTH] < np.inf  # which is out of range
+        scenes[at.WAVELENGTH, smooth] = scenes[at.PATTERN_WAVELENGTH, smooth]
 
 
 def run_parts(count: int, work: Callable[[int, int], None], threads: int | None) -> None:

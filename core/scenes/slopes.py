@@ -20,13 +20,7 @@ from gradhesion.core.borrowed import borrowed
 from gradhesion.core.curve.trace import END, LANDING
 from gradhesion.core.curve.values import Curve, bin_of, load_curve
 from gradhesion.core.cycle.disc import profile_of
-from gradhesion.core.cycle.jumps import (
-    JUMP_ROWS,
-    LANDED,
-    LEFT,
-    list_loading_jumps,
-    list_unloading_jumps,
-)
+from gradhesion.core.cycle.jumps import JUMP_ROWS, LANDED, LEFT, list_loading_jumps, list_unloading_jumps
 from gradhesion.core.cycle.path import visited_within
 from gradhesion.core.cycle.pull_off import lowest_load
 from gradhesion.core.cycle.slopes import (
@@ -46,7 +40,9 @@ from gradhesion.core.edge.pattern import Pattern, edge_area, toughness_at
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.problem.material import theta_slopes
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, SENSITIVITIES, TURNS
+from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.cycles import (
+    Rooms,
     Task,
     Walked,
     curve_end,
@@ -54,37 +50,11 @@ from gradhesion.core.scenes.cycles import (
     no_value,
     open_curve,
     pattern_of,
+    rooms_for,
     turns_of,
 )
-from gradhesion.core.scenes.reduced import (
-    AMPLITUDE,
-    AT_A_LOAD,
-    AT_DEPTH,
-    AT_RIM,
-    BY_LOAD,
-    BY_POWER,
-    BY_WAVES,
-    C0,
-    LENGTH,
-    MACHINE,
-    NEED,
-    NU,
-    PARAMETER_ROWS,
-    PATTERN_AMPLITUDE,
-    PATTERN_WAVES,
-    RATIO,
-    REDUCED_ROWS,
-    RIM,
-    RIM_Y,
-    TARGET_VALUE,
-    K,
-    Punch,
-)
-from gradhesion.core.scenes.reduced import (
-    CLOSING as CLOSING_ROW,
-)
-from gradhesion.core.scenes.requests import Request, columns_of, punch_of, run_parts, scenes_of
-from gradhesion.core.scenes.results import RESULT_ROWS, SHORT, TURN, Rooms, Wanted, rooms_for
+from gradhesion.core.scenes.reduced import AT_A_LOAD, AT_DEPTH, AT_RIM, MACHINE, Punch
+from gradhesion.core.scenes.requests import Request, Wanted, columns_of, punch_of, run_parts, scenes_of
 from gradhesion.core.scenes.tables import Tables, end_of_exponent, long_table, near_tables, solve_far, task_of
 from gradhesion.core.scenes.tasks import in_groups
 from gradhesion.core.table.basis import NODES, Basis, empty_table, fill_table, room_of
@@ -96,11 +66,11 @@ from gradhesion.core.types import Floats, Integers
 # itself, at fixed others), radius of the rim, target and ratio.
 OF_POWER, OF_WAVES, OF_MACHINE, OF_PATTERN_WAVES, OF_PATTERN, OF_EXPONENT, OF_RIM, OF_TARGET, OF_RATIO = range(9)
 ROWS: Final = 9
-FORCE, ENERGY = RESULT_ROWS, RESULT_ROWS + ROWS
+FORCE, ENERGY = at.RESULT_ROWS, at.RESULT_ROWS + ROWS
 """Where the rows of each value begin, behind those of results, of which TURN and STATUS are used."""
 AREA: Final = OBSERVED
 """What is observed besides: the area of the edge."""
-UNIT: Final = RESULT_ROWS + 2 * ROWS
+UNIT: Final = at.RESULT_ROWS + 2 * ROWS
 """The row of the unit of length."""
 _ALL_ROWS: Final = UNIT + 1
 FURTHER: Final = ("machine_stiffness", *TURNS, CLOSING, *PATTERN)
@@ -114,7 +84,7 @@ _PHASE_STEP: Final = 2.0**-9
 """The same for a pattern, in its phase."""
 _PLACES, _WEIGHTS = np.array([-2.0, -1.0, 1.0, 2.0]), np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
 _OF_HALVES: Final = np.array([0.0, -0.5, 0.5, 0.0])
-_NUMBERS: Final = np.array([BY_POWER, BY_WAVES, BY_LOAD, PATTERN_WAVES, PATTERN_AMPLITUDE, K])
+_NUMBERS: Final = np.array([at.BY_POWER, at.BY_WAVES, at.BY_LOAD, at.PATTERN_WAVES, at.PATTERN_AMPLITUDE, at.K])
 """Where the numbers of the first rows stand, among reduced ones or (of the pattern's amplitude) parameters."""
 _MOST_BINS: Final = 26_000
 """Bins of a table at most, of which there are five: 3,250 waves."""
@@ -149,7 +119,7 @@ class Near(NamedTuple):
 def _near_of(tables: tuple[Table, Table, Table, Table], basis: Basis, rooms: Rooms, bins: int, filled: int) -> Near:
     """Return tables of neighbouring exponents, of which that many bins are filled, with room for a scene."""
     jumps, by = np.empty((JUMP_ROWS, 2 * bins + 16)), np.zeros((ROWS, AREA + 1))
-    scene, numbers = np.empty((PARAMETER_ROWS, 1)), np.empty((REDUCED_ROWS, 1))
+    scene, numbers = np.empty((at.PARAMETER_ROWS, 1)), np.empty((at.REDUCED_ROWS, 1))
     marks = np.array([filled])
     return Near(tables, basis, np.zeros(NODES), marks, rooms, jumps, scene, numbers, by, np.zeros(AREA + 1))
 
@@ -181,7 +151,7 @@ def _neighbour(
     """Return the curves of one scene on a table; tables with a pattern are filled up to y_end, into `rooms`."""
     pattern, ratio, nodes, polys = (
         pattern_of(punch, scene, numbers, 0),
-        numbers[CLOSING_ROW, 0],
+        numbers[at.CLOSING, 0],
         rooms.nodes,
         rooms.polys,
     )
@@ -247,7 +217,7 @@ def _step_of(near: Near, pattern: Pattern, y_end: float, row: int) -> float:
         return 0.5
     if row not in (OF_PATTERN, OF_PATTERN_WAVES):
         return _STEP
-    phase = near.numbers[PATTERN_WAVES, 0] * pattern.rows.shape[1] * y_end
+    phase = near.numbers[at.PATTERN_WAVES, 0] * pattern.rows.shape[1] * y_end
     return _PHASE_STEP * _least_of(pattern) / (max(1.0, phase) if row == OF_PATTERN_WAVES else 1.0)
 
 
@@ -313,7 +283,7 @@ def _put_slopes(near: Near, pair: Pair, frozen: Frozen, target: float, out: Floa
             loading = value[LOADING] - 0.5 * (by[OF_POWER, LOADING] + by[OF_WAVES, LOADING])
             loss = ratio * (loading - value[AREA])
         move = _move_of(near, pair, frozen, target, row)
-        out[UNIT, i] = near.numbers[LENGTH, 0]
+        out[UNIT, i] = near.numbers[at.LENGTH, 0]
         out[FORCE + row, i] = (force + force_by_turn * move) / value[PULL]
         out[ENERGY + row, i] = (loss + energy_by_turn * move) / energy
 
@@ -329,7 +299,7 @@ def _fill_scene(
     beyond = y > end_of(pair.closing.table) and (n == 0 or own[END, walked.columns[0, n - 1]] < y)
     if walked.branches < 0 or opened < 0 or beyond or not (lowest.known and lowest.load < 0.0):
         return False
-    turns = task.punch.turn != AT_RIM and y < reduced[RIM_Y, i]
+    turns = task.punch.turn != AT_RIM and y < reduced[at.RIM_Y, i]
     frozen = _freeze(walked, task.punch.turn == AT_DEPTH, opened, y, lowest.y, turns, near.jumps)
     near.scene[:, 0], near.numbers[:, 0] = scenes[:, i], reduced[:, i]
     near.value[:] = 0.0
@@ -337,7 +307,7 @@ def _fill_scene(
     y_end = _farthest(frozen, pair.pattern.rows.shape[1] > 0)
     _fill_tables(near, y_end)
     _fill_by(task, near, pair.pattern, frozen, y_end)
-    _put_slopes(near, pair, frozen, reduced[TARGET_VALUE, i] / math.sqrt(pair.ratio), out, i)
+    _put_slopes(near, pair, frozen, reduced[at.TARGET_VALUE, i] / math.sqrt(pair.ratio), out, i)
     return True
 
 
@@ -369,7 +339,7 @@ def solve_slopes(
     basis, bins, filled = tables.basis, tables.long.bins, ALL
     first = int(np.int64(0))  # a plain 0 would be a type of its own to callees
     while first < scenes.shape[1]:
-        last, k = end_of_exponent(scenes, first), scenes[K, first]
+        last, k = end_of_exponent(scenes, first), scenes[at.K, first]
         task = task_of(punch, wanted, tables, profile, scenes, reduced, first, last)
         if tables.long.bins == 0:
             bins, filled = polys.shape[1], first - first
@@ -386,9 +356,9 @@ def solve_slopes(
                 walked = turns_of(task, scenes, reduced, first, end, out)
                 opened, _ = open_curve(walked, task.punch.turn, first, end, out)
                 for i in range(first, end):
-                    y = out[TURN, i]
+                    y = out[at.TURN, i]
                     if y > 0.0 and not _fill_scene(task, near, walked, opened, y, scenes, reduced, i, out):
-                        no_value(out, i, SHORT)
+                        no_value(out, i, at.SHORT)
             first = max(end, first + 1)
 
 
@@ -410,7 +380,7 @@ def _far(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Flo
     Those of more waves than _MOST_BINS holds have none: here sums over waves would take over.
     """
     patterned = punch.rows.shape[1] > 0
-    within = np.flatnonzero(reduced[NEED] <= (_MOST_BINS - GEOMETRIC) * width_of(punch.waves, finer))
+    within = np.flatnonzero(reduced[at.NEED] <= (_MOST_BINS - GEOMETRIC) * width_of(punch.waves, finer))
 
     def solve(tables: Tables, own: Floats, numbers: Floats, found: Floats) -> None:
         """Store those of scenes within a long table, on tables of neighbouring exponents as long."""
@@ -449,8 +419,8 @@ def _by_parameter(
 
         s l^eta,    K s l^(1+k+eta),    l^2
     """
-    k, m, half = scenes[K], punch.exponent, 0.5 * np.log(0.5 * length)
-    eta, smooth = 0.5 * (1.0 - k), scenes[AMPLITUDE] == 0.0
+    k, m, half = scenes[at.K], punch.exponent, 0.5 * np.log(0.5 * length)
+    eta, smooth = 0.5 * (1.0 - k), scenes[at.AMPLITUDE] == 0.0
     theta_by_k, theta_by_nu, factor = material
 
     def unit(stiffness: float, power: ArrayLike, by_k: ArrayLike) -> Floats:
@@ -464,15 +434,15 @@ def _by_parameter(
     total += unit(0.0, by[OF_PATTERN_WAVES] - by[OF_RIM], by[OF_EXPONENT])
     stiffness, wavelength, exponent = total
     found = {
-        "k": exponent + stiffness * (theta_by_k - np.log(scenes[C0])),
+        "k": exponent + stiffness * (theta_by_k - np.log(scenes[at.C0])),
         "nu": stiffness * theta_by_nu,
         "modulus": stiffness - by[OF_MACHINE],  # a machine's stiffness is over that of the half-space
         "c0_over_R": np.where(k == 0.0, 0.0, -k * stiffness),
         "lambda_over_R": np.where(smooth, 0.0, wavelength),
         "A": np.where(smooth, 0.0, by[OF_WAVES]),
-        "a_max_over_R": np.where(np.isinf(scenes[RIM]), 0.0, by[OF_RIM]),
+        "a_max_over_R": np.where(np.isinf(scenes[at.RIM]), 0.0, by[OF_RIM]),
         "machine_stiffness": -by[OF_MACHINE],
-        CLOSING: np.where(scenes[RATIO] == 0.0, 0.0, by[OF_RATIO]),
+        CLOSING: np.where(scenes[at.RATIO] == 0.0, 0.0, by[OF_RATIO]),
         PATTERN[0]: -by[OF_PATTERN_WAVES],
         PATTERN[1]: by[OF_PATTERN],
     }
@@ -496,12 +466,12 @@ def sensitivities(
     def work(first: int, last: int) -> None:
         """Fill a part of the scenes, which are solved in the order of their exponents."""
         scenes = scenes_of(columns, first, last)
-        order = np.argsort(scenes[K], kind="stable")
+        order = np.argsort(scenes[at.K], kind="stable")
         scenes = np.ascontiguousarray(scenes[:, order])
         near, far = partial(_near, punch, profile), partial(_far, punch, profile)
         out, _ = in_groups(punch, EXACT, scenes, _ALL_ROWS, near, far)
         with np.errstate(all="ignore"):  # what has no value has no sensitivity
-            material = _material_slopes(scenes[K], scenes[NU], punch.exponent)
+            material = _material_slopes(scenes[at.K], scenes[at.NU], punch.exponent)
             for output in outputs:
                 of_force = output == SENSITIVITIES[0]
                 by = out[FORCE : FORCE + ROWS] if of_force else out[ENERGY : ENERGY + ROWS]

@@ -16,39 +16,13 @@ import numpy as np
 from gradhesion.core.cycle.disc import disc_of
 from gradhesion.core.jit import kernel
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
-from gradhesion.core.scenes.cycles import Task
-from gradhesion.core.scenes.reduced import (
-    NEED,
-    RIM_Y,
-    K,
-    Punch,
-    depth_factor_of,
-)
-from gradhesion.core.scenes.results import SHORT, STATUS, Rooms, Wanted, rooms_for
-from gradhesion.core.table.basis import (
-    Basis,
-    Kept,
-    basis_of,
-    between,
-    is_interpolated,
-    kept_for,
-    kept_table,
-    room_of,
-)
+from gradhesion.core.scenes import rows as at
+from gradhesion.core.scenes.cycles import Rooms, Task, rooms_for
+from gradhesion.core.scenes.reduced import Punch, depth_factor_of
+from gradhesion.core.scenes.requests import Wanted
+from gradhesion.core.table.basis import Basis, Kept, basis_of, between, is_interpolated, kept_for, kept_table, room_of
 from gradhesion.core.table.filling import fill_bins, source_of, width_of, with_bounds
-from gradhesion.core.table.layout import (
-    BY_LOAD,
-    EXACT,
-    FIRST,
-    GEOMETRIC,
-    U1,
-    E,
-    Source,
-    Table,
-    U,
-    Y,
-    span_of,
-)
+from gradhesion.core.table.layout import BY_LOAD, EXACT, FIRST, GEOMETRIC, U1, E, Source, Table, U, Y, span_of
 from gradhesion.core.table.leading import crests_of
 from gradhesion.core.types import Floats
 
@@ -68,7 +42,7 @@ _LENT: Final = 4
 def end_of_exponent(scenes: Floats, first: int) -> int:
     """Return the end of the scenes that share the exponent of the first one."""
     last = first + 1
-    while last < scenes.shape[1] and scenes[K, last] == scenes[K, first]:
+    while last < scenes.shape[1] and scenes[at.K, last] == scenes[at.K, first]:
         last += 1
     return last
 
@@ -107,12 +81,12 @@ def task_of(
     last: int,
 ) -> Task:
     """Return what the scenes `first` to `last` - 1, of one exponent, are solved with, tables filled as they need."""
-    k, table, pull, crest = scenes[K, first], tables.long, tables.long_by_load, tables.crest
+    k, table, pull, crest = scenes[at.K, first], tables.long, tables.long_by_load, tables.crest
     if table.bins == 0:
         basis, far = tables.basis, 0.0
         for i in range(first, last):
-            if reduced[NEED, i] <= tables.reach:
-                far = max(far, reduced[NEED, i])
+            if reduced[at.NEED, i] <= tables.reach:
+                far = max(far, reduced[at.NEED, i])
         if not (far > 0.0 and 0.0 <= k <= 1.0):
             k = 0.5  # none can be solved here
         most = basis.values.shape[0] - 1
@@ -130,7 +104,7 @@ def own_exponent(punch: Punch, scenes: Floats) -> float:
     """Return the exponent that scenes of a long series share, whose bins are not interpolated; NaN for others."""
     if is_interpolated(punch.waves):
         return math.nan
-    return float(scenes[K, 0]) if 0.0 <= scenes[K, 0] <= 1.0 else 0.5  # no value: any will do
+    return float(scenes[at.K, 0]) if 0.0 <= scenes[at.K, 0] <= 1.0 else 0.5  # no value: any will do
 
 
 def _new_near_tables(punch: Punch, form: int, finer: int, k: float) -> Tables:
@@ -226,10 +200,10 @@ def solve_far(
 
     `solve` takes tables, scenes, their reduced numbers and room for results. Tables have `most_bins` bins at most.
     """
-    k, most = float(scenes[K, 0]), (most_bins - GEOMETRIC) * width_of(punch.waves, finer)
+    k, most = float(scenes[at.K, 0]), (most_bins - GEOMETRIC) * width_of(punch.waves, finer)
     left, factor = np.arange(scenes.shape[1]), 1.0
     while left.size:
-        need = np.minimum(reduced[NEED, left] * factor, reduced[RIM_Y, left] * 1.01)
+        need = np.minimum(reduced[at.NEED, left] * factor, reduced[at.RIM_Y, left] * 1.01)
         possible = need[need <= most]
         y_end = float(possible.max()) if possible.size else most
         table, _, crest = long_table(punch, k, form, finer, y_end)
@@ -243,8 +217,8 @@ def solve_far(
             tables = tables._replace(long=table, long_by_load=pull, crest=crest, reach=reach, rooms=rooms)
             solve(tables, chosen, own, found)
         out[:, left] = found
-        left = left[found[STATUS] == SHORT]
+        left = left[found[at.STATUS] == at.SHORT]
         factor *= 3.0
         if factor > _LONGEST or y_end >= most:
             break
-    out[STATUS, left] = NO_VALUE | TOO_MANY_WAVES
+    out[at.STATUS, left] = NO_VALUE | TOO_MANY_WAVES

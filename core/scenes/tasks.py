@@ -14,28 +14,11 @@ from gradhesion.core.cycle.pull_off import Lowest, envelope_place, lowest_load, 
 from gradhesion.core.edge.pattern import bins_of_wave, bounds_of
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
+from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.cycles import curve_end, put_force, solve_exponent
 from gradhesion.core.scenes.long import solve_summed
-from gradhesion.core.scenes.reduced import (
-    AT_RIM,
-    BY_POWER,
-    BY_WAVES,
-    CLOSING,
-    DEPTH,
-    NEED,
-    PATTERN_AMPLITUDE,
-    PATTERN_WAVELENGTH,
-    PULL,
-    RIM,
-    RIM_Y,
-    WAVELENGTH,
-    WINDOW,
-    K,
-    Punch,
-    reduced_of,
-)
-from gradhesion.core.scenes.requests import Request, columns_of, punch_of, run_parts, scenes_of, set_lengths
-from gradhesion.core.scenes.results import DEEPEST, RESULT_ROWS, SATURATION, SHORT, STATUS, Wanted
+from gradhesion.core.scenes.reduced import AT_RIM, Punch, reduced_of
+from gradhesion.core.scenes.requests import Request, Wanted, columns_of, punch_of, run_parts, scenes_of, set_lengths
 from gradhesion.core.scenes.tables import (
     MOST_BINS,
     Tables,
@@ -56,10 +39,7 @@ from gradhesion.core.table.basis import (
     place_for,
 )
 from gradhesion.core.table.filling import source_of, waves_at, width_of
-from gradhesion.core.table.layout import (
-    PER_WAVE,
-    end_of,
-)
+from gradhesion.core.table.layout import PER_WAVE, end_of
 from gradhesion.core.types import Floats, Integers
 
 FINEST: Final = 2**12
@@ -96,19 +76,19 @@ def near_forces(basis: Basis, kept: Kept, scenes: Floats, reduced: Floats, out: 
         if last == first:
             first += 1
             continue
-        if scenes[K, first] != k:
-            k = scenes[K, first]
+        if scenes[at.K, first] != k:
+            k = scenes[at.K, first]
             place = place_for(basis, kept, k)
         table = empty_table(basis, k, kept.nodes[place], kept.polys[place])
-        curve = Curve(table, reduced[BY_POWER, first], reduced[BY_WAVES, first], 0.0, 1.0)
-        rim = reduced[RIM_Y, first:last].max()
+        curve = Curve(table, reduced[at.BY_POWER, first], reduced[at.BY_WAVES, first], 0.0, 1.0)
+        rim = reduced[at.RIM_Y, first:last].max()
         while first < last:
             lowest = _near_lowest(basis, kept, place, curve, rim)
-            while first < last and serves(lowest, rim, reduced[RIM_Y, first]):
+            while first < last and serves(lowest, rim, reduced[at.RIM_Y, first]):
                 put_force(lowest, reduced, first, out)
                 first += 1
             if first < last:
-                rim = reduced[RIM_Y, first]
+                rim = reduced[at.RIM_Y, first]
 
 
 @kernel
@@ -131,14 +111,14 @@ def far_rims(punch: Punch, width: float, form: int, scenes: Floats, reduced: Flo
     punch, scenes, reduced, out = borrowed((punch, scenes, reduced, out))
     source = source_of(0.5, punch.exponent, punch.waves, width, 0.0, form)
     for i in range(scenes.shape[1]):
-        y = reduced[RIM_Y, i]
-        if out[DEEPEST, i] == math.inf and y < math.inf:
-            if source.k != scenes[K, i]:
-                source = source_of(scenes[K, i], punch.exponent, punch.waves, width, 0.0, form)
+        y = reduced[at.RIM_Y, i]
+        if out[at.DEEPEST, i] == math.inf and y < math.inf:
+            if source.k != scenes[at.K, i]:
+                source = source_of(scenes[at.K, i], punch.exponent, punch.waves, width, 0.0, form)
             u, _ = waves_at(source, y)
-            flat = reduced[BY_POWER, i] * y**punch.exponent + reduced[BY_WAVES, i] * u
-            stretch = math.sqrt(reduced[CLOSING, i]) * y ** (0.5 * (1.0 - scenes[K, i]))
-            out[DEEPEST, i] = (flat - stretch) * reduced[DEPTH, i]
+            flat = reduced[at.BY_POWER, i] * y**punch.exponent + reduced[at.BY_WAVES, i] * u
+            stretch = math.sqrt(reduced[at.CLOSING, i]) * y ** (0.5 * (1.0 - scenes[at.K, i]))
+            out[at.DEEPEST, i] = (flat - stretch) * reduced[at.DEPTH, i]
 
 
 @kernel
@@ -147,18 +127,18 @@ def far_forces(tables: Tables, scenes: Floats, reduced: Floats, out: Floats) -> 
     tables, scenes, reduced, out = borrowed((tables, scenes, reduced, out))
     table = tables.long_by_load
     for i in range(scenes.shape[1]):
-        curve = Curve(table, reduced[BY_POWER, i], reduced[BY_WAVES, i], 0.0, 1.0)
-        put_force(lowest_load(curve, reduced[RIM_Y, i], 0, table.bins), reduced, i, out)
+        curve = Curve(table, reduced[at.BY_POWER, i], reduced[at.BY_WAVES, i], 0.0, 1.0)
+        put_force(lowest_load(curve, reduced[at.RIM_Y, i], 0, table.bins), reduced, i, out)
 
 
 def _finer_bins(punch: Punch, scenes: Floats, least: Floats) -> Integers:
     """Return by which power of 2 the bins of each scene must be narrower than those of its profile."""
     if punch.rows.shape[1] == 0:
         return np.ones(scenes.shape[1], dtype=np.int64)
-    per = bins_of_wave(punch.rows, scenes[PATTERN_AMPLITUDE], punch.of_work, least)
+    per = bins_of_wave(punch.rows, scenes[at.PATTERN_AMPLITUDE], punch.of_work, least)
     with np.errstate(all="ignore"):
-        ratio = per * scenes[WAVELENGTH] / scenes[PATTERN_WAVELENGTH] / (PER_WAVE * punch.waves[:, 0].max())
-        ratio[~(scenes[PATTERN_WAVELENGTH] > 0.0)] = 1.0
+        ratio = per * scenes[at.WAVELENGTH] / scenes[at.PATTERN_WAVELENGTH] / (PER_WAVE * punch.waves[:, 0].max())
+        ratio[~(scenes[at.PATTERN_WAVELENGTH] > 0.0)] = 1.0
         return 2 ** np.clip(np.nan_to_num(np.ceil(np.log2(ratio))), 0, 30).astype(np.int64)
 
 
@@ -171,9 +151,9 @@ def prepared(punch: Punch, form: int, scenes: Floats) -> tuple[Floats, Integers]
     finer = np.ones(1, dtype=np.int64)
     if punch.rows.shape[1] > 0:
         with np.errstate(all="ignore"):
-            reach = scenes[RIM] / scenes[PATTERN_WAVELENGTH]
-            least, most, steep = bounds_of(punch.rows, scenes[PATTERN_AMPLITUDE], punch.of_work, reach)
-            steep = steep * scenes[WAVELENGTH] / scenes[PATTERN_WAVELENGTH]
+            reach = scenes[at.RIM] / scenes[at.PATTERN_WAVELENGTH]
+            least, most, steep = bounds_of(punch.rows, scenes[at.PATTERN_AMPLITUDE], punch.of_work, reach)
+            steep = steep * scenes[at.WAVELENGTH] / scenes[at.PATTERN_WAVELENGTH]
         allowed = (least > 0.0) if punch.of_work else (least >= -1e-14)
         most = np.where(allowed, most, np.nan)
         finer = _finer_bins(punch, scenes, least)
@@ -198,8 +178,8 @@ def in_groups(
     leaves as SHORT; each takes the fineness, scenes, their reduced numbers, and room for results. `whole`: all folds
     are needed, wherever the rim is; `pull_off`: nothing but the pull-off.
     """
-    if not is_interpolated(punch.waves) and (scenes[K] != scenes[K, 0]).any():
-        begins = np.flatnonzero(np.diff(scenes[K]) != 0.0) + 1
+    if not is_interpolated(punch.waves) and (scenes[at.K] != scenes[at.K, 0]).any():
+        begins = np.flatnonzero(np.diff(scenes[at.K]) != 0.0) + 1
         parts = [
             in_groups(punch, form, np.ascontiguousarray(own), rows, near, far, whole=whole, pull_off=pull_off)
             for own in np.split(scenes, begins, axis=1)
@@ -208,9 +188,9 @@ def in_groups(
     out = np.full((rows, scenes.shape[1]), np.nan)
     reduced, finer = prepared(punch, form, scenes)
     if whole:
-        reduced[NEED] = np.fmax(reduced[NEED], reduced[WINDOW])
+        reduced[at.NEED] = np.fmax(reduced[at.NEED], reduced[at.WINDOW])
     if pull_off:
-        reduced[NEED] = np.fmin(reduced[PULL], reduced[RIM_Y])
+        reduced[at.NEED] = np.fmin(reduced[at.PULL], reduced[at.RIM_Y])
 
     def put(solve: Group, value: int, chosen: Integers) -> None:
         """Solve chosen scenes."""
@@ -222,14 +202,14 @@ def in_groups(
     if (finer == finer[0]).all() and finer[0] <= FINEST:
         near(int(finer[0]), scenes, reduced, out)
     else:
-        out[STATUS, finer > FINEST] = NO_VALUE | TOO_MANY_WAVES
+        out[at.STATUS, finer > FINEST] = NO_VALUE | TOO_MANY_WAVES
         for value in np.unique(finer[finer <= FINEST]):
             put(near, int(value), np.flatnonzero(finer == value))
-    short = np.flatnonzero(out[STATUS] == SHORT)
+    short = np.flatnonzero(out[at.STATUS] == at.SHORT)
     finer = np.broadcast_to(finer, scenes.shape[1])
     for value in np.unique(finer[short]):
-        for k in np.unique(scenes[K, short]):
-            index = short[(scenes[K, short] == k) & (finer[short] == value)]
+        for k in np.unique(scenes[at.K, short]):
+            index = short[(scenes[at.K, short] == k) & (finer[short] == value)]
             if index.size:
                 put(far, int(value), index)
     return out, reduced
@@ -241,10 +221,10 @@ def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes
         out = _solve_task(punch, wanted._replace(saturation=False), form, profile, scenes)
         alone = Wanted(cycle=True, depth=False, contact=False, residual=False, saturation=True)
         whole, _ = _in_groups(punch, alone, form, profile, scenes)
-        too_many = whole[STATUS].astype(np.int64) & TOO_MANY_WAVES
-        failed = (out[STATUS].astype(np.int64) & NO_VALUE) > 0
-        out[SATURATION] = np.where(failed | (too_many > 0), np.nan, whole[SATURATION])
-        out[STATUS] = out[STATUS].astype(np.int64) | too_many
+        too_many = whole[at.STATUS].astype(np.int64) & TOO_MANY_WAVES
+        failed = (out[at.STATUS].astype(np.int64) & NO_VALUE) > 0
+        out[at.SATURATION] = np.where(failed | (too_many > 0), np.nan, whole[at.SATURATION])
+        out[at.STATUS] = out[at.STATUS].astype(np.int64) | too_many
         return out
     out, reduced = _in_groups(punch, wanted, form, profile, scenes)
     if wanted.depth:
@@ -286,14 +266,14 @@ def _in_groups(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes:
             solve_far(punch, form, 1, irregular, numbers, found, alone, MOST_BINS)
 
         solve_summed(punch, wanted, form, profile, own, reduced, out, walk)
-        left = np.flatnonzero(out[STATUS] == SHORT)
+        left = np.flatnonzero(out[at.STATUS] == at.SHORT)
         if left.size:
-            rest = np.full((RESULT_ROWS, left.size), np.nan)
+            rest = np.full((at.RESULT_ROWS, left.size), np.nan)
             solve_far(punch, form, finer, own[:, left], np.ascontiguousarray(reduced[:, left]), rest, solve, MOST_BINS)
             out[:, left] = rest
 
     pull_off = punch.rows.shape[1] > 0 and punch.turn == AT_RIM and not wanted.cycle
-    return in_groups(punch, form, scenes, RESULT_ROWS, near, far, whole=wanted.saturation, pull_off=pull_off)
+    return in_groups(punch, form, scenes, at.RESULT_ROWS, near, far, whole=wanted.saturation, pull_off=pull_off)
 
 
 def solve_all(
@@ -308,11 +288,11 @@ def solve_all(
         """Solve a part of the scenes, in the order of their exponents."""
         scenes = scenes_of(columns, first, last)
         set_lengths(punch, scenes)
-        order = np.argsort(scenes[K], kind="stable")
+        order = np.argsort(scenes[at.K], kind="stable")
         found = _solve_task(punch, wanted, form, profile, np.ascontiguousarray(scenes[:, order]))
         for row, wanted_row in enumerate(rows):
             out[row, first + order] = found[wanted_row]
-        status[first + order] = found[STATUS]
+        status[first + order] = found[at.STATUS]
 
     run_parts(count, work, threads)
     return out, status

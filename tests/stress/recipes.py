@@ -16,18 +16,17 @@ ROOT = Path(__file__).parents[2]
 ROOMS = ("cli", "configs", "core", "twin")
 
 OUTPUT = {
-    "core/scenes/results.py": [
+    "core/scenes/rows.py": [
         ("SATURATION, STATUS = range(7, 17)", "SATURATION, AREA, STATUS = range(7, 18)"),
         ("RESULT_ROWS: Final = 17", "RESULT_ROWS: Final = 18"),
         ('    "saturation_radius",\n)', '    "saturation_radius",\n    "pull_off_area",\n)'),
     ],
     "core/scenes/cycles.py": [
-        ("results import (\n    DEEPEST,", "results import (\n    AREA,\n    DEEPEST,"),
         (
-            "    out[PULL_OFF_RADIUS, i] = lowest.y * reduced[LENGTH, i]\n",
+            "    out[at.PULL_OFF_RADIUS, i] = lowest.y * reduced[at.LENGTH, i]\n",
             (
-                "    out[PULL_OFF_RADIUS, i] = lowest.y * reduced[LENGTH, i]\n"
-                "    out[AREA, i] = math.pi * out[PULL_OFF_RADIUS, i] ** 2\n"
+                "    out[at.PULL_OFF_RADIUS, i] = lowest.y * reduced[at.LENGTH, i]\n"
+                "    out[at.AREA, i] = math.pi * out[at.PULL_OFF_RADIUS, i] ** 2\n"
             ),
         ),
     ],
@@ -52,7 +51,7 @@ CONTROL = {
             "    elif punch.control == MACHINE:\n",
             (
                 "    elif punch.control == OWN_SPRING:\n"
-                "        reduced[BY_LOAD, i] = load / depth / scenes[MODULUS, i]\n"
+                "        reduced[at.BY_LOAD, i] = load / depth / scenes[at.MODULUS, i]\n"
                 "    elif punch.control == MACHINE:\n"
             ),
         ),
