@@ -4,21 +4,7 @@ import argparse
 from collections.abc import Iterator
 from datetime import UTC, datetime
 
-from benchmarks import (
-    cost,
-    draw,
-    engines,
-    error,
-    expert,
-    loop_fits,
-    measured_loops,
-    one_scene,
-    scale,
-    scenes,
-    start_up,
-    study,
-    threads,
-)
+from benchmarks import cost, draw, error, expert, loop_fits, measured_loops, one_scene, scenes, start_up, study
 from benchmarks.clock import ROOT, machine
 
 REPORT = ROOT / "docs" / "benchmarks.md"
@@ -92,7 +78,7 @@ shared; its end at the rim and the last jump are computed for each rim.
 Processor time of a scene in calls of 20,000 random scenes (`benchmarks/cost.py`; fewer of dear ones), the first row the
 first mixture above: force, force and energy, and either with its sensitivities to all parameters, including k. Aims:
 other controls 3 times one cosine, exponent 1.5 five times, two harmonics ten and eight 25 times; a k of its own in
-every scene 3 times for the force and twice for both; sensitivities at most twice what the values cost.
+every scene 3 times for the force and twice for both; sensitivities at most four times what the values cost.
 
 {cost.cost_table(cost.measured(2000 if quick else 20_000))}"""
     yield f"""### One scene in Python
@@ -105,29 +91,12 @@ Force and energy of one scene, processor time: plain arrays, and a dataset with 
 Six unknowns, {measured_loops.POINTS:,} points, one thread. Aim: 2 s.
 
 {loop_fits.times_table(2 if quick else 12)}"""
-    if not quick:
-        yield f"### A large study\n\nAims: 20 s, 1 GiB.\n\n{study.study_sentence()}"
-        yield f"""### Threads and workers
-
-Runs of the command with `--engine dask` on this machine, against threads. Aim: 5 % at most where a block takes a second
-or more.
-
-{engines.engines_table()}"""
     yield f"""### Studies of any size
 
-The same axes with more and more values, computed and written by `gradhesion.cli.dataset.writer.write` in a separate
-process, less the time of a study of 2,000 scenes (a file opened, closed and renamed). Aims: constant within 20 %,
-memory too; 10^8 scenes in 180 s. `of it solving` is the time of `gradhesion.core.solve` alone on 10^6 of these scenes
-over that of the whole.
+The same five axes with more and more values, warm, from the command to the closed file, and `gradhesion.core.solve`
+alone on their scenes. Aims: 20 s and 1 GiB for ten million, and memory that does not grow with their number.
 
-{scale.scale_table(10**5 if quick else 10**8)}"""
-    yield f"""### Threads
-
-The same studies on 1, 2, 4, 8 and 16 threads, as far as the machine has processors for them (two at least): the time of
-`gradhesion.core.solve`, and of computing and writing, where one more thread compresses. The serial part of solving is
-that of Amdahl's law; it must not grow with the number of scenes.
-
-{threads.threads_table(10**5 if quick else 10**7)}"""
+{study.study_table(10**5 if quick else 10**7)}"""
     yield f"""## Start-up
 
 Medians, except what is done once. Aims: 0.15, 0.25, 0.6, 0.4, 6, 12, 6, 40 s.

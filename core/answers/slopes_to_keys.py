@@ -21,6 +21,8 @@ POWERS: Final = {
 """The powers of the quantities in the unit of each value: 1.5 pi R dgamma and R^2 dgamma."""
 PLAIN: Final = ("k", "nu")
 """Parameters whose sensitivities are to themselves, not to their logarithms: they may be 0."""
+_OTHERS: Final = frozenset(way for ways in WAYS.values() for way in ways)
+"""Keys that can stand in the place of a parameter."""
 _STEP: Final = 2.0**-11  # of a logarithm, of k or of nu: 1e-14 of the fifth derivative, and 1e-11 of rounding
 _WEIGHTS: Final = (-25.0 / 12.0, 4.0, -3.0, 4.0 / 3.0, -0.25)  # of values at 0 ... 4 steps in a slope at 0
 
@@ -36,10 +38,14 @@ def relative_slopes(
 
     Parameters
     ----------
-    given, keys
-        The keys of the scenes, as arguments of `parameters_from` that broadcast to the scenes; those of the slopes.
-    parameters, sensitivity
-        d ln(value)/d ln(parameter), for k and nu d ln(value)/d(parameter), of shape (*scenes, parameters); their order.
+    given
+        The keys of the scenes, as arguments of `parameters_from` that broadcast to the scenes.
+    keys
+        Those of them whose slopes are wanted.
+    parameters
+        The parameters, in the order of the last axis of `sensitivity`.
+    sensitivity
+        d ln(value)/d ln(parameter), for k and nu d ln(value)/d(parameter), of shape (*scenes, parameters).
     powers
         Of the keys in the unit of the value: one of `POWERS` for a value in SI units, else none.
 
@@ -88,8 +94,14 @@ def slopes_to_keys(
 
 
 def _influences(given: Mapping[str, Floats], key: str, parameters: Sequence[str]) -> dict[str, Floats]:
-    """Return d ln(parameter)/d ln(key), without the logarithm of k and nu, of what depends on a key; any shape."""
-    if key in parameters and not {way for ways in WAYS.values() for way in ways} & given.keys():
+    """Return d ln(parameter)/d ln(key) for each parameter, all other given keys fixed.
+
+    k and nu, as parameter or as key, count by themselves, not by their logarithms. `given` are arrays that broadcast
+    to the scenes, and so are the results; `key` is one of them. A parameter has 0 where it does not depend on the key:
+    less than 1e-9 is rounding, and what is 0, infinite or NaN has no logarithm. If all that is given are parameters,
+    they are independent: the key itself has 1, and others are left out.
+    """
+    if key in parameters and _OTHERS.isdisjoint(given):
         return {key: np.ones(())}
     step = np.asarray(_STEP)
     if key in PLAIN:  # inwards at the ends of the range, where nothing is on the other side

@@ -14,31 +14,8 @@ import numpy as np
 
 from gradhesion.core.curve.values import Curve, depth_and_load, place_of, softness
 from gradhesion.core.jit import kernel, leaf, quadrature_leaf
-from gradhesion.core.table.layout import (
-    HALF,
-    HM,
-    HP,
-    HPP,
-    HPU,
-    HU,
-    HUU,
-    K0,
-    K1,
-    K2,
-    KU,
-    KUU,
-    KV,
-    LANES,
-    M0,
-    PC,
-    PE,
-    PP,
-    PU,
-    PW,
-    YC,
-    N,
-    T,
-)
+from gradhesion.core.table import layout as at
+from gradhesion.core.table.layout import LANES, N
 
 GAUSS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(8)
 _POINTS: Final = GAUSS.size
@@ -54,18 +31,18 @@ def _within(curve: Curve, depth: float, i: int, low: float, high: float) -> floa
         t = middle + half * GAUSS[j]
         flat = stretch = 0.0
         for n in range(N - 1, -1, -1):
-            flat = flat * t + (curve.B * polys[i, PP, n] + curve.g * polys[i, PU, n])
-            stretch = stretch * t + polys[i, PE, n]
-        y = nodes[YC, i] + nodes[HALF, i] * t
+            flat = flat * t + (curve.B * polys[i, at.PP, n] + curve.g * polys[i, at.PU, n])
+            stretch = stretch * t + polys[i, at.PE, n]
+        y = nodes[at.YC, i] + nodes[at.HALF, i] * t
         rho = (flat - depth) / (stretch * y)
         term = y * (1.0 - rho * rho)
         if polys.shape[1] > LANES:  # rho is then that less kappa - 1: kappa^2 - rho^2 gains 2 (kappa - 1) (1 - rho)
             excess = 0.0
             for n in range(N - 1, -1, -1):
-                excess = excess * t + polys[i, PW, n]
+                excess = excess * t + polys[i, at.PW, n]
             term += 2.0 * excess / stretch * (1.0 - rho)
         total += GAUSS_WEIGHTS[j] * term
-    return total * half * nodes[HALF, i]
+    return total * half * nodes[at.HALF, i]
 
 
 @quadrature_leaf
@@ -74,10 +51,10 @@ def _whole_bins(curve: Curve, depth: float, first: int, last: int) -> float:
     B, g, nodes = curve.B, curve.g, curve.table.nodes
     total = 0.0
     for i in range(first, last):
-        c = B * nodes[PC, i] - depth
-        of_depth = c * (c * nodes[K0, i] + 2.0 * (B * nodes[K1, i] + g * nodes[KU, i]))
-        of_shape = B * (B * nodes[K2, i] + 2.0 * g * nodes[KUU, i]) + g * g * nodes[KV, i]
-        total += nodes[M0, i] - of_depth - of_shape
+        c = B * nodes[at.PC, i] - depth
+        of_depth = c * (c * nodes[at.K0, i] + 2.0 * (B * nodes[at.K1, i] + g * nodes[at.KU, i]))
+        of_shape = B * (B * nodes[at.K2, i] + 2.0 * g * nodes[at.KUU, i]) + g * g * nodes[at.KV, i]
+        total += nodes[at.M0, i] - of_depth - of_shape
     return total
 
 
@@ -85,9 +62,11 @@ def _whole_bins(curve: Curve, depth: float, first: int, last: int) -> float:
 def _from_zero(curve: Curve, depth: float, i: int) -> float:
     """Return the same from 0 to the lower edge of bin i, one of the geometric ones or the first of the others."""
     B, g, nodes = curve.B, curve.g, curve.table.nodes
-    of_shape = B * (B * nodes[HPP, i] + 2.0 * g * nodes[HPU, i]) + g * g * nodes[HUU, i]
-    of_depth = depth * (depth * nodes[T, i] / (1.0 + curve.table.k) - 2.0 * (B * nodes[HP, i] + g * nodes[HU, i]))
-    return nodes[HM, i] - of_shape - of_depth
+    of_shape = B * (B * nodes[at.HPP, i] + 2.0 * g * nodes[at.HPU, i]) + g * g * nodes[at.HUU, i]
+    of_depth = depth * (
+        depth * nodes[at.T, i] / (1.0 + curve.table.k) - 2.0 * (B * nodes[at.HP, i] + g * nodes[at.HU, i])
+    )
+    return nodes[at.HM, i] - of_shape - of_depth
 
 
 @leaf

@@ -3,18 +3,7 @@
 import math
 from typing import Final
 
-from gradhesion.core.curve.trace import (
-    CLOSE_PAIR,
-    END,
-    END_DEPTH,
-    END_LEVEL,
-    END_LOAD,
-    START,
-    START_DEPTH,
-    START_LEVEL,
-    START_LOAD,
-    UNLOADED,
-)
+from gradhesion.core.curve import trace as at
 from gradhesion.core.curve.values import (
     Curve,
     bin_of,
@@ -76,7 +65,7 @@ def zero_in(curve: Curve, i: int, low: float, high: float, guess: float, rising:
 def pair_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
     """Look for a pair of folds in bin i, at whose edges D has this sign: whether D has an extremum of the other one.
 
-    Return that, the place of the extremum and D there times the half width, which is infinite if there is none.
+    Return whether it has, the place of its extremum, and D there times the half width (infinite: there is no extremum).
     """
     _, left, _, _ = slope_near(curve, i, -1.0)
     _, right, _, _ = slope_near(curve, i, 1.0)
@@ -141,7 +130,12 @@ def detour_in(curve: Curve, i: int, sign: float) -> tuple[bool, float, float]:
 
 @leaf
 def swing_in(curve: Curve, i: int) -> float:
-    """Return a bound of how far D swings in bin i beyond its values at the edges: h^2/2 times its second derivative."""
+    """Return a bound of how far D within bin i is from the line through its values at the edges, in the unit of D.
+
+    D is the slope d depth/dy of table/layout.py, of which curves count the terms: B m y^(m-1) + g U' - q E, with q from
+    (1-k)/2 (depth prescribed) to (3+k)/2 (load). Rows BV, BP and BE bound h^2/2 times the second derivatives of U',
+    m y^(m-1) and E, h being the half width; `highest` is the largest q, which bounds that of a machine as well.
+    """
     nodes = curve.table.nodes
     highest = 0.5 * (1.0 - curve.table.k) + (1.0 + curve.table.k if curve.by_load != 0.0 else 0.0)
     return curve.g * nodes[BV, i] + curve.B * nodes[BP, i] + highest * nodes[BE, i]
@@ -172,13 +166,13 @@ def _add_fold(
     if count < 0 or count >= trace.shape[1]:
         count = FULL
     elif rising:
-        trace[START, count], trace[START_DEPTH, count], trace[START_LOAD, count] = y, depth, load
-        trace[START_LEVEL, count], trace[UNLOADED, count] = level, math.nan
-        trace[END, count] = trace[END_LEVEL, count] = math.inf
+        trace[at.START, count], trace[at.START_DEPTH, count], trace[at.START_LOAD, count] = y, depth, load
+        trace[at.START_LEVEL, count], trace[at.UNLOADED, count] = level, math.nan
+        trace[at.END, count] = trace[at.END_LEVEL, count] = math.inf
         count += 1
     else:
-        trace[END, count - 1], trace[END_DEPTH, count - 1], trace[END_LOAD, count - 1] = y, depth, load
-        trace[END_LEVEL, count - 1] = level
+        trace[at.END, count - 1], trace[at.END_DEPTH, count - 1], trace[at.END_LOAD, count - 1] = y, depth, load
+        trace[at.END_LEVEL, count - 1] = level
     return count
 
 
@@ -198,7 +192,7 @@ def _add_folds(curve: Curve, i: int, older: float, before: float, after: float, 
             guess = t + (1.0 - t) * extreme / (extreme - after * half)
             count = _add_fold(curve, i, t, 1.0, guess, rises, trace, count)
         if abs(extreme) <= close * half:
-            trace[CLOSE_PAIR, 0] = min(trace[CLOSE_PAIR, 0], curve.table.nodes[Y, i])
+            trace[at.CLOSE_PAIR, 0] = min(trace[at.CLOSE_PAIR, 0], curve.table.nodes[Y, i])
     else:
         found, crest, trough = detour_in(curve, i, sign)
         if found:
@@ -208,7 +202,7 @@ def _add_folds(curve: Curve, i: int, older: float, before: float, after: float, 
         else:
             count = _add_fold(curve, i, -1.0, 1.0, _guess_of(older, before, after), rises, trace, count)
     if abs(after) <= close and swing > 0.5 * abs(before):
-        trace[CLOSE_PAIR, 0] = min(trace[CLOSE_PAIR, 0], curve.table.nodes[Y, i])
+        trace[at.CLOSE_PAIR, 0] = min(trace[at.CLOSE_PAIR, 0], curve.table.nodes[Y, i])
     return count
 
 
@@ -263,11 +257,11 @@ def first_bin(curve: Curve) -> int:
 @kernel
 def close_end(curve: Curve, last: int, count: int, trace: Floats) -> None:
     """End an open branch at the lower edge of bin `last`, where the search has ended: no cycle gets there."""
-    if count > 0 and trace[END, count - 1] == math.inf:
-        trace[END, count - 1] = curve.table.nodes[Y, last]
+    if count > 0 and trace[at.END, count - 1] == math.inf:
+        trace[at.END, count - 1] = curve.table.nodes[Y, last]
         depth, load = depth_and_load(curve, last - 1, 1.0)
-        trace[END_DEPTH, count - 1], trace[END_LOAD, count - 1] = depth, load
-        trace[END_LEVEL, count - 1] = coordinate_of(curve, depth, load)
+        trace[at.END_DEPTH, count - 1], trace[at.END_LOAD, count - 1] = depth, load
+        trace[at.END_LEVEL, count - 1] = coordinate_of(curve, depth, load)
 
 
 @kernel
@@ -279,12 +273,12 @@ def find_folds(curve: Curve, y_end: float, trace: Floats) -> int:
     first, last = first_bin(curve), curve.table.bins
     if y_end < end_of(curve.table):
         last = bin_of(curve.table, y_end) + 1
-    count, trace[CLOSE_PAIR, 0] = 0, math.inf
+    count, trace[at.CLOSE_PAIR, 0] = 0, math.inf
     if slope_at(curve, first) > 0.0:  # k = 1, or a groove at the centre: the first branch begins at 0
         depth = curve.g * curve.table.zero - (1.0 if curve.table.k == 1.0 else 0.0)
-        trace[START, 0], trace[START_DEPTH, 0], trace[START_LOAD, 0] = 0.0, depth, 0.0
-        trace[START_LEVEL, 0] = coordinate_of(curve, depth, 0.0)
-        trace[END, 0], trace[END_LEVEL, 0], trace[UNLOADED, 0] = math.inf, math.inf, math.nan
+        trace[at.START, 0], trace[at.START_DEPTH, 0], trace[at.START_LOAD, 0] = 0.0, depth, 0.0
+        trace[at.START_LEVEL, 0] = coordinate_of(curve, depth, 0.0)
+        trace[at.END, 0], trace[at.END_LEVEL, 0], trace[at.UNLOADED, 0] = math.inf, math.inf, math.nan
         count = 1
     count, ended = scan(curve, first, last, count, trace)
     if count >= 0 and not ended:

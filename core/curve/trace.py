@@ -24,5 +24,8 @@ ROWS: Final = 15
 
 
 def room_for(bins: int) -> Floats:
-    """Return room for the trace of a curve of that many bins: a bin has two folds at most."""
+    """Return room for the trace of a curve of that many bins, (ROWS, branches).
+
+    That is a branch a bin: two folds. Bins with three are rare, and a trace that is full says so (curve/folds.py).
+    """
     return np.empty((ROWS, bins + 8))

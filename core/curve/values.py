@@ -13,32 +13,9 @@ import math
 from typing import Final, NamedTuple
 
 from gradhesion.core.jit import kernel, leaf
+from gradhesion.core.table import layout as at
 from gradhesion.core.table.filling import waves_at
-from gradhesion.core.table.layout import (
-    GEOMETRIC,
-    HALF,
-    KE,
-    LANES,
-    PE,
-    PP,
-    PU,
-    PU1,
-    PW,
-    RATIO,
-    SLOPE,
-    U1,
-    YC,
-    E,
-    N,
-    P,
-    Source,
-    T,
-    Table,
-    U,
-    V,
-    Y,
-    end_of,
-)
+from gradhesion.core.table.layout import GEOMETRIC, LANES, RATIO, N, Source, Table, end_of
 
 _STEEP: Final = 1.0 / math.log(RATIO)
 
@@ -80,13 +57,13 @@ def bin_of(table: Table, y: float) -> int:
 def place_of(table: Table, y: float) -> tuple[int, float]:
     """Return the bin of a radius and the place in it."""
     i = bin_of(table, y)
-    return i, (y - table.nodes[YC, i]) / table.nodes[HALF, i]
+    return i, (y - table.nodes[at.YC, i]) / table.nodes[at.HALF, i]
 
 
 @leaf
 def radius_of(table: Table, i: int, t: float) -> float:
     """Return the radius of a place in bin i."""
-    return table.nodes[YC, i] + table.nodes[HALF, i] * t
+    return table.nodes[at.YC, i] + table.nodes[at.HALF, i] * t
 
 
 @leaf
@@ -96,9 +73,9 @@ def depth_and_load(curve: Curve, i: int, t: float) -> tuple[float, float]:
     share = table.share * curve.B
     flat = waves = stretch = 0.0
     for n in range(N - 1, -1, -1):
-        flat = flat * t + (curve.B * polys[i, PP, n] + curve.g * polys[i, PU, n])
-        waves = waves * t + (share * polys[i, PP, n] + curve.g * polys[i, PU1, n])
-        stretch = stretch * t + polys[i, PE, n]
+        flat = flat * t + (curve.B * polys[i, at.PP, n] + curve.g * polys[i, at.PU, n])
+        waves = waves * t + (share * polys[i, at.PP, n] + curve.g * polys[i, at.PU1, n])
+        stretch = stretch * t + polys[i, at.PE, n]
     depth = flat - radius_of(table, i, t) * stretch
     return depth, (depth - waves) / (stretch * stretch)
 
@@ -138,7 +115,7 @@ def softness(curve: Curve, stiffness: float) -> float:
 @leaf
 def level_at(curve: Curve, i: int) -> float:
     """Return (1+k) tau/(1+tau) at the lower edge of bin i: the share of the load in the level of folds."""
-    x = curve.by_load * curve.table.nodes[T, i]
+    x = curve.by_load * curve.table.nodes[at.T, i]
     return (1.0 + curve.table.k) * x / (curve.by_depth + x)
 
 
@@ -147,8 +124,8 @@ def slope_at(curve: Curve, i: int) -> float:
     """Return D at the lower edge of bin i, whose sign is that of the slope of what is prescribed."""
     level = level_at(curve, i) if curve.by_load != 0.0 else 0.0
     nodes = curve.table.nodes
-    D = curve.B * nodes[SLOPE, i] + curve.g * nodes[V, i] - 0.5 * (1.0 - curve.table.k) * nodes[E, i]
-    return D - level * nodes[KE, i]
+    D = curve.B * nodes[at.SLOPE, i] + curve.g * nodes[at.V, i] - 0.5 * (1.0 - curve.table.k) * nodes[at.E, i]
+    return D - level * nodes[at.KE, i]
 
 
 @leaf
@@ -161,9 +138,9 @@ def slope_in(curve: Curve, i: int, t: float) -> tuple[float, float, float, float
         flat3 = flat3 * t + flat2
         flat2 = flat2 * t + flat1
         flat1 = flat1 * t + flat
-        flat = flat * t + (curve.B * polys[i, PP, n] + curve.g * polys[i, PU, n])
-        stretch = stretch * t + polys[i, PE, n]
-    half = table.nodes[HALF, i]
+        flat = flat * t + (curve.B * polys[i, at.PP, n] + curve.g * polys[i, at.PU, n])
+        stretch = stretch * t + polys[i, at.PE, n]
+    half = table.nodes[at.HALF, i]
     y = radius_of(table, i, t)
     x = half / y  # d E/dt = -(1+k)/2 x E, and so on
     power = 0.5 * (1.0 + k)
@@ -182,7 +159,7 @@ def slope_in(curve: Curve, i: int, t: float) -> tuple[float, float, float, float
     waves = waves1 = 0.0  # kappa E = E + W/y; its second derivative is left out, which costs a step of a search
     for n in range(N - 1, -1, -1):
         waves1 = waves1 * t + waves
-        waves = waves * t + polys[i, PW, n]
+        waves = waves * t + polys[i, at.PW, n]
     own, own1 = stretch + waves / y, -power * x * stretch + (waves1 - waves * x) / y
     weight = (1.0 + k) * half
     return D - weight * share * own, D1 - weight * (share * own1 + change * own), D2, depth
@@ -198,11 +175,11 @@ def slope_near(curve: Curve, i: int, t: float) -> tuple[float, float, float, flo
 def coordinate_at(curve: Curve, i: int) -> float:
     """Return what is prescribed at the lower edge of bin i."""
     nodes = curve.table.nodes
-    power = curve.B * nodes[P, i]
-    depth = power + curve.g * nodes[U, i] - nodes[Y, i] * nodes[E, i]
+    power = curve.B * nodes[at.P, i]
+    depth = power + curve.g * nodes[at.U, i] - nodes[at.Y, i] * nodes[at.E, i]
     if curve.by_load == 0.0:
         return depth
-    load = nodes[T, i] * (depth - curve.table.share * power - curve.g * nodes[U1, i])
+    load = nodes[at.T, i] * (depth - curve.table.share * power - curve.g * nodes[at.U1, i])
     return coordinate_of(curve, depth, load)
 
 
@@ -210,11 +187,11 @@ def coordinate_at(curve: Curve, i: int) -> float:
 def terms_at(curve: Curve, i: int) -> float:
     """Return the sum of the sizes of the terms of the coordinate at the lower edge of bin i."""
     nodes = curve.table.nodes
-    power = curve.B * nodes[P, i]
-    terms = power + abs(curve.g * nodes[U, i]) + nodes[Y, i] * nodes[E, i]
+    power = curve.B * nodes[at.P, i]
+    terms = power + abs(curve.g * nodes[at.U, i]) + nodes[at.Y, i] * nodes[at.E, i]
     if curve.by_load == 0.0:
         return terms
-    load = nodes[T, i] * (terms + curve.table.share * power + abs(curve.g * nodes[U1, i]))
+    load = nodes[at.T, i] * (terms + curve.table.share * power + abs(curve.g * nodes[at.U1, i]))
     return coordinate_of(curve, terms, load)
 
 
@@ -223,5 +200,7 @@ def slope_terms_at(curve: Curve, i: int) -> float:
     """Return the sum of the sizes of the terms of D at the lower edge of bin i."""
     level = level_at(curve, i) if curve.by_load != 0.0 else 0.0
     nodes = curve.table.nodes
-    power = curve.B * nodes[SLOPE, i]
-    return power + abs(curve.g * nodes[V, i]) + 0.5 * (1.0 - curve.table.k) * nodes[E, i] + level * nodes[KE, i]
+    power = curve.B * nodes[at.SLOPE, i]
+    return (
+        power + abs(curve.g * nodes[at.V, i]) + 0.5 * (1.0 - curve.table.k) * nodes[at.E, i] + level * nodes[at.KE, i]
+    )

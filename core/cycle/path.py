@@ -9,25 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gradhesion.core.curve import trace as at
 from gradhesion.core.curve.energy import jump_energy
 from gradhesion.core.curve.levels import BEYOND, at_level
 from gradhesion.core.curve.levels import LANDING as ACCURACY
-from gradhesion.core.curve.trace import (
-    END,
-    END_DEPTH,
-    END_LEVEL,
-    END_LOAD,
-    LANDING,
-    LAST,
-    LOADED,
-    LOADING_JUMPS,
-    START,
-    START_DEPTH,
-    START_LEVEL,
-    START_LOAD,
-    UNLOADED,
-    UNLOADING_JUMPS,
-)
 from gradhesion.core.curve.values import Curve, coordinate_of, softness, state_in
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.table.layout import end_of
@@ -63,13 +48,13 @@ class Unloaded(NamedTuple):
 @leaf
 def end_state(trace: Floats, j: int) -> State:
     """Return where branch j ends."""
-    return State(trace[END, j], trace[END_DEPTH, j], trace[END_LOAD, j])
+    return State(trace[at.END, j], trace[at.END_DEPTH, j], trace[at.END_LOAD, j])
 
 
 @leaf
 def start_state(trace: Floats, j: int) -> State:
     """Return where branch j starts."""
-    return State(trace[START, j], trace[START_DEPTH, j], trace[START_LOAD, j])
+    return State(trace[at.START, j], trace[at.START_DEPTH, j], trace[at.START_LOAD, j])
 
 
 @kernel
@@ -82,20 +67,20 @@ def walk_on(curve: Curve, trace: Floats, first: int, count: int, visited: Intege
     """
     lost = jumps = 0.0
     if visits > 0:
-        lost, jumps = trace[LOADED, visited[visits - 1]], trace[LOADING_JUMPS, visited[visits - 1]]
+        lost, jumps = trace[at.LOADED, visited[visits - 1]], trace[at.LOADING_JUMPS, visited[visits - 1]]
     level = coordinate_of(curve, state.depth, state.load)
     for j in range(first, count):
-        if trace[END_LEVEL, j] <= level:
+        if trace[at.END_LEVEL, j] <= level:
             continue
-        landing = at_level(curve, level, trace[START, j], trace[END, j], ACCURACY)
+        landing = at_level(curve, level, trace[at.START, j], trace[at.END, j], ACCURACY)
         if landing == BEYOND:
             return visits
         lost += jump_energy(curve, state.y, state.depth, state.load, landing)
         jumps += 1.0
         visited[visits] = j
         visits += 1
-        trace[LANDING, j], trace[LOADED, j], trace[LOADING_JUMPS, j] = landing, lost, jumps
-        state, level = end_state(trace, j), trace[END_LEVEL, j]
+        trace[at.LANDING, j], trace[at.LOADED, j], trace[at.LOADING_JUMPS, j] = landing, lost, jumps
+        state, level = end_state(trace, j), trace[at.END_LEVEL, j]
     return visits
 
 
@@ -119,7 +104,7 @@ def snap_in(closing: Curve, landing: float) -> float:
 @leaf
 def inner_branch(trace: Floats, j: int, level: float) -> int:
     """Return the nearest branch up to j that starts below a level, -1 if there is none."""
-    while j >= 0 and trace[START_LEVEL, j] >= level:
+    while j >= 0 and trace[at.START_LEVEL, j] >= level:
         j -= 1
     return j
 
@@ -143,22 +128,22 @@ def fill_unloading(curve: Curve, trace: Floats, j: int, stack: Integers) -> None
     `stack` is room as long as a row of the trace.
     """
     n = 0
-    while j >= 0 and math.isnan(trace[UNLOADED, j]):
+    while j >= 0 and math.isnan(trace[at.UNLOADED, j]):
         stack[n] = j
         n += 1
-        j = inner_branch(trace, j - 1, trace[START_LEVEL, j])
+        j = inner_branch(trace, j - 1, trace[at.START_LEVEL, j])
     while n > 0:
         n -= 1
         i = stack[n]
         state, lost, jumps, last = start_state(trace, i), 0.0, 0.0, i
         low = high = 0.0
         if j >= 0:
-            low, high = trace[START, j], trace[END, j]
-            lost, jumps, last = trace[UNLOADED, j], trace[UNLOADING_JUMPS, j], int(trace[LAST, j])
+            low, high = trace[at.START, j], trace[at.END, j]
+            lost, jumps, last = trace[at.UNLOADED, j], trace[at.UNLOADING_JUMPS, j], int(trace[at.LAST, j])
         if state.y > 0.0:  # else the contact shrinks to a point, without a jump
             lost += _leave(curve, state, low, high)
             jumps += 1.0
-        trace[UNLOADED, i], trace[UNLOADING_JUMPS, i], trace[LAST, i] = lost, jumps, last
+        trace[at.UNLOADED, i], trace[at.UNLOADING_JUMPS, i], trace[at.LAST, i] = lost, jumps, last
         j = i
 
 
@@ -168,7 +153,7 @@ def visited_within(trace: Floats, visited: Integers, visits: int, rim: float) ->
     low, high = 0, visits
     while low < high:
         i = (low + high) // 2
-        if trace[LANDING, visited[i]] <= rim:
+        if trace[at.LANDING, visited[i]] <= rim:
             low = i + 1
         else:
             high = i
@@ -181,7 +166,7 @@ def started_within(trace: Floats, count: int, rim: float) -> int:
     low, high = 0, count
     while low < high:
         i = (low + high) // 2
-        if trace[START, i] <= rim:
+        if trace[at.START, i] <= rim:
             low = i + 1
         else:
             high = i
@@ -197,17 +182,17 @@ def load_to(curve: Curve, rim: float, trace: Floats, visited: Integers, visits: 
         depth, load = state_in(curve, rim)
         level = coordinate_of(curve, depth, load)
     n = visited_within(trace, visited, visits, rim)
-    if not inside and (n == 0 or trace[END, visited[n - 1]] < rim):
+    if not inside and (n == 0 or trace[at.END, visited[n - 1]] < rim):
         return Loaded(0.0, 0.0, 0.0, False, False)
     if n == 0:
         lost, jumps, top = jump_energy(curve, 0.0, 0.0, 0.0, rim), 1.0, 0.0
     else:
         j = visited[n - 1]
-        lost, jumps, top = trace[LOADED, j], trace[LOADING_JUMPS, j], level
-        if trace[END, j] < rim:
+        lost, jumps, top = trace[at.LOADED, j], trace[at.LOADING_JUMPS, j], level
+        if trace[at.END, j] < rim:
             state = end_state(trace, j)
             lost += jump_energy(curve, state.y, state.depth, state.load, rim)
-            jumps, top = jumps + 1.0, trace[END_LEVEL, j]
+            jumps, top = jumps + 1.0, trace[at.END_LEVEL, j]
     deepest = math.inf
     if depth < math.inf:
         deepest = depth + (top - level) / softness(curve, rim ** (1.0 + curve.table.k))
@@ -219,15 +204,15 @@ def unload_from(curve: Curve, rim: float, trace: Floats, count: int, stack: Inte
     """Return what unloading from a rim loses, and where it ends."""
     j = started_within(trace, count, rim) - 1
     lost, jumps, last = 0.0, 0.0, 0.0
-    if j < 0 or trace[END, j] < rim:
+    if j < 0 or trace[at.END, j] < rim:
         depth, load = state_in(curve, rim)
         j = inner_branch(trace, j, coordinate_of(curve, depth, load))
         low = high = 0.0
         if j >= 0:
-            low, high = trace[START, j], trace[END, j]
+            low, high = trace[at.START, j], trace[at.END, j]
         lost, jumps, last = _leave(curve, State(rim, depth, load), low, high), 1.0, depth
     if j >= 0:
         fill_unloading(curve, trace, j, stack)
-        lost, jumps = lost + trace[UNLOADED, j], jumps + trace[UNLOADING_JUMPS, j]
-        last = trace[START_DEPTH, int(trace[LAST, j])]
+        lost, jumps = lost + trace[at.UNLOADED, j], jumps + trace[at.UNLOADING_JUMPS, j]
+        last = trace[at.START_DEPTH, int(trace[at.LAST, j])]
     return Unloaded(lost, jumps, last)

@@ -25,7 +25,8 @@ from gradhesion.core.types import Floats
 
 # What is observed at frozen radii, in the units of the curves.
 PULL, LOADING, UNLOADING, GAP = range(4)
-# load of the pull-off; losses of loading (in units of closing) and of unloading; by how much the turn misses its target
+# load of the pull-off; losses of loading (in units of closing) and of unloading; what is measured at the turn, less
+# that at the fold which a jump has left, if it has passed the target (which itself is taken off by scenes/slopes.py)
 OBSERVED: Final = 4
 
 
@@ -65,7 +66,12 @@ def measured_by(closing: Curve, frozen: Frozen) -> Curve:
 
 @kernel
 def observe(closing: Curve, opening: Curve, frozen: Frozen, weight: float, out: Floats) -> None:
-    """Add what is observed on two curves at frozen radii, times a weight, to `out`, (OBSERVED,)."""
+    """Add what is observed at frozen radii, times `weight`, to `out` (OBSERVED,): a difference is a sum of such terms.
+
+    PULL is the lowest load, on the curve of opening; LOADING and UNLOADING are losses in 2 pi l^2 dgamma, of the work
+    of closing and of that of opening. If the turn moves, GAP is what is measured there on the curve of closing, less
+    that at `frozen.left` where a jump has passed the target. The row LOSS of `frozen.jumps` is overwritten.
+    """
     out[PULL] += weight * value_at(load_curve(opening), frozen.pull)
     out[LOADING] += weight * frozen_loss(closing, frozen.jumps, 0, frozen.loading)
     out[UNLOADING] += weight * frozen_loss(opening, frozen.jumps, frozen.loading, frozen.total)

@@ -46,7 +46,7 @@ def _smooth_line(frame: Frame, pull: float, height: float = 0.0) -> Line:
 
 
 def _turns(frame: Frame, pulls: tuple[float, ...], end: float) -> Floats:
-    """Return where punches of some pulls have no depth, their fold and their least load, in order, up to an end."""
+    """Return the radii y, rising, in (0, end), where lines of these pulls have depth 0, least depth or least load."""
     m, k = frame.punch.exponent, frame.k
     levels = 1.0, 0.5 * (1.0 - k) / m, 0.5 * (3.0 + k) / m
     places = np.unique([frame.place(level, pull) for pull in pulls for level in levels])
@@ -54,13 +54,16 @@ def _turns(frame: Frame, pulls: tuple[float, ...], end: float) -> Floats:
 
 
 def _sampled(drawn: Drawn, line: Line, places: Floats) -> Floats:
-    """Return points of a line from no contact through places to the end of what is drawn, (3, n)."""
+    """Return points of a line from no contact, y = 0, to the end of what is drawn, rows as of `Line`, (3, points).
+
+    `places` (n,) are the radii y of its corners, rising, in (0, drawn.end): depth and load are monotone between them.
+    """
     corners = line.points(np.concatenate([[0.0], places, [drawn.end]]))
     return sample(line, corners, np.arange(corners.shape[1]) > 0, spans_of(corners))[0]
 
 
 def _through(drawn: Drawn, line: Line, places: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return their radii a/R, depths and loads."""
+    """Return a/R, depth/R and load/(1.5 pi R w_o) of the points of `_sampled`, (points,) each."""
     y, depth, load = _sampled(drawn, line, places)
     return drawn.frame.radii(y, drawn.end), depth, load
 
@@ -117,44 +120,65 @@ def draw_envelope(drawn: Drawn) -> tuple[Floats, ...]:
     return frame.radii(y, drawn.end), *(row for line in lines for row in line.points(y)[1:])
 
 
-def draw_effective(drawn: Drawn) -> tuple[NDArray[Any], ...]:
-    """Return the effective path of a cycle; its last variable is 1 at a point that is reached by a jump.
+def _turn_of_path(drawn: Drawn, rise: float, fall: float) -> float:
+    """Return the radius y at which the effective path turns; `rise` and `fall` are the pulls of `_envelopes`.
 
-    Loading starts without contact at depth 0, touches the mean surface and jumps in there, to the a_2 of (5.34). For
-    chi_+ >= 1 there is no radius a_2: contact grows from a point, without a jump. A rim within a_2 is reached by the
-    jump-in, and unloading starts from there along the line (5.32). At k = 1 contact ends by shrinking to a point. An
-    unbounded punch that does not turn is loaded up to 2 a_2, or to the pull-off radius of its unloading envelope if
-    that is larger. The sum of P d(delta) over its lines is the energy of the solver of envelopes with the rim at the
-    turn, chords apart.
+    It is that of the cycle. For an unbounded punch that does not turn it is REACH times the a_2 of the work of
+    opening, or the radius of the pull-off from the unloading envelope if that is larger.
+    """
+    frame = drawn.frame
+    if frame.rim != np.inf or drawn.turned:
+        return drawn.turn
+    pull_off = frame.place(0.5 * (3.0 + frame.k) / frame.punch.exponent, fall)
+    return max(REACH * frame.place(1.0, rise), pull_off)
+
+
+def _loading_corners(frame: Frame, up: Line, down: Line, rise: float, turn: float, raised: float) -> Floats:
+    """Return the corners of loading, from where the jump-in lands to the turn, rows as of `Line`, (3, n).
+
+    `up` and `down` are the envelopes, `rise` is the pull of `up`, `raised` the depth/R of the mean surface.
+    """
+    landing = frame.place(1.0, rise)
+    if landing < turn:
+        places = _turns(frame, (rise,), turn)
+        corners = up.points(np.concatenate([[landing], places[places > landing], [turn]]))
+        if landing > 0.0:
+            corners[1, 0] = raised  # already so to rounding
+        return corners
+    # the jump-in reaches the rim: one point, on the line of the flat punch through the unloading envelope there
+    _, depth, load = down.points(np.array([turn]))[:, 0]
+    flat = turn ** (1.0 + frame.k) * frame.units[2] / frame.units[1]
+    return np.array([[turn], [raised], [load + flat * (raised - depth)]])
+
+
+def draw_effective(drawn: Drawn) -> tuple[NDArray[Any], ...]:
+    """Return the effective path of a cycle: a/R, depth/R, load/(1.5 pi R w_o), and 1.0 where a jump arrives, else 0.0.
+
+    All are (points,), in the order of the path: without contact from depth 0 to the mean surface; jump-in to a_2 of
+    the work of closing (5.34); the loading envelope up to the turn; the straight line (5.32) to the unloading
+    envelope; down that to its fold; jump-out. For chi_+ >= 1 contact grows from a point, without a jump. If the rim
+    is within a_2, the jump-in ends there, on the line (5.32). At k = 1 contact shrinks to a point, without a jump.
+    The area of the loop is the energy of solver = "envelope" with the rim at the turn, but for the chords drawn.
     """
     frame, m, k = drawn.frame, drawn.frame.punch.exponent, drawn.frame.k
     rise, fall, height = _envelopes(frame)
-    turn = drawn.turn
-    if frame.rim == np.inf and not drawn.turned:
-        turn = max(REACH * frame.place(1.0, rise), frame.place(0.5 * (3.0 + k) / m, fall))
-    rise += frame.root - 1.0
+    turn = _turn_of_path(drawn, rise, fall)
+    rise += frame.root - 1.0  # from here on loading is at the work of closing
     up, down = (_smooth_line(frame, pull, height) for pull in (rise, fall))
-    start, stop = frame.place(1.0, rise), min(turn, frame.place(0.5 * (1.0 - k) / m, fall))
+    landing, left = frame.place(1.0, rise), min(turn, frame.place(0.5 * (1.0 - k) / m, fall))
     raised = height * frame.units[1]
 
-    _, last_depth, last_load = down.points(np.array([turn]))[:, 0]
-    if start < turn:
-        places = _turns(frame, (rise,), turn)
-        loading = up.points(np.concatenate([[start], places[places > start], [turn]]))
-        if start > 0.0:
-            loading[1, 0] = raised  # already so to rounding
-    else:  # the rim is reached by the jump-in, and contact there is a flat punch
-        flat = turn ** (1.0 + k) * frame.units[2] / frame.units[1]
-        loading = np.array([[turn], [raised], [last_load + flat * (raised - last_depth)]])
+    loading = _loading_corners(frame, up, down, rise, turn, raised)
     places = _turns(frame, (fall,), turn)[::-1]
-    unloading = down.points(np.concatenate([[turn], places[places > stop], [stop] if stop < turn else []]))
-    before = np.array([[0.0, 0.0], [0.0, raised], [0.0, 0.0]])[:, : 2 if start > 0.0 and height > 0.0 else 1]
-    out = np.array([[0.0], [unloading[1, -1]], [0.0]])[:, : 1 if stop > 0.0 else 0]
+    unloading = down.points(np.concatenate([[turn], places[places > left], [left] if left < turn else []]))
+    # without contact: depth 0, then the mean surface if contact jumps in there; at the end the depth of the jump-out
+    before = np.array([[0.0, 0.0], [0.0, raised], [0.0, 0.0]])[:, : 2 if landing > 0.0 and height > 0.0 else 1]
+    out = np.array([[0.0], [unloading[1, -1]], [0.0]])[:, : 1 if left > 0.0 else 0]
     scales = spans_of(np.concatenate([before, loading, unloading, out], axis=1))
     smooth = [
         sample(line, own, np.arange(own.shape[1]) > 0, scales)[0] for line, own in ((up, loading), (down, unloading))
     ]
     y, depth, load = np.concatenate([before, *smooth, out], axis=1)
     jump = np.zeros(y.size)
-    jump[before.shape[1]], jump[-1] = start > 0.0, stop > 0.0
+    jump[before.shape[1]], jump[-1] = landing > 0.0, left > 0.0
     return frame.radii(y, turn if turn == drawn.turn else np.nan), depth, load, jump

@@ -13,33 +13,9 @@ import numpy as np
 from gradhesion.core.curve.energy import GAUSS, GAUSS_WEIGHTS
 from gradhesion.core.curve.values import bin_of
 from gradhesion.core.jit import kernel, quadrature
+from gradhesion.core.table import layout as at
 from gradhesion.core.table.filling import bend_of, fit, with_bounds
-from gradhesion.core.table.layout import (
-    BV,
-    HALF,
-    KE,
-    KU,
-    KUU,
-    KV,
-    M0,
-    PE,
-    POINTS,
-    PP,
-    PU,
-    PU1,
-    PW,
-    RLOW,
-    ROWS,
-    U1,
-    WEIGHTS,
-    YC,
-    E,
-    N,
-    Table,
-    U,
-    V,
-    Y,
-)
+from gradhesion.core.table.layout import POINTS, WEIGHTS, N, Table
 from gradhesion.core.types import Floats
 
 
@@ -121,21 +97,21 @@ def patterned_table(
     `crest` bounds -U' y^((k-1)/2) of the `plain` table; `polys` has a lane more than its polynomials.
     """
     k, bins = plain.k, bin_of(plain, y_end) + 1
-    for row in range(ROWS):
-        factor = g * g if row == KV else g if row in (U, U1, V, KU, KUU) else 1.0
+    for row in range(at.ROWS):
+        factor = g * g if row == at.KV else g if row in (at.U, at.U1, at.V, at.KU, at.KUU) else 1.0
         for i in range(bins + 1):
             nodes[row, i] = factor * plain.nodes[row, i]
     samples, waves, legendre = np.zeros((1, N)), np.zeros((1, N)), np.zeros(N)
     kappa, rise, circle, stretch = np.zeros(N), np.zeros(N), np.zeros((4, N)), np.zeros(N)
     above = toughness_at(pattern, 0.0) - 1.0
     for i in range(bins):
-        centre, half = plain.nodes[YC, i], plain.nodes[HALF, i]
+        centre, half = plain.nodes[at.YC, i], plain.nodes[at.HALF, i]
         _sample(pattern, centre, half, kappa, rise, circle)
         stretch[:] = 0.0
         for n in range(N - 1, -1, -1):
             for j in range(N):
-                stretch[j] = stretch[j] * POINTS[j] + plain.polys[i, PE, n]
-        area, middle = 0.0, 1.0 if k == 1.0 else centre * plain.polys[i, PE, 0]
+                stretch[j] = stretch[j] * POINTS[j] + plain.polys[i, at.PE, n]
+        area, middle = 0.0, 1.0 if k == 1.0 else centre * plain.polys[i, at.PE, 0]
         for j in range(N):
             y = centre + half * POINTS[j]
             pull = 1.0 if k == 1.0 else y * stretch[j]  # without rounding, which would bend it
@@ -143,23 +119,23 @@ def patterned_table(
             area += half * WEIGHTS[j] * y * kappa[j] * kappa[j]
         fit(samples, 0, waves, 0, legendre)
         waves[0, 0] += above * middle
-        nodes[M0, i] = area
+        nodes[at.M0, i] = area
         bend = 0.0
         for n in range(N):
-            polys[i, PW, n] = waves[0, n]
-            polys[i, PU, n] = g * plain.polys[i, PU, n] - waves[0, n]
-            polys[i, PU1, n] = g * plain.polys[i, PU1, n]
-            polys[i, PP, n], polys[i, PE, n] = plain.polys[i, PP, n], plain.polys[i, PE, n]
+            polys[i, at.PW, n] = waves[0, n]
+            polys[i, at.PU, n] = g * plain.polys[i, at.PU, n] - waves[0, n]
+            polys[i, at.PU1, n] = g * plain.polys[i, at.PU1, n]
+            polys[i, at.PP, n], polys[i, at.PE, n] = plain.polys[i, at.PP, n], plain.polys[i, at.PE, n]
             bend += abs(waves[0, n]) * n * (n - 1.0)
-        nodes[BV, i] = bend_of(polys[i], half) + 0.5 * (1.0 + k) * bend / centre
+        nodes[at.BV, i] = bend_of(polys[i], half) + 0.5 * (1.0 + k) * bend / centre
         for edge in range(2 if i == bins - 1 else 1):
             value = slope = 0.0
             for n in range(N - 1, -1, -1):
                 slope = slope * (2.0 * edge - 1.0) + value
                 value = value * (2.0 * edge - 1.0) + waves[0, n]
-            nodes[U, i + edge] -= value
-            nodes[V, i + edge] -= slope / half
-            nodes[KE, i + edge] = nodes[E, i + edge] + value / nodes[Y, i + edge]
+            nodes[at.U, i + edge] -= value
+            nodes[at.V, i + edge] -= slope / half
+            nodes[at.KE, i + edge] = nodes[at.E, i + edge] + value / nodes[at.Y, i + edge]
     lowest = g * plain.lowest - (pattern.most - 1.0)
     table = with_bounds(
         Table(
@@ -169,7 +145,7 @@ def patterned_table(
         bins,
     )
     for i in range(bins + 1):  # the share of the load in D is (1+k) kappa E at most, which the scan takes for (1+k) E
-        nodes[RLOW, i] -= (1.0 + k) * (pattern.most - 1.0) / nodes[Y, i]
+        nodes[at.RLOW, i] -= (1.0 + k) * (pattern.most - 1.0) / nodes[at.Y, i]
     return table
 
 
@@ -179,13 +155,13 @@ def edge_area(table: Table, pattern: Pattern, y: float) -> float:
     if pattern.rows.shape[1] == 0:
         return 0.5 * y * y
     i = bin_of(table, y)
-    low, total = table.nodes[Y, i], 0.0
+    low, total = table.nodes[at.Y, i], 0.0
     half = 0.5 * (y - low)
     for j in range(GAUSS.size):
         x = low + half * (1.0 + GAUSS[j])
         total += half * GAUSS_WEIGHTS[j] * x * toughness_at(pattern, x) ** 2
     for j in range(i):
-        total += table.nodes[M0, j]
+        total += table.nodes[at.M0, j]
     return total
 
 

@@ -4,7 +4,8 @@ Loading jumps in at zero depth to a_2, climbs the loading envelope to a_am, and 
 the barrier of one wave, along the line of a flat punch to the unloading envelope, which it descends to a_4, where
 contact ends. On the line depth and load are those of the smooth adhesive punch and g a_am^((1-k)/2) alpha, g of
 `envelopes.depth_over_zeta`: alpha = zeta_max is the loading envelope, zeta_min the unloading one. The mean height of
-the waves, which the printed forms leave out, raises depths by -lambda sum a_n. The cycle loses, with x = r/s < 1,
+the waves, which the printed forms leave out, raises depths by -lambda sum a_n. The cycle loses, with the strengths s of
+adhesion and r of the waviness as in envelopes.py, and x = r/s < 1,
 
     H = C1 + C2,   C1 = pi dgamma { a_2^2 [(1+x)^2 - 2 (1-x)^2/(5+k)] + (1+x)^2 e a_4^2 }
     e  = 16 t^2/((1+k)(3+k)(5+k)) - 8 t/((1+k)(3+k)) + 2/(1+k) - 1,           t = (1-k)/4

@@ -162,7 +162,7 @@ def stress_intensity(
 ) -> Array:  # fmt: skip
     """Return K_I R^((1+k)/2)/dgamma at the edge of a disc of radius a at any depth (4.5).
 
-    In equilibrium -sqrt(2 M dgamma), whatever the punch.
+    In equilibrium -sqrt(2 M dgamma), which is -sqrt(2 stiffness) in this unit, whatever the punch.
 
     >>> depth = indentation(0.3, 500.0, [0.1, 0.2], 0.1, [-0.02])
     >>> (stress_intensity(0.3, 500.0, [0.1, 0.2], depth, 0.1, [-0.02]) ** 2 / 1000.0).round(12).tolist()

@@ -158,7 +158,7 @@ def wave_moment(k: Real, radius: Real, wavelength: Real, amplitude: Real) -> Arr
 
 
 def indentation(k: Real, radius: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0) -> Array:
-    """Return delta_H/R, the depth of contact over a disc without adhesion (3.9).
+    """Return delta_H/R, the depth of contact without adhesion over a disc, of a power and one cosine wave (3.9).
 
     Accurate to a few units in the last place of its largest term.
     """

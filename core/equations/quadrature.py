@@ -87,8 +87,9 @@ def hertz_pressure(
 ) -> Array:  # fmt: skip
     """Return p_H R/dgamma of contact without adhesion over a disc of radius a (3.4).
 
-    Zero at r = a. Accurate to 1e-12 of its largest value. At r = 0 it is infinite for k = 0 where the profile has a
-    slope there (a cone, or a series of sines with sum n b_n not 0). Hertz: 2 E* sqrt(a^2-r^2)/(pi R).
+    Zero at r = a, NaN beyond. Accurate to 1e-12 of its largest value. At r = 0 and k = 0 it is infinite, with the sign
+    of the slope, where the profile has one there (a cone, or a series of sines with sum n b_n not 0). Hertz:
+    2 E* sqrt(a^2-r^2)/(pi R).
 
     >>> float((hertz_pressure(0.0, 500.0, 0.12, 0.13, 1.0, []) * np.pi).round(9))
     50.0
@@ -212,11 +213,12 @@ def _pressed(k: float, r: float, a: float, length: float, waves: hertz.Harmonics
     if r > 0.0:
         s, weights = _beyond(r, a, 0.5 * (k - 1.0), widest)
         return float(np.sum(weights / s * hertz.over_disc(k, s, length, waves, m)[2]))
-    front = m * float(hertz.power_indentation(k, 1.0, m))
-    smooth = front * a ** (k + m - 1.0) / (k + m - 1.0) if k + m > 1.0 else math.inf
+    front = m * float(hertz.power_indentation(k, 1.0, m))  # delta_H' of the power is front s^(m-1)
+    smooth = front * a ** (k + m - 1.0) / (k + m - 1.0) if k + m > 1.0 else 0.0
     first = 2.0 * math.pi * sum(n * sine for n, _, sine in waves) * float(hertz.cosine_integrals(k, 0.0)[0])
-    if first != 0.0 and k == 0.0:  # of the slope that the profile has at its apex
-        return math.copysign(math.inf, first) + smooth
+    steep = first + (0.0 if k + m > 1.0 else front)  # delta_H' at the apex
+    if k == 0.0 and steep != 0.0:
+        return math.copysign(math.inf, steep)
     s, weights = _from_zero(a, k, widest)
     rest = float(np.sum(weights * (hertz.wave_terms(k, s, length, waves)[2] / s - first) / s))
     return smooth + rest + (first * a**k / k if first != 0.0 else 0.0)
@@ -258,7 +260,11 @@ def _gap(k: float, r: float, a: float, shortest: float, opening: Callable[[Array
 
 
 def _below(a: float, power: float, widest: float) -> tuple[Array, Array]:
-    """Return nodes s and weights w, sum w g(s) = int_0^a g(s) (a^2-s^2)^power ds, for power > -1."""
+    """Return nodes s and weights w, sum w g(s) = int_0^a g(s) (a^2-s^2)^power ds, for power > -1.
+
+    Both are (n,); lengths are in R. g is smooth, and its waves are no shorter than 2 `widest`, the largest width of a
+    panel (inf: without waves).
+    """
     last = a - min(0.5 * a, widest)
     s, w = _legendre(np.array([0.0, *_edges(_LEAST * a, last, lambda low: min(widest, low))]))
     end, weights = _jacobi(last, a, power, upper=True)
@@ -266,7 +272,11 @@ def _below(a: float, power: float, widest: float) -> tuple[Array, Array]:
 
 
 def _beyond(r: float, a: float, power: float, widest: float) -> tuple[Array, Array]:
-    """Return nodes s and weights w, sum w g(s) = int_r^a g(s) (s^2-r^2)^power ds, for 0 < r < a and power > -1."""
+    """Return nodes s and weights w, sum w g(s) = int_r^a g(s) (s^2-r^2)^power ds, for 0 < r < a and power > -1.
+
+    Both are (n,); lengths are in R. g is smooth, and its waves are no shorter than 2 `widest`, the largest width of a
+    panel (inf: without waves).
+    """
     first = min(a, r + min(widest, 0.5 * r))
     near, weights = _jacobi(r, first, power, upper=False)
     s, w = _legendre(_edges(first, a, lambda low: min(widest, low - r)))
@@ -274,7 +284,11 @@ def _beyond(r: float, a: float, power: float, widest: float) -> tuple[Array, Arr
 
 
 def _from_zero(a: float, power: float, widest: float) -> tuple[Array, Array]:
-    """Return nodes s and weights w, sum w g(s) = int_0^a g(s) s^power ds, for power > -1 and g smooth at 0."""
+    """Return nodes s and weights w, sum w g(s) = int_0^a g(s) s^power ds, for power > -1.
+
+    Both are (n,); lengths are in R. g is smooth, and its waves are no shorter than 2 `widest`, the largest width of a
+    panel (inf: without waves).
+    """
     first = min(a, widest)
     near, weights = _jacobi(0.0, first, power, upper=False)
     s, w = _legendre(_edges(first, a, lambda _: widest))

@@ -14,23 +14,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gradhesion.core.curve import trace as at
 from gradhesion.core.curve.energy import energy_between, jump_energy
 from gradhesion.core.curve.folds import find_folds
 from gradhesion.core.curve.levels import BEYOND, at_level
 from gradhesion.core.curve.levels import LANDING as ACCURACY
-from gradhesion.core.curve.trace import (
-    END,
-    END_LEVEL,
-    LANDING,
-    LAST,
-    LOADED,
-    LOADING_JUMPS,
-    START,
-    START_DEPTH,
-    START_LOAD,
-    UNLOADED,
-    UNLOADING_JUMPS,
-)
 from gradhesion.core.curve.values import Curve, coordinate_of, depth_and_load, load_curve, place_of, softness, state_in
 from gradhesion.core.cycle.disc import gap_is_open, loading_is_one_disc
 from gradhesion.core.cycle.path import (
@@ -151,13 +139,13 @@ def begin(long: Long, curve: Curve, folds: int) -> tuple[Loading, int]:
     y_end = start_of(long.waves, long.near + 1.0) - 0.5 * long.waves.width
     count = find_folds(start, y_end, trace)
     if count > 0 and folds <= long.near + 1:
-        trace[END, count - 1] = trace[END_LEVEL, count - 1] = math.inf
+        trace[at.END, count - 1] = trace[at.END_LEVEL, count - 1] = math.inf
     visits = walk_loading(start, trace, count, visited)
     state, lost, jumps, below, snap, last = State(0.0, 0.0, 0.0), 0.0, 0.0, 0.0, 0.0, math.inf
     if visits > 0:
         j = visited[visits - 1]
-        state, lost, jumps = end_state(trace, j), trace[LOADED, j], trace[LOADING_JUMPS, j]
-        snap, last = snap_in(start, trace[LANDING, visited[0]]), trace[LANDING, j]
+        state, lost, jumps = end_state(trace, j), trace[at.LOADED, j], trace[at.LOADING_JUMPS, j]
+        snap, last = snap_in(start, trace[at.LANDING, visited[0]]), trace[at.LANDING, j]
     tied = loading_is_tied(start, y_end, False, trace, count)
     one_disc = True
     if long.contact:
@@ -184,12 +172,14 @@ def land(long: Long, curve: Curve, before: Loading) -> tuple[Loading, int]:
     if visits == 0:
         return before, visits
     j = visited[visits - 1]
-    one_disc = before.one_disc and (not long.contact or jumps_are_open(long, piece, space, visits, trace[LANDING, j]))
+    one_disc = before.one_disc and (
+        not long.contact or jumps_are_open(long, piece, space, visits, trace[at.LANDING, j])
+    )
     tied = before.tied or loading_is_tied(piece, end_of(piece.table), False, trace, count)
-    lost, jumps = before.lost + trace[LOADED, j] - before.below, before.jumps + trace[LOADING_JUMPS, j]
-    snap = snap_in(piece, trace[LANDING, visited[0]]) if before.jumps == 0.0 else before.snap
+    lost, jumps = before.lost + trace[at.LOADED, j] - before.below, before.jumps + trace[at.LOADING_JUMPS, j]
+    snap = snap_in(piece, trace[at.LANDING, visited[0]]) if before.jumps == 0.0 else before.snap
     return Loading(
-        before.wave, True, end_state(trace, j), lost, jumps, 0.0, snap, trace[LANDING, j], one_disc, tied
+        before.wave, True, end_state(trace, j), lost, jumps, 0.0, snap, trace[at.LANDING, j], one_disc, tied
     ), visits
 
 
@@ -206,14 +196,14 @@ def _leave_far(long: Long, curve: Curve, state: State, starts: int) -> Unloaded:
         dead = curve.by_depth == 0.0  # a dead load falls without end: its jump-out is left out
         lost = 0.0 if dead else jump_energy(curve, state.y, state.depth, state.load, 0.0)
         return Unloaded(lost, 1.0, state.depth)
-    if trace[START, j] > start_of(long.waves, float(long.near)):
+    if trace[at.START, j] > start_of(long.waves, float(long.near)):
         return Unloaded(math.inf, 0.0, 0.0)
     start = on(curve, long.table)
-    landing = at_level(start, level, trace[START, j], trace[END, j], ACCURACY)
+    landing = at_level(start, level, trace[at.START, j], trace[at.END, j], ACCURACY)
     lost = jump_energy(start, 0.0, state.depth, state.load, landing) - energy_between(curve, state.depth, 0.0, state.y)
     fill_unloading(start, trace, j, long.start.stack)
-    last = trace[START_DEPTH, int(trace[LAST, j])]
-    return Unloaded(lost + trace[UNLOADED, j], 1.0 + trace[UNLOADING_JUMPS, j], last)
+    last = trace[at.START_DEPTH, int(trace[at.LAST, j])]
+    return Unloaded(lost + trace[at.UNLOADED, j], 1.0 + trace[at.UNLOADING_JUMPS, j], last)
 
 
 @kernel
@@ -227,13 +217,13 @@ def leave(long: Long, curve: Curve, starts: int, last: int) -> Leaving:
         first = started_within(trace, starts, start_of(long.waves, float(wave)))
         low = lowest_start(trace, first, starts) if first < starts else starts - 1
         fill_unloading(start, trace, low, long.start.stack)
-        tied = unloading_is_tied(start, trace[START, low], trace, starts)
-        depth = trace[START_DEPTH, int(trace[LAST, low])]
-        return Leaving(wave, trace[UNLOADED, low], trace[UNLOADING_JUMPS, low], depth, tied)
+        tied = unloading_is_tied(start, trace[at.START, low], trace, starts)
+        depth = trace[at.START_DEPTH, int(trace[at.LAST, low])]
+        return Leaving(wave, trace[at.UNLOADED, low], trace[at.UNLOADING_JUMPS, low], depth, tied)
     space = long.window
     piece, first, others, count = trace_waves(long, curve, wave - 1.0, space)
     from_zero(long, wave - 1, space)
-    after = space.trace[START, lowest_start(space.trace, others, count)]
+    after = space.trace[at.START, lowest_start(space.trace, others, count)]
     tied = unloading_is_tied(piece, after, space.trace, count)
     left = _leave_far(long, piece, start_state(space.trace, lowest_start(space.trace, first, others)), starts)
     return Leaving(wave, left.lost, left.jumps, left.last, tied)
@@ -285,16 +275,16 @@ def finish_loading(
     trace, visited = space.trace, space.visited
     if before.landed:
         top = highest_end(trace, 0, started_within(trace, count, start_of(long.waves, last + 1.0)))
-        trace[LANDING, top] = min(before.last, trace[START, top])
-        trace[LOADED, top], trace[LOADING_JUMPS, top] = before.lost, before.jumps
+        trace[at.LANDING, top] = min(before.last, trace[at.START, top])
+        trace[at.LOADED, top], trace[at.LOADING_JUMPS, top] = before.lost, before.jumps
         visited[0], visits = top, count - count + 1
         visits = walk_on(piece, trace, top + 1, count, visited, visits, end_state(trace, top))
     else:
         none = count - count
         visits = walk_on(piece, trace, none, count, visited, none, State(0.0, before.state.depth, before.state.load))
         for v in range(visits):
-            trace[LOADED, visited[v]] += before.lost - before.below
-            trace[LOADING_JUMPS, visited[v]] += before.jumps
+            trace[at.LOADED, visited[v]] += before.lost - before.below
+            trace[at.LOADING_JUMPS, visited[v]] += before.jumps
     n = visited_within(trace, visited, visits, rim)
     one_disc = before.one_disc and (not long.contact or jumps_are_open(long, piece, space, n, rim))
     if long.contact and one_disc and rim < edge and rim < end_of(piece.table):
@@ -310,8 +300,13 @@ def finish_loading(
     )
     if n > 0:
         j = visited[n - 1]
-        state, lost, jumps, landing = end_state(trace, j), trace[LOADED, j], trace[LOADING_JUMPS, j], trace[LANDING, j]
-        snap = snap if before.jumps > 0.0 else snap_in(piece, trace[LANDING, visited[0]])
+        state, lost, jumps, landing = (
+            end_state(trace, j),
+            trace[at.LOADED, j],
+            trace[at.LOADING_JUMPS, j],
+            trace[at.LANDING, j],
+        )
+        snap = snap if before.jumps > 0.0 else snap_in(piece, trace[at.LANDING, visited[0]])
     loaded = load_to(piece, rim, trace, visited, visits)
     if loaded.known and n > 0:
         # on the endless branch; the depth at a rim there is left to who knows it beside any other scenes
@@ -346,8 +341,8 @@ def finish_unloading(
         low = lowest_start(trace, 0, max(within, 1))
         if within > 0:
             left = _leave_far(long, piece, start_state(trace, low), starts)
-    trace[UNLOADED, low], trace[UNLOADING_JUMPS, low], trace[LAST, low] = left.lost, left.jumps, low
-    if within == 0 or trace[END, within - 1] < rim:
+    trace[at.UNLOADED, low], trace[at.UNLOADING_JUMPS, low], trace[at.LAST, low] = left.lost, left.jumps, low
+    if within == 0 or trace[at.END, within - 1] < rim:
         depth, load = state_in(piece, rim)
         if inner_branch(trace, within - 1, coordinate_of(piece, depth, load)) < 0:
             return _leave_far(long, piece, State(rim, depth, load), starts), tied
@@ -404,9 +399,9 @@ def lowest_far(long: Long, curve: Curve, rim: float) -> Lowest:
         i, t = place_of(piece.table, rim)
         best = deeper(best, depth_and_load(piece, i, t)[1], rim)
     for j in range(count):
-        y = space.trace[START, j]
+        y = space.trace[at.START, j]
         if piece.table.start < y <= rim:
-            best = deeper(best, space.trace[START_LOAD, j], y)
+            best = deeper(best, space.trace[at.START_LOAD, j], y)
     return best
 
 
@@ -417,12 +412,12 @@ def last_fold(long: Long, curve: Curve) -> float:
     if folds == long.most:
         return math.nan
     piece, _, _, count = trace_waves(long, curve, max(folds - 2.0, float(long.near)), long.ends)
-    if count == 0 or trace[START, 0] == piece.table.start:
+    if count == 0 or trace[at.START, 0] == piece.table.start:
         trace = long.start.trace
         count = find_folds(on(curve, long.table), start_of(long.waves, long.near + 1.0), trace)
     if count <= 0:
         return 0.0
-    return float(trace[END, count - 1] if trace[END, count - 1] < math.inf else trace[START, count - 1])
+    return float(trace[at.END, count - 1] if trace[at.END, count - 1] < math.inf else trace[at.START, count - 1])
 
 
 @kernel

@@ -4,7 +4,7 @@ from typing import Final
 
 import numpy as np
 
-from gradhesion.core.curve.trace import LANDING, LOADED, LOADING_JUMPS, START_LEVEL, UNLOADED, UNLOADING_JUMPS
+from gradhesion.core.curve import trace as at
 from gradhesion.core.curve.values import Curve, slope_at
 from gradhesion.core.cycle.disc import gap_is_open
 from gradhesion.core.cycle.path import end_state, fill_unloading, walk_on
@@ -49,7 +49,7 @@ def jumps_are_open(long: Long, curve: Curve, space: Space, visits: int, rim: flo
         state = end_state(space.trace, space.visited[v - 1])
         if state.y >= rim:
             return True
-        landing = min(rim, space.trace[LANDING, space.visited[v]] if v < visits else rim)
+        landing = min(rim, space.trace[at.LANDING, space.visited[v]] if v < visits else rim)
         if not gap_is_open(curve, long.disc, state.y, state.depth, landing):
             return False
     return True
@@ -71,22 +71,22 @@ def _losses(long: Long, curve: Curve, number: float, space: Space, outwards: boo
     out[:] = 0.0
     if outwards:
         top = highest_end(trace, 0, first)
-        trace[LOADED, top] = trace[LOADING_JUMPS, top] = 0.0
+        trace[at.LOADED, top] = trace[at.LOADING_JUMPS, top] = 0.0
         visited[0], visits = top, count - count + 1
         visits = walk_on(piece, trace, first, count, visited, visits, end_state(trace, top))
         last = visited[visits - 1]
         if last < others:
             return False
-        out[OUTWARDS], out[JUMPS_OUTWARDS] = trace[LOADED, last], trace[LOADING_JUMPS, last]
-        if long.contact and not jumps_are_open(long, piece, space, visits, trace[LANDING, last]):
+        out[OUTWARDS], out[JUMPS_OUTWARDS] = trace[at.LOADED, last], trace[at.LOADING_JUMPS, last]
+        if long.contact and not jumps_are_open(long, piece, space, visits, trace[at.LANDING, last]):
             out[SHUT] = 1.0
     if inwards:
         low, inner = lowest_start(trace, others, count), lowest_start(trace, 0, first)
-        if trace[START_LEVEL, inner] >= trace[START_LEVEL, low]:
+        if trace[at.START_LEVEL, inner] >= trace[at.START_LEVEL, low]:
             return False
-        trace[UNLOADED, inner] = trace[UNLOADING_JUMPS, inner] = 0.0
+        trace[at.UNLOADED, inner] = trace[at.UNLOADING_JUMPS, inner] = 0.0
         fill_unloading(piece, trace, low, space.stack)
-        out[INWARDS], out[JUMPS_INWARDS] = trace[UNLOADED, low], trace[UNLOADING_JUMPS, low]
+        out[INWARDS], out[JUMPS_INWARDS] = trace[at.UNLOADED, low], trace[at.UNLOADING_JUMPS, low]
     return True
 
 

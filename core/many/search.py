@@ -5,21 +5,9 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from gradhesion.core.curve import trace as at
 from gradhesion.core.curve.folds import scan
-from gradhesion.core.curve.trace import (
-    CLOSE_PAIR,
-    END,
-    END_LEVEL,
-    LANDING,
-    LOADED,
-    LOADING_JUMPS,
-    START,
-    START_DEPTH,
-    START_LEVEL,
-    START_LOAD,
-    UNLOADED,
-    room_for,
-)
+from gradhesion.core.curve.trace import room_for
 from gradhesion.core.curve.values import Curve, coordinate_at, coordinate_of, depth_and_load, slope_at, softness
 from gradhesion.core.cycle.disc import Disc
 from gradhesion.core.cycle.path import end_state, walk_on
@@ -106,13 +94,13 @@ def trace_branches(curve: Curve, per: int, trace: Floats) -> tuple[int, int, int
     A branch that comes from below them begins where they do.
     """
     first = others = count = 0
-    trace[CLOSE_PAIR, 0] = math.inf
+    trace[at.CLOSE_PAIR, 0] = math.inf
     if slope_at(curve, 0) > 0.0:
         depth, load = depth_and_load(curve, 0, -1.0)
-        trace[START, 0], trace[START_DEPTH, 0], trace[START_LOAD, 0] = curve.table.start, depth, load
-        trace[START_LEVEL, 0] = coordinate_of(curve, depth, load)
-        trace[END, 0] = trace[END_LEVEL, 0] = math.inf
-        trace[UNLOADED, 0] = math.nan
+        trace[at.START, 0], trace[at.START_DEPTH, 0], trace[at.START_LOAD, 0] = curve.table.start, depth, load
+        trace[at.START_LEVEL, 0] = coordinate_of(curve, depth, load)
+        trace[at.END, 0] = trace[at.END_LEVEL, 0] = math.inf
+        trace[at.UNLOADED, 0] = math.nan
         count = 1
     waves = curve.table.bins // per
     for wave in range(waves):
@@ -142,7 +130,7 @@ def highest_end(trace: Floats, first: int, last: int) -> int:
     """Return the branch that ends highest of some."""
     best = first
     for j in range(first + 1, last):
-        best = j if trace[END_LEVEL, j] > trace[END_LEVEL, best] else best
+        best = j if trace[at.END_LEVEL, j] > trace[at.END_LEVEL, best] else best
     return best
 
 
@@ -151,7 +139,7 @@ def lowest_start(trace: Floats, first: int, last: int) -> int:
     """Return the branch that starts lowest of some."""
     best = first
     for j in range(first + 1, last):
-        best = j if trace[START_LEVEL, j] < trace[START_LEVEL, best] else best
+        best = j if trace[at.START_LEVEL, j] < trace[at.START_LEVEL, best] else best
     return best
 
 
@@ -164,7 +152,7 @@ def turn_in(long: Long, sought: Sought, number: int) -> float:
     if first == 0:
         return math.inf
     top = highest_end(trace, 0, first)
-    trace[LANDING, top], trace[LOADED, top], trace[LOADING_JUMPS, top] = trace[START, top], 0.0, 0.0
+    trace[at.LANDING, top], trace[at.LOADED, top], trace[at.LOADING_JUMPS, top] = trace[at.START, top], 0.0, 0.0
     visited[0], visits = top, count - count + 1
     visits = walk_on(curve, trace, top + 1, count, visited, visits, end_state(trace, top))
     measured = on(sought.measured, curve.table)
@@ -183,12 +171,14 @@ def _is_past(long: Long, sought: Sought, number: int) -> bool:
         return (slope_at(on(sought.curve, table), 0) < 0.0) == (sought.what == BIRTH)
     curve, first, _, count = trace_waves(long, sought.curve, float(number), long.scratch)
     if sought.what == BOTTOM:
-        own = trace[START_LEVEL, lowest_start(trace, 0, first)] if first > 0 else math.inf
-        after = trace[START_LEVEL, lowest_start(trace, first, count)] if count > first else math.inf
+        own = trace[at.START_LEVEL, lowest_start(trace, 0, first)] if first > 0 else math.inf
+        after = trace[at.START_LEVEL, lowest_start(trace, first, count)] if count > first else math.inf
         return slope_at(curve, 0) >= 0.0 or after > own
     top = coordinate_at(curve, per) if slope_at(curve, per) >= 0.0 else -math.inf
     for j in range(first):
-        top = max(top, trace[END_LEVEL, j]) if trace[END, j] < curve.table.start + per * curve.table.width else top
+        top = (
+            max(top, trace[at.END_LEVEL, j]) if trace[at.END, j] < curve.table.start + per * curve.table.width else top
+        )
     return top > sought.level
 
 
@@ -199,16 +189,16 @@ def first_wave(long: Long, sought: Sought, low: int, high: int) -> int:
     From a guess on in steps that are doubled until it lies between, and then by bisection.
     """
     before, past, step = low - 1, high, 1
-    at = int(max(min(guess(long, sought), high - 1.0), float(low)))
+    tried = int(max(min(guess(long, sought), high - 1.0), float(low)))
     while past - before > 1:
-        if _is_past(long, sought, at):
-            past = at
+        if _is_past(long, sought, tried):
+            past = tried
         else:
-            before = at
+            before = tried
         if past < high and before >= low:
-            at = (past + before) // 2
+            tried = (past + before) // 2
         else:
-            at = max(past - step, low) if past < high else min(before + step, high - 1)
+            tried = max(past - step, low) if past < high else min(before + step, high - 1)
             step *= 2
     return past
 

@@ -12,55 +12,18 @@ import numpy as np
 
 from gradhesion.core.borrowed import borrowed
 from gradhesion.core.jit import kernel, leaf, quadrature
+from gradhesion.core.table import layout as at
 from gradhesion.core.table.filling import fill_bins
-from gradhesion.core.table.layout import (
-    BE,
-    BP,
-    BV,
-    HALF,
-    HM,
-    HP,
-    HPP,
-    HPU,
-    HU,
-    HUU,
-    K0,
-    K1,
-    K2,
-    KE,
-    KU,
-    KUU,
-    KV,
-    LANES,
-    M0,
-    PC,
-    PE,
-    PP,
-    PU,
-    PU1,
-    ROWS,
-    SLOPE,
-    U1,
-    YC,
-    E,
-    N,
-    P,
-    Source,
-    T,
-    Table,
-    U,
-    V,
-    Y,
-)
+from gradhesion.core.table.layout import LANES, N, Source, Table
 from gradhesion.core.types import Floats
 
 FIRST_WAVE: Final = 16
 """Where the first doubling begins: far enough out for the expansions of filling.py."""
 PLACES: Final = 10
 """Places of a doubling: what is left of w^(-1/2) there is 1e-17."""
-_EDGE: Final = (V, U, U1, P, SLOPE, E)
+_EDGE: Final = (at.V, at.U, at.U1, at.P, at.SLOPE, at.E)
 """Rows of an edge that are mixed."""
-_BIN: Final = (K0, K1, K2, KU, KUU, KV, PC, BV, BP, BE)
+_BIN: Final = (at.K0, at.K1, at.K2, at.KU, at.KUU, at.KV, at.PC, at.BV, at.BP, at.BE)
 """Rows of a bin that are mixed."""
 _LANES_AT: Final = len(_EDGE) + len(_BIN)
 SIZE: Final = _LANES_AT + LANES * N
@@ -148,7 +111,7 @@ def _fill_doubling(source: Source, index: int, doubling: int, values: Floats, no
             source.shift + per * (number - whole),
         )
         fill_bins(moved, per * whole + index, none, per, nodes, polys)
-        _fill_scales(source.k, source.exponent, nodes[Y, 0], scales)
+        _fill_scales(source.k, source.exponent, nodes[at.Y, 0], scales)
         for i in range(per + 1):
             out = values[doubling, i, place]
             for row in range(len(_EDGE)):
@@ -159,10 +122,10 @@ def _fill_doubling(source: Source, index: int, doubling: int, values: Floats, no
                 out[len(_EDGE) + row] = nodes[_BIN[row], i] / scales[len(_EDGE) + row]
             for n in range(N):
                 c = _LANES_AT + n
-                out[c], out[c + N] = polys[i, PU, n] / scales[c], polys[i, PU1, n] / scales[c + N]
+                out[c], out[c + N] = polys[i, at.PU, n] / scales[c], polys[i, at.PU1, n] / scales[c + N]
                 out[c + 2 * N], out[c + 3 * N] = (
-                    polys[i, PP, n] / scales[c + 2 * N],
-                    polys[i, PE, n] / scales[c + 3 * N],
+                    polys[i, at.PP, n] / scales[c + 2 * N],
+                    polys[i, at.PE, n] / scales[c + 3 * N],
                 )
 
 
@@ -192,27 +155,27 @@ def mix_wave(waves: Waves, number: float, column: int, nodes: Floats, polys: Flo
                 mixed[c] += weight * waves.values[doubling, i, n, c]
         j = column + i
         low = y + i * width
-        nodes[Y, j], nodes[V, j], nodes[U, j] = low, mixed[0] * scales[0], mixed[1] * scales[1]
-        nodes[U1, j], nodes[P, j], nodes[SLOPE, j] = mixed[2], mixed[3] * scales[3], mixed[4] * scales[4]
+        nodes[at.Y, j], nodes[at.V, j], nodes[at.U, j] = low, mixed[0] * scales[0], mixed[1] * scales[1]
+        nodes[at.U1, j], nodes[at.P, j], nodes[at.SLOPE, j] = mixed[2], mixed[3] * scales[3], mixed[4] * scales[4]
         stretch = mixed[5] * scales[5]
-        nodes[E, j] = nodes[KE, j] = stretch
-        nodes[T, j] = 1.0 / (stretch * stretch)
+        nodes[at.E, j] = nodes[at.KE, j] = stretch
+        nodes[at.T, j] = 1.0 / (stretch * stretch)
         if i == bins:
             return
         for row in range(6):
-            nodes[K0 + row, j] = mixed[6 + row] * scales[6 + row]
-        nodes[PC, j], nodes[BP, j], nodes[BE, j] = (
+            nodes[at.K0 + row, j] = mixed[6 + row] * scales[6 + row]
+        nodes[at.PC, j], nodes[at.BP, j], nodes[at.BE, j] = (
             mixed[12] * scales[12],
             mixed[14] * scales[14],
             mixed[15] * scales[15],
         )
-        nodes[BV, j] = 1.01 * mixed[13] * scales[13]  # a largest value, which is not quite smooth
-        nodes[YC, j], nodes[HALF, j] = low + 0.5 * width, 0.5 * width
-        nodes[M0, j] = width * (low + 0.5 * width)
+        nodes[at.BV, j] = 1.01 * mixed[13] * scales[13]  # a largest value, which is not quite smooth
+        nodes[at.YC, j], nodes[at.HALF, j] = low + 0.5 * width, 0.5 * width
+        nodes[at.M0, j] = width * (low + 0.5 * width)
         for n in range(N):
             c = _LANES_AT + n
-            polys[j, PU, n], polys[j, PU1, n] = mixed[c] * scales[c], mixed[c + N]
-            polys[j, PP, n], polys[j, PE, n] = (
+            polys[j, at.PU, n], polys[j, at.PU1, n] = mixed[c] * scales[c], mixed[c + N]
+            polys[j, at.PP, n], polys[j, at.PE, n] = (
                 mixed[c + 2 * N] * scales[c + 2 * N],
                 mixed[c + 3 * N] * scales[c + 3 * N],
             )
@@ -268,14 +231,17 @@ def _add_integrals(waves: Waves, number: float, weight: float, nodes: Floats, po
     """
     waves_from(waves, number, nodes, polys)
     for i in range(waves.per):
-        sums[0] += weight * nodes[KU, i]
-        sums[1] += weight * (nodes[KUU, i] + nodes[PC, i] * nodes[KU, i])
-        sums[2] += weight * nodes[KV, i]
+        sums[0] += weight * nodes[at.KU, i]
+        sums[1] += weight * (nodes[at.KUU, i] + nodes[at.PC, i] * nodes[at.KU, i])
+        sums[2] += weight * nodes[at.KV, i]
 
 
 @kernel
 def _integrate(waves: Waves, first: int, last: int, nodes: Floats, polys: Floats, sums: Floats) -> None:
-    """Add the same over the waves `first` to `last` - 1, within one doubling."""
+    """Add the integrals of `_add_integrals` over the waves `first` to `last` - 1, of one doubling, to `sums`.
+
+    Many are summed by Gauss's rule.
+    """
     count = last - first
     if count <= 2 * GAUSS:
         for number in range(first, last):
@@ -294,10 +260,10 @@ def fill_from_zero(waves: Waves, number: int, room: Floats, polys: Floats, nodes
     sums = waves.sums[doubling].copy()
     _integrate(waves, FIRST_WAVE * 2**doubling, number, room, polys, sums)
     y, k, m = start_of(waves, float(number)), waves.k, waves.exponent
-    nodes[HM, 0] = 0.5 * y * y
-    nodes[HP, 0] = y ** (1.0 + k + m) / (1.0 + k + m)
-    nodes[HPP, 0] = y ** (1.0 + k + 2.0 * m) / (1.0 + k + 2.0 * m)
-    nodes[HU, 0], nodes[HPU, 0], nodes[HUU, 0] = sums[0], sums[1], sums[2]
+    nodes[at.HM, 0] = 0.5 * y * y
+    nodes[at.HP, 0] = y ** (1.0 + k + m) / (1.0 + k + m)
+    nodes[at.HPP, 0] = y ** (1.0 + k + 2.0 * m) / (1.0 + k + 2.0 * m)
+    nodes[at.HU, 0], nodes[at.HPU, 0], nodes[at.HUU, 0] = sums[0], sums[1], sums[2]
 
 
 @kernel
@@ -305,17 +271,17 @@ def fill_waves(waves: Waves, table: Table, source: Source) -> None:
     """Fill the values and sums of waves; `table` reaches beyond FIRST_WAVE and begins at 0."""
     waves, table, source = borrowed((waves, table, source))
     per = waves.per
-    nodes, polys = np.zeros((ROWS, per + 1)), np.zeros((per, LANES, N))
+    nodes, polys = np.zeros((at.ROWS, per + 1)), np.zeros((per, LANES, N))
     index = round(waves.cut / waves.width - source.shift)
     for doubling in range(waves.values.shape[0]):
         _fill_doubling(source, index, doubling, waves.values, nodes, polys)
     sums = np.zeros(3)
-    sums[0], sums[1], sums[2] = table.nodes[HU, 0], table.nodes[HPU, 0], table.nodes[HUU, 0]
+    sums[0], sums[1], sums[2] = table.nodes[at.HU, 0], table.nodes[at.HPU, 0], table.nodes[at.HUU, 0]
     end = table.geometric + round((start_of(waves, float(FIRST_WAVE)) - table.start) / table.width)
     for i in range(end):
-        sums[0] += table.nodes[KU, i]
-        sums[1] += table.nodes[KUU, i] + table.nodes[PC, i] * table.nodes[KU, i]
-        sums[2] += table.nodes[KV, i]
+        sums[0] += table.nodes[at.KU, i]
+        sums[1] += table.nodes[at.KUU, i] + table.nodes[at.PC, i] * table.nodes[at.KU, i]
+        sums[2] += table.nodes[at.KV, i]
     for doubling in range(waves.values.shape[0]):
         waves.sums[doubling] = sums
         first = FIRST_WAVE * 2**doubling
@@ -323,7 +289,7 @@ def fill_waves(waves: Waves, table: Table, source: Source) -> None:
 
 
 def reach_of(waves: Waves) -> int:
-    """Return the number up to which waves are known."""
+    """Return the number w up to which waves can be mixed: the end of the last doubling, not a wave that is kept."""
     return FIRST_WAVE << len(waves.values)
 
 

@@ -262,7 +262,13 @@ def put_pull_off(lowest: Lowest, y: float, reduced: Floats, i: int, out: Floats)
 
 @kernel
 def _put_edge(opening: Curve, pattern: Pattern, ratio: float, y: float, reduced: Floats, i: int, out: Floats) -> None:
-    """Store what depends on the edge being stuck between closing and opening, for a cycle that turns at y."""
+    """Store what it costs scene i, which turns at y, that its edge opens at more work than it closes at.
+
+    FRONT, in R^2 dgamma: the difference of the two works over the contact area, (1 - ratio) int kappa^2 2 pi a da.
+    PINNED, in R: how far the punch (or the far end of its spring) moves back at the turn, at constant radius, before
+    the edge opens: the difference of the two stretches, times 1 + the stiffness of the contact over that of the
+    machine. `ratio` is w_c/w_o: at 1 both are 0. A cycle that never turns, y = inf, has inf.
+    """
     root, k = math.sqrt(ratio), opening.table.k
     out[at.FRONT, i] = out[at.PINNED, i] = 0.0
     if ratio == 1.0:

@@ -117,7 +117,12 @@ class Near(NamedTuple):
 
 @kernel
 def _near_of(tables: tuple[Table, Table, Table, Table], basis: Basis, rooms: Rooms, bins: int, filled: int) -> Near:
-    """Return tables of neighbouring exponents, of which that many bins are filled, with room for a scene."""
+    """Return what neighbours of a scene are made from: what is given, and room that each scene overwrites.
+
+    `tables` are of the exponents k + _STEP _PLACES, `basis` what near ones are filled from, `rooms` for tables with a
+    pattern. `bins` is how many bins each table has room for, which bounds the number of jumps: those of loading and
+    of unloading are one more than branches at most (`room_for`). `filled` is how many bins are filled already, or ALL.
+    """
     jumps, by = np.empty((JUMP_ROWS, 2 * bins + 16)), np.zeros((ROWS, AREA + 1))
     scene, numbers = np.empty((at.PARAMETER_ROWS, 1)), np.empty((at.REDUCED_ROWS, 1))
     marks = np.array([filled])

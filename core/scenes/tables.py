@@ -120,8 +120,11 @@ def _new_near_tables(punch: Punch, form: int, finer: int, k: float) -> Tables:
     return Tables(basis, kept, by_load, pulls, none, none, 0.0, reach, rooms)
 
 
+_lock = threading.Lock()
 _free: OrderedDict[tuple[object, ...], list[Tables]] = OrderedDict()
 """Near tables of the last punches that no thread uses."""
+_long: OrderedDict[tuple[object, ...], tuple[Table, Source, float]] = OrderedDict()
+"""Long tables of the last calls, with their sources and bounds."""
 
 
 @contextmanager
@@ -146,10 +149,6 @@ def near_tables(punch: Punch, form: int, finer: int, k: float) -> Iterator[Table
             free.append(tables)
 
 
-_lock = threading.Lock()
-_tables: OrderedDict[tuple[object, ...], tuple[Table, Source, float]] = OrderedDict()
-
-
 def long_table(
     punch: Punch, k: float, form: int, finer: int, y_end: float, *, exactly: bool = False
 ) -> tuple[Table, Source, float]:
@@ -162,9 +161,9 @@ def long_table(
     width = width_of(punch.waves, finer)
     key = (punch.exponent, punch.waves.tobytes(), k, form, finer, y_end if exactly else math.inf)
     with _lock:
-        if key in _tables and span_of(_tables[key][0]) >= y_end:
-            _tables.move_to_end(key)
-            return _tables[key]
+        if key in _long and span_of(_long[key][0]) >= y_end:
+            _long.move_to_end(key)
+            return _long[key]
         crest, wave, cut = crests_of(k, punch.waves)
         source = source_of(k, punch.exponent, punch.waves, width, cut / width % 1.0, form)
         bins = GEOMETRIC + max(16, int((y_end - source.start) / width) + 10)
@@ -173,11 +172,11 @@ def long_table(
         lowest = _lowest(nodes, -wave)
         share = (1.0 + k) / (1.0 + k + punch.exponent)
         empty = Table(k, punch.exponent, share, source.start, width, lowest, 0.0, GEOMETRIC, bins, nodes, polys)
-        _tables.pop(key, None)
-        _tables[key] = with_bounds(empty, crest, bins), source, crest
-        while len(_tables) > 1 and sum(table.bins for table, _, _ in _tables.values()) > _KEPT_BINS:
-            _tables.popitem(last=False)
-        return _tables[key]
+        _long.pop(key, None)
+        _long[key] = with_bounds(empty, crest, bins), source, crest
+        while len(_long) > 1 and sum(table.bins for table, _, _ in _long.values()) > _KEPT_BINS:
+            _long.popitem(last=False)
+        return _long[key]
 
 
 def _lowest(nodes: Floats, crest: float) -> float:

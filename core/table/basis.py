@@ -15,37 +15,9 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from gradhesion.core.jit import kernel, leaf, quadrature
+from gradhesion.core.table import layout as at
 from gradhesion.core.table.filling import fill_bins, source_of, width_of, with_bounds
-from gradhesion.core.table.layout import (
-    BE,
-    BP,
-    BV,
-    EXACT,
-    FIRST,
-    GEOMETRIC,
-    HALF,
-    K0,
-    KE,
-    LANES,
-    M0,
-    PC,
-    PE,
-    PP,
-    PU,
-    PU1,
-    ROWS,
-    SLOPE,
-    U1,
-    YC,
-    E,
-    N,
-    P,
-    T,
-    Table,
-    U,
-    V,
-    Y,
-)
+from gradhesion.core.table.layout import EXACT, FIRST, GEOMETRIC, LANES, N, Table
 from gradhesion.core.table.leading import crests_of
 from gradhesion.core.types import Floats, Integers
 
@@ -59,7 +31,7 @@ UNIFORM: Final = 512
 """Uniform bins of a basis: 64 of the shortest waves."""
 SIZE: Final = 3 * N + 10
 """Numbers of a bin that depend on k: three lanes; V, U and U1 at the lower edge; six moments; the bound of U'."""
-FIXED: Final = (Y, P, SLOPE, BP, M0, PC, YC, HALF)
+FIXED: Final = (at.Y, at.P, at.SLOPE, at.BP, at.M0, at.PC, at.YC, at.HALF)
 """Rows that do not depend on k."""
 _KEPT: Final = 14
 """Bases kept, of 11 megabytes each: the bins of patterns have up to 13 widths."""
@@ -96,15 +68,15 @@ class Basis(NamedTuple):
 def _pack(k: float, node: int, nodes: Floats, polys: Floats, values: Floats) -> None:
     """Put the bins of one exponent into column `node` of `values`, powers of the radius taken out."""
     for i in range(values.shape[0]):
-        stretch = nodes[YC, i] ** (-0.5 * (1.0 + k))
-        power = 1.0 / (stretch * stretch * nodes[YC, i])
+        stretch = nodes[at.YC, i] ** (-0.5 * (1.0 + k))
+        power = 1.0 / (stretch * stretch * nodes[at.YC, i])
         out = values[i, node]
         for n in range(N):
-            out[n], out[N + n], out[2 * N + n] = polys[i, PU, n], polys[i, PU1, n], polys[i, PE, n] / stretch
-        out[3 * N], out[3 * N + 1], out[3 * N + 2] = nodes[V, i], nodes[U, i], nodes[U1, i]
+            out[n], out[N + n], out[2 * N + n] = polys[i, at.PU, n], polys[i, at.PU1, n], polys[i, at.PE, n] / stretch
+        out[3 * N], out[3 * N + 1], out[3 * N + 2] = nodes[at.V, i], nodes[at.U, i], nodes[at.U1, i]
         for row in range(6):
-            out[3 * N + 3 + row] = nodes[K0 + row, i] / power
-        out[SIZE - 1] = nodes[BV, i]
+            out[3 * N + 3 + row] = nodes[at.K0 + row, i] / power
+        out[SIZE - 1] = nodes[at.BV, i]
 
 
 def is_interpolated(waves: Floats) -> bool:
@@ -124,17 +96,17 @@ def make_basis(exponent: float, waves: Floats, form: int = EXACT, finer: int = 1
     if k >= 0.0:
         ends = np.array([k])
     values = np.empty((bins, ends.size, SIZE))
-    nodes, polys = np.zeros((ROWS, bins + 1)), np.empty((bins, LANES, N))
+    nodes, polys = np.zeros((at.ROWS, bins + 1)), np.empty((bins, LANES, N))
     crest, lowest = np.empty(ends.size), np.empty(ends.size)
     for node, own in enumerate(ends):
         source = source_of(own, exponent, waves, width, 0.0, form)
         fill_bins(source, FIRST, GEOMETRIC, bins, nodes, polys)
         _pack(own, node, nodes, polys, values)
         crest[node], wave, _ = crests_of(own, waves)
-        near = ((nodes[U] - nodes[U1]) / (nodes[E] * nodes[Y]))[GEOMETRIC - 20 :].min()
+        near = ((nodes[at.U] - nodes[at.U1]) / (nodes[at.E] * nodes[at.Y]))[GEOMETRIC - 20 :].min()
         lowest[node] = min(-wave, 1.02 * near)
     return Basis(
-        exponent, form, FIRST * width, width, ends, values, nodes[list(FIXED)], polys[:, PP].copy(), crest, lowest
+        exponent, form, FIRST * width, width, ends, values, nodes[list(FIXED)], polys[:, at.PP].copy(), crest, lowest
     )
 
 
@@ -193,8 +165,8 @@ def mix_bins(basis: Basis, k: float, weights: Floats, first: int, last: int, nod
             weight = weights[n]
             for c in range(SIZE):
                 mixed[c] += weight * basis.values[i, node + n, c]
-        nodes[Y, i], nodes[P, i], nodes[SLOPE, i] = basis.fixed[0, i], basis.fixed[1, i], basis.fixed[2, i]
-        nodes[V, i], nodes[U, i], nodes[U1, i] = mixed[3 * N], mixed[3 * N + 1], mixed[3 * N + 2]
+        nodes[at.Y, i], nodes[at.P, i], nodes[at.SLOPE, i] = basis.fixed[0, i], basis.fixed[1, i], basis.fixed[2, i]
+        nodes[at.V, i], nodes[at.U, i], nodes[at.U1, i] = mixed[3 * N], mixed[3 * N + 1], mixed[3 * N + 2]
         centre = basis.fixed[6, i]
         at_centre = centre**power
         stretch, sign = 0.0, 1.0  # at the lower edge, t = -1
@@ -202,21 +174,21 @@ def mix_bins(basis: Basis, k: float, weights: Floats, first: int, last: int, nod
             stretch += sign * mixed[2 * N + n]
             sign = -sign
         stretch *= at_centre
-        nodes[E, i] = nodes[KE, i] = stretch
-        nodes[T, i] = 1.0 / (stretch * stretch)
+        nodes[at.E, i] = nodes[at.KE, i] = stretch
+        nodes[at.T, i] = 1.0 / (stretch * stretch)
         if i == last:
             return
         for n in range(N):
-            polys[i, PU, n], polys[i, PU1, n] = mixed[n], mixed[N + n]
-            polys[i, PP, n], polys[i, PE, n] = basis.powers[i, n], at_centre * mixed[2 * N + n]
+            polys[i, at.PU, n], polys[i, at.PU1, n] = mixed[n], mixed[N + n]
+            polys[i, at.PP, n], polys[i, at.PE, n] = basis.powers[i, n], at_centre * mixed[2 * N + n]
         of_y_to_k = 1.0 / (at_centre * at_centre * centre)
         for row in range(6):
-            nodes[K0 + row, i] = mixed[3 * N + 3 + row] * of_y_to_k
-        nodes[BP, i], nodes[M0, i], nodes[PC, i] = basis.fixed[3, i], basis.fixed[4, i], basis.fixed[5, i]
-        nodes[YC, i], nodes[HALF, i] = centre, basis.fixed[7, i]
-        nodes[BV, i] = 1.01 * mixed[SIZE - 1]  # a largest value, which is not quite smooth in k
+            nodes[at.K0 + row, i] = mixed[3 * N + 3 + row] * of_y_to_k
+        nodes[at.BP, i], nodes[at.M0, i], nodes[at.PC, i] = basis.fixed[3, i], basis.fixed[4, i], basis.fixed[5, i]
+        nodes[at.YC, i], nodes[at.HALF, i] = centre, basis.fixed[7, i]
+        nodes[at.BV, i] = 1.01 * mixed[SIZE - 1]  # a largest value, which is not quite smooth in k
         half, low = basis.fixed[7, i], basis.fixed[0, i]
-        nodes[BE, i] = 0.5 * half * half * power * (power - 1.0) * stretch / (low * low)
+        nodes[at.BE, i] = 0.5 * half * half * power * (power - 1.0) * stretch / (low * low)
 
 
 @leaf
@@ -275,8 +247,8 @@ class Kept(NamedTuple):
 def kept_for(basis: Basis) -> Kept:
     """Return room for the tables of a basis, none of which is filled yet."""
     bins = basis.values.shape[0] - 1
-    nodes, polys = np.zeros((_TABLES, ROWS, bins + 1)), np.zeros((_TABLES, bins, LANES, N))
-    nodes[:, Y] = basis.fixed[0, : bins + 1]  # a table ends where its last bin does, filled or not
+    nodes, polys = np.zeros((_TABLES, at.ROWS, bins + 1)), np.zeros((_TABLES, bins, LANES, N))
+    nodes[:, at.Y] = basis.fixed[0, : bins + 1]  # a table ends where its last bin does, filled or not
     marks = np.zeros((_TABLES, 2), dtype=np.int64), np.zeros(1, dtype=np.int64)
     return Kept(np.full(_TABLES, np.nan), *marks, np.zeros((_TABLES, NODES)), nodes, polys)
 
@@ -322,4 +294,4 @@ def kept_table(basis: Basis, kept: Kept, k: float, bins: int) -> Table:
 
 def room_of(bins: int, lanes: int = LANES) -> tuple[Floats, Floats]:
     """Return room for the nodes and polynomials of a table."""
-    return np.zeros((ROWS, bins + 1)), np.zeros((bins, lanes, N))
+    return np.zeros((at.ROWS, bins + 1)), np.zeros((bins, lanes, N))

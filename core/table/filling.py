@@ -6,55 +6,9 @@ import numpy as np
 
 from gradhesion.core.borrowed import borrowed
 from gradhesion.core.jit import kernel, leaf, quadrature, quadrature_leaf
+from gradhesion.core.table import layout as at
 from gradhesion.core.table.functions import LAST, TAIL, Functions, functions_of, pairs_at
-from gradhesion.core.table.layout import (
-    BE,
-    BP,
-    BV,
-    BY_LOAD,
-    EXACT,
-    FIRST,
-    HALF,
-    HM,
-    HP,
-    HPP,
-    HPU,
-    HU,
-    HUU,
-    K0,
-    K1,
-    K2,
-    KE,
-    KU,
-    KUU,
-    KV,
-    M0,
-    PC,
-    PE,
-    PER_WAVE,
-    POINTS,
-    PP,
-    PU,
-    PU1,
-    QPOW,
-    QUP,
-    RATIO,
-    RLOW,
-    RPOW,
-    SLOPE,
-    U1,
-    WEIGHTS,
-    YC,
-    E,
-    N,
-    P,
-    Source,
-    T,
-    Table,
-    U,
-    V,
-    Y,
-)
+from gradhesion.core.table.layout import BY_LOAD, EXACT, FIRST, PER_WAVE, POINTS, RATIO, WEIGHTS, N, Source, Table
 from gradhesion.core.table.leading import fill_far_leading, leading_at
 from gradhesion.core.types import Floats
 
@@ -146,22 +100,22 @@ def _sample_powers(
     if half * _SHORT_SERIES > centre:
         for j in range(N):
             y = centre + half * POINTS[j]
-            values[PP, j], values[PE, j] = y**m, y**power
-        fit(values, PP, poly, PP, room)
-        fit(values, PE, poly, PE, room)
+            values[at.PP, j], values[at.PE, j] = y**m, y**power
+        fit(values, at.PP, poly, at.PP, room)
+        fit(values, at.PE, poly, at.PE, room)
         return
     ratio = half / centre
     a, b = centre**m, centre**power
     for n in range(N):
-        poly[PP, n], poly[PE, n] = a, b
+        poly[at.PP, n], poly[at.PE, n] = a, b
         a *= (m - n) / (n + 1.0) * ratio
         b *= (power - n) / (n + 1.0) * ratio
     for j in range(N):
-        values[PP, j] = values[PE, j] = 0.0
+        values[at.PP, j] = values[at.PE, j] = 0.0
     for n in range(N - 1, -1, -1):
         for j in range(N):
-            values[PP, j] = values[PP, j] * POINTS[j] + poly[PP, n]
-            values[PE, j] = values[PE, j] * POINTS[j] + poly[PE, n]
+            values[at.PP, j] = values[at.PP, j] * POINTS[j] + poly[at.PP, n]
+            values[at.PE, j] = values[at.PE, j] * POINTS[j] + poly[at.PE, n]
 
 
 @quadrature_leaf
@@ -169,20 +123,20 @@ def _sample_far(source: Source, b: int, low: float, centre: float, half: float, 
     """Fill rows PU and PU1 of `values` with U and U1 at the points of a bin beyond y = 40, the b-th bin of its wave."""
     terms = TAIL - 1 if low < 80.0 else 8 if low < 400.0 else 5
     for j in range(N):
-        values[PU, j] = values[PU1, j] = 0.0
+        values[at.PU, j] = values[at.PU1, j] = 0.0
         room[j] = 1.0 / (centre + half * POINTS[j])
     for n in range(terms, -1, -1):
         for j in range(N):
-            values[PU, j] = values[PU, j] * room[j] + source.far_waves[0, n, b, j]
-            values[PU1, j] = values[PU1, j] * room[j] + source.far_waves[1, n, b, j]
+            values[at.PU, j] = values[at.PU, j] * room[j] + source.far_waves[0, n, b, j]
+            values[at.PU1, j] = values[at.PU1, j] * room[j] + source.far_waves[1, n, b, j]
     for j in range(N):
         square = room[j] * room[j]
         u = u1 = 0.0
         for n in range(terms if terms > 8 else 4, -1, -1):
             u = u * square + source.far_mean[0, n]
             u1 = u1 * square + source.far_mean[1, n]
-        values[PU, j] = values[PU, j] * values[PE, j] / room[j] + u
-        values[PU1, j] = values[PU1, j] * values[PE, j] / (room[j] if source.form == BY_LOAD else 1.0) + u1
+        values[at.PU, j] = values[at.PU, j] * values[at.PE, j] / room[j] + u
+        values[at.PU1, j] = values[at.PU1, j] * values[at.PE, j] / (room[j] if source.form == BY_LOAD else 1.0) + u1
 
 
 @quadrature_leaf
@@ -191,16 +145,23 @@ def _integrate(m: float, values: Floats, centre: float, half: float, i: int, nod
     at_centre = centre**m
     k0 = k1 = k2 = ku = kuu = kv = 0.0
     for j in range(N):
-        weight = half * WEIGHTS[j] / (values[PE, j] * values[PE, j] * (centre + half * POINTS[j]))  # of y^k
-        u = values[PP, j] - at_centre
+        weight = half * WEIGHTS[j] / (values[at.PE, j] * values[at.PE, j] * (centre + half * POINTS[j]))  # of y^k
+        u = values[at.PP, j] - at_centre
         k0 += weight
         k1 += weight * u
         k2 += weight * u * u
-        ku += weight * values[PU, j]
-        kuu += weight * u * values[PU, j]
-        kv += weight * values[PU, j] * values[PU, j]
-    nodes[K0, i], nodes[K1, i], nodes[K2, i], nodes[KU, i], nodes[KUU, i], nodes[KV, i] = k0, k1, k2, ku, kuu, kv
-    nodes[M0, i], nodes[PC, i], nodes[YC, i], nodes[HALF, i] = 2.0 * centre * half, at_centre, centre, half
+        ku += weight * values[at.PU, j]
+        kuu += weight * u * values[at.PU, j]
+        kv += weight * values[at.PU, j] * values[at.PU, j]
+    nodes[at.K0, i], nodes[at.K1, i], nodes[at.K2, i], nodes[at.KU, i], nodes[at.KUU, i], nodes[at.KV, i] = (
+        k0,
+        k1,
+        k2,
+        ku,
+        kuu,
+        kv,
+    )
+    nodes[at.M0, i], nodes[at.PC, i], nodes[at.YC, i], nodes[at.HALF, i] = 2.0 * centre * half, at_centre, centre, half
 
 
 @leaf
@@ -209,15 +170,15 @@ def fill_edge(m: float, poly: Floats, centre: float, half: float, t: float, colu
     power = stretch = u = u1 = slope = 0.0
     for n in range(N - 1, -1, -1):
         slope = slope * t + u
-        u = u * t + poly[PU, n]
-        u1 = u1 * t + poly[PU1, n]
-        power = power * t + poly[PP, n]
-        stretch = stretch * t + poly[PE, n]
+        u = u * t + poly[at.PU, n]
+        u1 = u1 * t + poly[at.PU1, n]
+        power = power * t + poly[at.PP, n]
+        stretch = stretch * t + poly[at.PE, n]
     y = centre + t * half
-    nodes[Y, column], nodes[P, column], nodes[SLOPE, column] = y, power, m * power / y
-    nodes[U, column], nodes[U1, column], nodes[V, column] = u, u1, slope / half
-    nodes[E, column] = nodes[KE, column] = stretch
-    nodes[T, column] = 1.0 / (stretch * stretch)
+    nodes[at.Y, column], nodes[at.P, column], nodes[at.SLOPE, column] = y, power, m * power / y
+    nodes[at.U, column], nodes[at.U1, column], nodes[at.V, column] = u, u1, slope / half
+    nodes[at.E, column] = nodes[at.KE, column] = stretch
+    nodes[at.T, column] = 1.0 / (stretch * stretch)
 
 
 @leaf
@@ -226,11 +187,11 @@ def bend_of(poly: Floats, half: float) -> float:
     top = bottom = 0.0
     sign = -1.0
     for n in range(3, N):
-        third = poly[PU, n] * (n * (n - 1.0) * (n - 2.0))
+        third = poly[at.PU, n] * (n * (n - 1.0) * (n - 2.0))
         top += third
         bottom -= third * sign
         sign = -sign
-    return 0.6 * max(abs(top), abs(bottom), abs(6.0 * poly[PU, 3])) / half
+    return 0.6 * max(abs(top), abs(bottom), abs(6.0 * poly[at.PU, 3])) / half
 
 
 @leaf
@@ -268,44 +229,44 @@ def fill_bins(source: Source, first: int, geometric: int, count: int, nodes: Flo
             _sample_far(source, (first + number) % per, low, centre, half, values, room)
         else:
             for j in range(N):
-                values[PU, j], values[PU1, j] = waves_at(source, centre + half * POINTS[j])
-        fit(values, PU, poly, PU, room)
-        fit(values, PU1, poly, PU1, room)
+                values[at.PU, j], values[at.PU1, j] = waves_at(source, centre + half * POINTS[j])
+        fit(values, at.PU, poly, at.PU, room)
+        fit(values, at.PU1, poly, at.PU1, room)
         if source.form == BY_LOAD:  # any U with this derivative will do: only U' and U - U1 are used of it
             for n in range(N - 1, -1, -1):
-                integral = poly[PU, n - 1] * half / n if n > 0 else 0.0
-                poly[PU1, n], poly[PU, n] = integral - poly[PU1, n], integral
+                integral = poly[at.PU, n - 1] * half / n if n > 0 else 0.0
+                poly[at.PU1, n], poly[at.PU, n] = integral - poly[at.PU1, n], integral
         _integrate(m, values, centre, half, i, nodes)
         fill_edge(m, poly, centre, half, -1.0, i, nodes)
-        nodes[BV, i] = bend_of(poly, half)
-        nodes[BP, i] = bend_of_power(m, low, high)
-        nodes[BE, i] = 0.5 * half * half * power * (power - 1.0) * nodes[E, i] / (low * low)
+        nodes[at.BV, i] = bend_of(poly, half)
+        nodes[at.BP, i] = bend_of_power(m, low, high)
+        nodes[at.BE, i] = 0.5 * half * half * power * (power - 1.0) * nodes[at.E, i] / (low * low)
     if count > 0:
-        fill_edge(m, polys[count - 1], nodes[YC, count - 1], nodes[HALF, count - 1], 1.0, count, nodes)
+        fill_edge(m, polys[count - 1], nodes[at.YC, count - 1], nodes[at.HALF, count - 1], 1.0, count, nodes)
 
 
 @leaf
 def _bend_at_zero(nodes: Floats) -> float:
     """Return U'' below the first bin, where U is of degree 2 to rounding."""
-    return (nodes[V, 1] - nodes[V, 0]) / (nodes[Y, 1] - nodes[Y, 0])
+    return (nodes[at.V, 1] - nodes[at.V, 0]) / (nodes[at.Y, 1] - nodes[at.Y, 0])
 
 
 @kernel
 def _fill_below(k: float, zero: float, nodes: Floats) -> None:
     """Fill the integrals from 0 to the first bin, where U is zero + slope y + bend y^2/2."""
-    y, unit, power = nodes[Y, 0], nodes[T, 0], nodes[P, 0]
-    m = nodes[SLOPE, 0] * y / power if power > 0.0 else 1.0
+    y, unit, power = nodes[at.Y, 0], nodes[at.T, 0], nodes[at.P, 0]
+    m = nodes[at.SLOPE, 0] * y / power if power > 0.0 else 1.0
     bent = 0.5 * _bend_at_zero(nodes) * y * y
-    rise = nodes[V, 0] * y - 2.0 * bent
-    kappa = nodes[KE, 0] / nodes[E, 0]
-    nodes[HM, 0] = 0.5 * (kappa * y) ** 2
+    rise = nodes[at.V, 0] * y - 2.0 * bent
+    kappa = nodes[at.KE, 0] / nodes[at.E, 0]
+    nodes[at.HM, 0] = 0.5 * (kappa * y) ** 2
     q = 1.0 + k
-    nodes[HU, 0] = unit * (zero / q + rise / (q + 1.0) + bent / (q + 2.0))
+    nodes[at.HU, 0] = unit * (zero / q + rise / (q + 1.0) + bent / (q + 2.0))
     squares = zero * zero / q + 2.0 * zero * rise / (q + 1.0) + (rise * rise + 2.0 * zero * bent) / (q + 2.0)
-    nodes[HUU, 0] = unit * (squares + 2.0 * rise * bent / (q + 3.0) + bent * bent / (q + 4.0))
+    nodes[at.HUU, 0] = unit * (squares + 2.0 * rise * bent / (q + 3.0) + bent * bent / (q + 4.0))
     q += m
-    nodes[HP, 0], nodes[HPP, 0] = unit * power / q, unit * power * power / (q + m)
-    nodes[HPU, 0] = unit * power * (zero / q + rise / (q + 1.0) + bent / (q + 2.0))
+    nodes[at.HP, 0], nodes[at.HPP, 0] = unit * power / q, unit * power * power / (q + m)
+    nodes[at.HPU, 0] = unit * power * (zero / q + rise / (q + 1.0) + bent / (q + 2.0))
 
 
 @kernel
@@ -317,31 +278,31 @@ def fill_bounds(k: float, zero: float, crest: float, geometric: int, bins: int, 
     """
     highest, lowest = -math.inf, -crest
     for i in range(bins + 1):
-        swing = nodes[BV, i - 1] / nodes[E, i] if i > 0 else 0.0
-        highest = max(highest, nodes[V, i] / nodes[E, i] + swing)
-        nodes[QUP, i] = highest
-        nodes[QPOW, i] = nodes[SLOPE, i] / nodes[E, i]
-        nodes[RPOW, i] = nodes[QPOW, i] / nodes[Y, i]
+        swing = nodes[at.BV, i - 1] / nodes[at.E, i] if i > 0 else 0.0
+        highest = max(highest, nodes[at.V, i] / nodes[at.E, i] + swing)
+        nodes[at.QUP, i] = highest
+        nodes[at.QPOW, i] = nodes[at.SLOPE, i] / nodes[at.E, i]
+        nodes[at.RPOW, i] = nodes[at.QPOW, i] / nodes[at.Y, i]
     for i in range(bins, -1, -1):
-        swing = nodes[BV, i] if i < bins else 0.0
-        lowest = min(lowest, (nodes[V, i] - swing) / (nodes[E, i] * nodes[Y, i]))
-        nodes[RLOW, i] = lowest
+        swing = nodes[at.BV, i] if i < bins else 0.0
+        lowest = min(lowest, (nodes[at.V, i] - swing) / (nodes[at.E, i] * nodes[at.Y, i]))
+        nodes[at.RLOW, i] = lowest
     _fill_below(k, zero, nodes)
     for i in range(min(geometric, bins)):
-        c = nodes[PC, i]
-        nodes[HM, i + 1] = nodes[HM, i] + nodes[M0, i]
-        nodes[HP, i + 1] = nodes[HP, i] + nodes[K1, i] + c * nodes[K0, i]
-        nodes[HPP, i + 1] = nodes[HPP, i] + nodes[K2, i] + c * (2.0 * nodes[K1, i] + c * nodes[K0, i])
-        nodes[HU, i + 1] = nodes[HU, i] + nodes[KU, i]
-        nodes[HPU, i + 1] = nodes[HPU, i] + nodes[KUU, i] + c * nodes[KU, i]
-        nodes[HUU, i + 1] = nodes[HUU, i] + nodes[KV, i]
+        c = nodes[at.PC, i]
+        nodes[at.HM, i + 1] = nodes[at.HM, i] + nodes[at.M0, i]
+        nodes[at.HP, i + 1] = nodes[at.HP, i] + nodes[at.K1, i] + c * nodes[at.K0, i]
+        nodes[at.HPP, i + 1] = nodes[at.HPP, i] + nodes[at.K2, i] + c * (2.0 * nodes[at.K1, i] + c * nodes[at.K0, i])
+        nodes[at.HU, i + 1] = nodes[at.HU, i] + nodes[at.KU, i]
+        nodes[at.HPU, i + 1] = nodes[at.HPU, i] + nodes[at.KUU, i] + c * nodes[at.KU, i]
+        nodes[at.HUU, i + 1] = nodes[at.HUU, i] + nodes[at.KV, i]
 
 
 @kernel
 def with_bounds(table: Table, crest: float, bins: int) -> Table:
     """Return a table whose first `bins` bins are filled, with its bounds (those of `fill_bounds`) and U at 0."""
     nodes = table.nodes
-    zero = nodes[U, 0] - (nodes[V, 0] - 0.5 * _bend_at_zero(nodes) * nodes[Y, 0]) * nodes[Y, 0]
+    zero = nodes[at.U, 0] - (nodes[at.V, 0] - 0.5 * _bend_at_zero(nodes) * nodes[at.Y, 0]) * nodes[at.Y, 0]
     fill_bounds(table.k, zero, crest, table.geometric, bins, nodes)
     return Table(
         table.k,

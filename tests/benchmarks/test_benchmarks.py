@@ -31,7 +31,7 @@ def test_every_script_has_help(
 
 
 def test_a_script_is_run_by_its_name(root: Path) -> None:
-    assert "usage" in python(root, "-m", "benchmarks.engines", "--help")
+    assert "usage" in python(root, "-m", "benchmarks.study", "--help")
 
 
 def test_the_dense_grid_tends_to_the_exact_values(root: Path) -> None:
