@@ -81,14 +81,14 @@ def near_forces(basis: Basis, kept: Kept, scenes: Floats, reduced: Floats, out: 
             place = place_for(basis, kept, k)
         table = empty_table(basis, k, kept.nodes[place], kept.polys[place])
         curve = Curve(table, reduced[at.BY_POWER, first], reduced[at.BY_WAVES, first], 0.0, 1.0)
-        rim = reduced[at.RIM_Y, first:last].max()
-        while first < last:
-            lowest = _near_lowest(basis, kept, place, curve, rim)
-            while first < last and serves(lowest, rim, reduced[at.RIM_Y, first]):
-                put_force(lowest, reduced, first, out)
-                first += 1
-            if first < last:
-                rim = reduced[at.RIM_Y, first]
+        furthest = reduced[at.RIM_Y, first:last].max()
+        lowest = _near_lowest(basis, kept, place, curve, furthest)
+        for i in range(first, last):
+            rim, own = reduced[at.RIM_Y, i], lowest
+            if not serves(lowest, furthest, rim):
+                own = _near_lowest(basis, kept, place, curve, rim)
+            put_force(own, reduced, i, out)
+        first = last
 
 
 @kernel
