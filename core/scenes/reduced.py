@@ -87,12 +87,14 @@ def reduce_scene(punch: Punch, scenes: Floats, i: int, theta: float, depth_facto
     k, m = scenes[at.K, i], punch.exponent
     eta = 0.5 * (1.0 - k)
     M = theta * scenes[at.MODULUS, i] / scenes[at.C0, i] ** k
-    stretch = math.sqrt(2.0 ** (1.0 + k) * math.pi / M)
+    doubled = 2.0 ** (1.0 + k)
+    stretch = math.sqrt(doubled * math.pi / M)
     length = scenes[at.WAVELENGTH, i] / (2.0 * math.pi)
     if scenes[at.AMPLITUDE, i] == 0.0 and punch.rows.shape[1] == 0:  # no wave gives a length: that at which B is 1
         length = (stretch / depth_factor) ** (1.0 / (m - eta))
-    depth = stretch * length**eta
-    load = 2.0 ** (1.0 - k) * M / (1.0 + k) * length ** (1.0 + k) * depth
+    lift = length**eta
+    depth = stretch * lift
+    load = 4.0 / doubled * M / (1.0 + k) * (length / lift) ** 2 * depth  # l^(1+k) = (l/l^eta)^2: a power is slow
     reduced[at.BY_POWER, i] = depth_factor * length**m / depth
     reduced[at.BY_WAVES, i] = scenes[at.AMPLITUDE, i] * scenes[at.WAVELENGTH, i] / depth
     reduced[at.LENGTH, i], reduced[at.DEPTH, i], reduced[at.LOAD, i] = length, depth, load
