@@ -130,7 +130,11 @@ def slope_at(curve: Curve, i: int) -> float:
 
 @leaf
 def slope_in(curve: Curve, i: int, t: float) -> tuple[float, float, float, float]:
-    """Return D and its first two derivatives by t, times the half width of bin i, and the depth, at a place in it."""
+    """Return D and its first two derivatives by t, times the half width of bin i, and the depth, at a place in it.
+
+    D = B m y^(m-1) + g U' - [(1-k)/2 E + (1+k) share kappa E], with `share` that of the load in what is prescribed:
+    the terms are `flat1`, `rest` and `level`, each times the half width.
+    """
     table, polys = curve.table, curve.table.polys
     k = table.k
     flat = flat1 = flat2 = flat3 = stretch = 0.0

@@ -27,7 +27,7 @@ _BIN: Final = (at.K0, at.K1, at.K2, at.KU, at.KUU, at.KV, at.PC, at.BV, at.BP, a
 """Rows of a bin that are mixed."""
 _LANES_AT: Final = len(_EDGE) + len(_BIN)
 SIZE: Final = _LANES_AT + LANES * N
-"""Numbers of a bin that are mixed: rows of its lower edge, its own, its polynomials."""
+"""Numbers of a bin that are mixed, in this order: _EDGE of its lower edge, _BIN, its polynomials lane by lane."""
 _ANGLES = (np.arange(PLACES) + 0.5) * np.pi / PLACES
 _PLACE = 0.5 - 0.5 * np.cos(_ANGLES)
 """Chebyshev's points, in the logarithm to base 2."""
@@ -74,7 +74,10 @@ def wave_of(waves: Waves, y: float) -> float:
 
 @leaf
 def _fill_scales(k: float, m: float, y: float, scales: Floats) -> None:
-    """Put into `scales` (SIZE,) the powers of y, at the start of a wave, that are taken out of what is mixed."""
+    """Put into `scales` (SIZE,), in the order of what is mixed, the powers of y that are taken out of it.
+
+    y is where a wave begins.
+    """
     power = y * y if m == 2.0 else y**m
     stretch = y ** (-0.5 * (1.0 + k))
     crest = y * stretch
@@ -120,13 +123,10 @@ def _fill_doubling(source: Source, index: int, doubling: int, values: Floats, no
                 continue
             for row in range(len(_BIN)):
                 out[len(_EDGE) + row] = nodes[_BIN[row], i] / scales[len(_EDGE) + row]
-            for n in range(N):
-                c = _LANES_AT + n
-                out[c], out[c + N] = polys[i, at.PU, n] / scales[c], polys[i, at.PU1, n] / scales[c + N]
-                out[c + 2 * N], out[c + 3 * N] = (
-                    polys[i, at.PP, n] / scales[c + 2 * N],
-                    polys[i, at.PE, n] / scales[c + 3 * N],
-                )
+            for lane in range(LANES):
+                for n in range(N):
+                    c = _LANES_AT + lane * N + n
+                    out[c] = polys[i, lane, n] / scales[c]
 
 
 @quadrature
@@ -153,32 +153,25 @@ def mix_wave(waves: Waves, number: float, column: int, nodes: Floats, polys: Flo
             weight = weights[n]
             for c in range(size):
                 mixed[c] += weight * waves.values[doubling, i, n, c]
+        for c in range(size):
+            mixed[c] *= scales[c]
         j = column + i
         low = y + i * width
-        nodes[at.Y, j], nodes[at.V, j], nodes[at.U, j] = low, mixed[0] * scales[0], mixed[1] * scales[1]
-        nodes[at.U1, j], nodes[at.P, j], nodes[at.SLOPE, j] = mixed[2], mixed[3] * scales[3], mixed[4] * scales[4]
-        stretch = mixed[5] * scales[5]
-        nodes[at.E, j] = nodes[at.KE, j] = stretch
-        nodes[at.T, j] = 1.0 / (stretch * stretch)
+        nodes[at.Y, j] = low
+        for row in range(len(_EDGE)):
+            nodes[_EDGE[row], j] = mixed[row]
+        nodes[at.KE, j] = nodes[at.E, j]
+        nodes[at.T, j] = 1.0 / (nodes[at.E, j] * nodes[at.E, j])
         if i == bins:
             return
-        for row in range(6):
-            nodes[at.K0 + row, j] = mixed[6 + row] * scales[6 + row]
-        nodes[at.PC, j], nodes[at.BP, j], nodes[at.BE, j] = (
-            mixed[12] * scales[12],
-            mixed[14] * scales[14],
-            mixed[15] * scales[15],
-        )
-        nodes[at.BV, j] = 1.01 * mixed[13] * scales[13]  # a largest value, which is not quite smooth
+        for row in range(len(_BIN)):
+            nodes[_BIN[row], j] = mixed[len(_EDGE) + row]
+        nodes[at.BV, j] *= 1.01  # a largest value, which is not quite smooth
         nodes[at.YC, j], nodes[at.HALF, j] = low + 0.5 * width, 0.5 * width
         nodes[at.M0, j] = width * (low + 0.5 * width)
-        for n in range(N):
-            c = _LANES_AT + n
-            polys[j, at.PU, n], polys[j, at.PU1, n] = mixed[c] * scales[c], mixed[c + N]
-            polys[j, at.PP, n], polys[j, at.PE, n] = (
-                mixed[c + 2 * N] * scales[c + 2 * N],
-                mixed[c + 3 * N] * scales[c + 3 * N],
-            )
+        for lane in range(LANES):
+            for n in range(N):
+                polys[j, lane, n] = mixed[_LANES_AT + lane * N + n]
 
 
 @kernel

@@ -319,7 +319,10 @@ def put_losses(
 
 @leaf
 def _put_cycle(walked: Walked, wanted: Wanted, opened: int, y: float, reduced: Floats, i: int, out: Floats) -> int:
-    """Store what the cycle of scene i, which turns at y, loses; return its bits of status, -1: too short a table."""
+    """Store what the cycle of scene i, which turns at y, loses; return its bits of status, -1: too short a table.
+
+    `opened` is the number of branches of opening.
+    """
     closing, opening, loading, visited = walked.closing, walked.opening, walked.loading, walked.columns[0]
     loaded = load_to(closing, y, loading, visited, walked.visits)
     if not loaded.known:

@@ -177,7 +177,11 @@ def _observe(pair: Pair, frozen: Frozen, weight: float, out: Floats) -> None:
 
 @kernel
 def _freeze(walked: Walked, at_depth: bool, opened: int, y: float, pull: float, turns: bool, jumps: Floats) -> Frozen:
-    """Return the radii of the cycle of a scene that turns at y, short of its rim if it `turns`."""
+    """Return the radii of the cycle of a scene that turns at y, short of its rim if it `turns`; fill `jumps`.
+
+    `opened` is the number of branches of opening, `pull` the radius of the lowest load: where that is y, it moves with
+    the turn. A turn that a jump has passed lies where that jump lands.
+    """
     own, visited = walked.loading, walked.columns[0]
     loading = list_loading_jumps(walked.closing, y, own, visited, walked.visits, jumps)
     n = visited_within(own, visited, walked.visits, y)
@@ -251,7 +255,10 @@ def _fill_by(task: Task, near: Near, pattern: Pattern, frozen: Frozen, y_end: fl
 
 @leaf
 def _move_of(near: Near, pair: Pair, frozen: Frozen, target: float, row: int) -> float:
-    """Return d ln y/d ln of a number, k: /dk, of where the cycle turns; `target` in units of closing."""
+    """Return d ln y/d ln(number of this row), for k d ln y/dk, of the radius y at which the cycle turns.
+
+    It keeps what is measured there at its `target`, in units of closing: -(d measured/d ln number)/(d measured/d ln y).
+    """
     if not frozen.moves:
         return 1.0 if row == OF_RIM else 0.0
     by = near.by[row, GAP] if row < OF_RIM else 0.0
@@ -264,7 +271,11 @@ def _move_of(near: Near, pair: Pair, frozen: Frozen, target: float, row: int) ->
 
 @leaf
 def _put_slopes(near: Near, pair: Pair, frozen: Frozen, target: float, out: Floats, i: int) -> None:
-    """Store the derivatives of force and energy of scene i from those of what is observed."""
+    """Store the derivatives of force and energy of scene i, by the chain rule from those of what is observed.
+
+    energy = ratio LOADING + UNLOADING + (1 - ratio) AREA;   d/d ln(number) = that at a fixed turn y, plus
+    d/d ln y times d ln y/d ln(number) of `_move_of`. `target` is as there.
+    """
     by, value, y, ratio = near.by, near.value, frozen.turn, pair.ratio
     energy = ratio * value[LOADING] + value[UNLOADING]
     force_by_turn = energy_by_turn = 0.0
@@ -279,6 +290,7 @@ def _put_slopes(near: Near, pair: Pair, frozen: Frozen, target: float, out: Floa
         energy = math.nan  # it has no bound
     else:
         value[AREA] = math.nan
+    out[UNIT, i] = near.numbers[at.LENGTH, 0]
     for row in range(ROWS):
         force = loss = 0.0
         if row < OF_RIM:
@@ -288,7 +300,6 @@ def _put_slopes(near: Near, pair: Pair, frozen: Frozen, target: float, out: Floa
             loading = value[LOADING] - 0.5 * (by[OF_POWER, LOADING] + by[OF_WAVES, LOADING])
             loss = ratio * (loading - value[AREA])
         move = _move_of(near, pair, frozen, target, row)
-        out[UNIT, i] = near.numbers[at.LENGTH, 0]
         out[FORCE + row, i] = (force + force_by_turn * move) / value[PULL]
         out[ENERGY + row, i] = (loss + energy_by_turn * move) / energy
 
@@ -335,8 +346,9 @@ def solve_slopes(
 ) -> None:
     """Store the derivatives of scenes in the order of their exponents; those that reach beyond the tables are SHORT.
 
-    `neighbours` are the long tables of the exponents next to that of `tables`; where it has no long one, `nodes` and
-    `polys` have room for near ones. `own_rooms` are for the tables of a scene with a pattern.
+    `neighbours` are the long tables of the exponents next to that of `tables`; where it has no long one, `nodes`
+    (4, ROWS, bins + 1) and `polys` (4, bins, LANES, N) have room for near ones. `own_rooms` are for the tables of a
+    scene with a pattern. `out` has the rows of results, of force, of energy and of the unit, (UNIT + 1, scenes).
     """
     punch, tables, neighbours, nodes, polys, own_rooms, profile, scenes, reduced, out = borrowed(
         (punch, tables, neighbours, nodes, polys, own_rooms, profile, scenes, reduced, out)
@@ -347,7 +359,7 @@ def solve_slopes(
         last, k = end_of_exponent(scenes, first), scenes[at.K, first]
         task = task_of(punch, wanted, tables, profile, scenes, reduced, first, last)
         if tables.long.bins == 0:
-            bins, filled = polys.shape[1], first - first
+            bins, filled = polys.shape[1], first - first  # not a plain 0, as above
             neighbours = (
                 empty_table(basis, k - 2.0 * _STEP, nodes[0], polys[0]),
                 empty_table(basis, k - _STEP, nodes[1], polys[1]),
