@@ -141,12 +141,13 @@ def fill_reach(punch: Punch, i: int, crest: float, steepest: float, mean: float,
 
 @kernel
 def fill_rim(punch: Punch, scenes: Floats, i: int, reduced: Floats) -> None:
-    """Fill what depends on the rim of scene i; the rest of its numbers is known."""
+    """Fill what depends on the rim of scene i; the rest is known, and VALID so far without regard to the rim."""
     rim, far = scenes[at.RIM, i] / reduced[at.LENGTH, i], reduced[at.FAR, i]
     if punch.turn == AT_RIM and punch.rows.shape[1] > 0 and rim < math.inf:
         far = max(far, rim)  # beyond its table an interface with a pattern is not known
     reduced[at.RIM_Y, i], reduced[at.NEED, i] = rim, min(far, rim)
-    reduced[at.VALID, i] = 1.0 if _is_valid(punch, scenes, reduced, i) else 0.0
+    if not (scenes[at.RIM, i] > 0.0 and rim >= _LEAST / punch.waves[:, 0].max()):  # tables begin there
+        reduced[at.VALID, i] = 0.0
 
 
 @kernel
@@ -161,11 +162,10 @@ def _differs_in_rim_alone(scenes: Floats, i: int, j: int) -> bool:
 
 @kernel
 def _is_valid(punch: Punch, scenes: Floats, reduced: Floats, i: int) -> bool:
-    """Return whether all parameters of scene i are in their ranges, and its contact is not too small for tables."""
+    """Return whether all parameters of scene i but its rim are in their ranges, and it does not end too small."""
     sizes = 0.0 < scenes[at.MODULUS, i] < math.inf and 0.0 < scenes[at.C0, i] < math.inf
     sizes = sizes and 0.0 < scenes[at.WAVELENGTH, i] < math.inf and 0.0 <= scenes[at.AMPLITUDE, i] < math.inf
-    edge = 0.0 <= scenes[at.RATIO, i] <= 1.0 and scenes[at.RIM, i] > 0.0
-    edge = edge and 0.0 < scenes[at.PATTERN_WAVELENGTH, i] < math.inf
+    edge = 0.0 <= scenes[at.RATIO, i] <= 1.0 and 0.0 < scenes[at.PATTERN_WAVELENGTH, i] < math.inf
     target = math.isfinite(scenes[at.TARGET, i]) and (punch.turn != AT_A_LOAD or scenes[at.TARGET, i] > 0.0)
     machine = punch.control != MACHINE or 0.0 < scenes[at.STIFFNESS, i] < math.inf
     known = 0.0 < reduced[at.BY_POWER, i] < math.inf and reduced[at.MOST, i] > 0.0
@@ -176,11 +176,11 @@ def _is_valid(punch: Punch, scenes: Floats, reduced: Floats, i: int) -> bool:
 
 @kernel
 def _is_below_tables(punch: Punch, reduced: Floats, i: int) -> bool:
-    """Return whether the rim of scene i, or the contact that jumps out of a smooth punch, is too small for tables."""
+    """Return whether the contact that jumps out of a smooth punch is too small for tables."""
     least, eta = _LEAST / punch.waves[:, 0].max(), 0.5 * (1.0 - reduced[at.EXPONENT, i])
     # d depth/dy = 0 is B m y^(m - eta) = eta; at k = 1 the contact shrinks to a point, and B y^m is compared with 1
     jump_out = eta / punch.exponent if eta > 0.0 else 1.0
-    return reduced[at.RIM_Y, i] < least or reduced[at.BY_POWER, i] * least ** (punch.exponent - eta) > jump_out
+    return reduced[at.BY_POWER, i] * least ** (punch.exponent - eta) > jump_out
 
 
 @kernel
@@ -190,7 +190,8 @@ def reduce_scenes(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats) -
     k = nu = theta = depth_factor = crest = steepest = math.nan
     mean = mean_of(punch.waves)
     for i in range(scenes.shape[1]):
-        if i > 0 and punch.rows.shape[1] == 0 and _differs_in_rim_alone(scenes, i - 1, i):
+        shares = i > 0 and punch.rows.shape[1] == 0 and reduced[at.VALID, i - 1] > 0.0
+        if shares and _differs_in_rim_alone(scenes, i - 1, i):
             reduced[:, i] = reduced[:, i - 1]
             fill_rim(punch, scenes, i, reduced)
             continue
@@ -207,6 +208,7 @@ def reduce_scenes(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats) -
             theta = theta_of(k, nu)
         reduce_scene(punch, scenes, i, theta, depth_factor, reduced)
         fill_reach(punch, i, crest, steepest, mean, reduced)
+        reduced[at.VALID, i] = 1.0 if _is_valid(punch, scenes, reduced, i) else 0.0
         fill_rim(punch, scenes, i, reduced)
 
 
