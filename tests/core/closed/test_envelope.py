@@ -69,12 +69,6 @@ def test_an_unbounded_punch_loses_without_end_with_waviness_alone() -> None:
         assert np.isfinite([wavy["pull_off_force"], smooth["dissipated_energy"]]).all()
 
 
-def test_jumps_are_those_of_the_envelopes_themselves() -> None:
-    for k, chi, expected in [(0.2, 0.9, (1, 1)), (0.2, 1.1, (0, 1)), (1.0, 0.9, (1, 0)), (1.0, 1.0, (0, 0))]:
-        result = envelope(scene_of_ratio(k, 33.0, 0.004, chi, 1.3))
-        assert (int(result["loading_jumps"]), int(result["unloading_jumps"])) == expected
-
-
 def test_the_twin_has_the_same_envelopes() -> None:
     rng = np.random.default_rng(8)
     for _ in range(20):
