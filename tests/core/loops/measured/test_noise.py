@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from gradhesion.core.loops.measured.noise import FLOOR, noise_of
-from gradhesion.core.loops.measured.points import along, of_differences
 
 Array = np.ndarray
 
@@ -62,24 +61,9 @@ def test_points_in_no_order_have_the_same_noise_of_load(points: int) -> None:
     assert found[0] < 0.3, "that of the depth cannot be seen"
 
 
-def test_points_in_order_are_not_sorted() -> None:
-    rng = np.random.default_rng(6)
-    depth, _, back, cycle = loop(600)
-    order, begin = along(depth + 5.0 * rng.standard_normal(600), back, cycle)
-    assert order.tolist() == list(range(600)), "noise of depth is no disorder"
-    assert begin.tolist() == [0, 300]
-
-
 def test_noise_has_a_floor_far_below_instruments() -> None:
     depth, load, back, cycle = loop(10_000)
     found = noise_of(depth, load, back, cycle)
     assert found[0] == FLOOR * 800.0
     assert 0.0 < found[1] < 1.1 * FLOOR * np.ptp(load), "what the curve bends between points"
     assert all(size > 0.0 for size in noise_of(np.zeros(4), np.zeros(4), np.zeros(4, bool), np.ones(4, np.int32)))
-
-
-def test_differences_of_any_order_have_the_size_of_white_noise() -> None:
-    assert of_differences(np.array([0.0, 1.0])) == 0.0
-    every = np.random.default_rng(7).standard_normal(20_000)
-    for order in (1, 2, 6):
-        assert of_differences(every, order) == pytest.approx(1.0, rel=0.05)

@@ -76,15 +76,6 @@ def test_zeros_and_a_tilt_are_added() -> None:
     np.testing.assert_allclose(after.places[1:-1, 1], before.places[1:-1, 1] + 1e-8 + 0.02 * x, atol=1e-9 * UNIT)
 
 
-def test_through_a_machine_jumps_keep_its_displacement() -> None:
-    own = CASES["machine"].model()
-    found = own.path(vector(own))
-    assert found is not None
-    after = np.flatnonzero(found.jump)
-    np.testing.assert_allclose(found.places[after, 0], found.places[after - 1, 0], atol=1e-4 * R)
-    assert np.abs(found.places[after, 1] - found.places[after - 1, 1]).max() > 0.1 * UNIT
-
-
 @pytest.mark.parametrize("name", ["rim", "preload at the rim"])
 def test_an_edge_pressed_on_at_the_rim_is_a_flat_punch(name: str) -> None:
     own = CASES[name].model()
@@ -104,8 +95,3 @@ def test_no_contact_is_a_line_of_no_load() -> None:
     assert found is not None
     assert not found.places[:, 1].any()
     assert not found.radius.any()
-
-
-def test_a_scene_without_a_path_has_none() -> None:
-    assert CASES["wavy"].model(("k",)).path(np.array([1.5])) is None, "an exponent beyond 1"
-    assert CASES["wavy"].model(("wavelength",)).path(np.array([-60.0])) is None, "more waves than are walked"

@@ -7,7 +7,6 @@ import pytest
 
 from gradhesion.core import draw_curves
 from gradhesion.core.loops.fit import fit_loop
-from gradhesion.core.loops.paths.model import EXPONENT
 from gradhesion.core.loops.paths.offsets import NO_OFFSETS
 from gradhesion.core.loops.paths.speed import SpeedModel
 from gradhesion.core.problem.profile import Profile
@@ -40,16 +39,6 @@ def test_the_path_is_that_of_the_moving_edge() -> None:
     assert ours[:, 1].min() == pytest.approx(load[back].min(), rel=1e-9)
     assert ours[:, 0].min() == pytest.approx(depth[back].min(), rel=1e-9)
     assert ours[:, 1].min() < 1.2 * np.min(CASES["smooth"].drawn()["y"]), "the speed has an effect"
-
-
-def test_the_exponent_may_be_searched() -> None:
-    pulls = []
-    for exponent in (0.4, 0.8):
-        drawn = model((EXPONENT,), speed_over_reference=0.3).path(np.array([exponent]))
-        assert drawn is not None
-        pulls.append(drawn.places[:, 1].min())
-    assert pulls[0] != pytest.approx(pulls[1], rel=1e-3)
-    assert model((EXPONENT,), speed_over_reference=0.3).path(np.array([RATE.exponent])) is not None
 
 
 @pytest.mark.slow
