@@ -14,7 +14,6 @@ from gradhesion.core.equations import general, hertz, jkr, quadrature
 
 pytestmark = pytest.mark.slow
 
-EPS = float(np.finfo(float).eps)
 M, WAVELENGTH = 210.0, 0.13
 PROFILES = [
     ([], [], 2.0),
@@ -92,6 +91,8 @@ def test_stress_intensity_is_the_limit_of_the_pressure(k: float, raised: float) 
     assert abs(limit[1] - found) < 0.05 * abs(limit[0] - found)
     assert found**2 / (2 * M) == pytest.approx(raised**2, rel=1e-11)
     assert general.energy_release_rate(k, M, a, depth, *wave) == pytest.approx(raised**2, rel=1e-11)
+    top = float(hertz.indentation(k, a, WAVELENGTH, 0.02)) + raised * float(jkr.adhesive_depth(k, M, a))
+    assert jkr.energy_release_rate(k, M, a, top, WAVELENGTH, 0.02) == pytest.approx(raised**2, rel=1e-11)
 
 
 @pytest.mark.parametrize("k", [0.0, 0.43, 1.0])
