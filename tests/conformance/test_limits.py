@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core import solve
-from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
+from tests.core.scene import pattern_of
 
 from .kinds import EXACT, Kind, Scenes, drawn, for_kinds
 from .promises import SHARE, agree, errors, work_size
@@ -88,10 +88,10 @@ def short(k: float, chi: float, ratio: float) -> Scenes:
 def test_the_pattern_that_has_the_load_of_short_waves(k: float, ratio: float) -> None:
     """kappa = 1 - chi sin(2 pi r/lambda - (1 + k) pi/4) has exactly the load of the asymptotic form, section 16."""
     chi, phase, scene = 0.4, (1 + k) * math.pi / 4, short(k, 0.4, ratio)
-    waves = (ToughnessHarmonic(n=1, cos=chi * math.sin(phase), sin=-chi * math.cos(phase)),)
+    pattern = pattern_of("toughness", (1, chi * math.sin(phase), -chi * math.cos(phase)))
     tough = scene | {"A": 0.0, "toughness_wavelength_over_R": scene["lambda_over_R"]}
     off = {"pull_off_force": 20 * SHARE, "pull_off_radius": 1e-6}
-    one, other = solve(scene, list(off), solver="asymptotic"), solve(tough, list(off), toughness=Toughness(waves))
+    one, other = solve(scene, list(off), solver="asymptotic"), solve(tough, list(off), toughness=pattern)
     for name, allowed in off.items():
         assert float(one[name]) == pytest.approx(float(other[name]), rel=allowed)
 
