@@ -56,6 +56,13 @@ class Kind:
         return {"profile": profile_of(self.exponent, *self.waves), "loading": Loading(control=self.control)} | pattern
 
     @property
+    def shape(self) -> Any:
+        """The shape by which the twin knows it."""
+        from gradhesion.twin.general import Shape
+
+        return Shape(self.exponent, self.waves, self.control, self.pattern_waves, self.pattern or "toughness")
+
+    @property
     def outputs(self) -> tuple[str, ...]:
         slope = ("contact_slope",) if self.unbounded else ()
         return (*OUTPUTS, *EDGE, *slope) if self.solver == "exact" else OUTPUTS

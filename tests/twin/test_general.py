@@ -1,30 +1,32 @@
-"""The twin of general scenes against 24 of another program, the twin of one wave, loop integrals and closed forms."""
+"""The twin of general scenes, patterns and envelopes: 24 of another program, the twin of one wave, integrals, closed forms."""
 
 import json
 import math
 from pathlib import Path
 from typing import Any
 
+import mpmath
 import numpy as np
 import pytest
 from flint import arb
 
 from gradhesion.twin import stated
 from gradhesion.twin.energy import dissipated, double_exponential, loop
-from gradhesion.twin.general import PLAIN, Shape
+from gradhesion.twin.envelope import solve_envelope
+from gradhesion.twin.general import Shape
 from gradhesion.twin.general.curve import GeneralCurve
 from gradhesion.twin.general.integrals import Integral
+from gradhesion.twin.general.pattern import Pattern
 from gradhesion.twin.general.series import Series
 from gradhesion.twin.path import cycle
 from gradhesion.twin.scene import curve_of, solve, waves_to_follow
 from tests.core.scene import scene_of
+from tests.exact import envelope_loop, theta
 
-from .draw_general import general_scene
+from .compare import general_scene
 
 ULP = 2.0**-52
 SCENES = json.loads((Path(__file__).parents[1] / "reference" / "general.json").read_text())["scenes"]
-ZERO_WAVE = Shape(harmonics=((1, 1.0, 0.0), (2, 0.0, 0.0)))
-"""One cosine wave, and one that is not there: the general twin solves what the other one does."""
 
 
 @pytest.mark.parametrize("index", range(len(SCENES)))
@@ -76,17 +78,6 @@ def test_the_sum_over_waves_is_that_of_its_terms() -> None:
     assert abs((1 + arb(0.41)) * cosine.at(z)[1] + z * alone[1][1]) < 1e-40  # T0' = -z T1/(1+k)
 
 
-@pytest.mark.parametrize(("k", "nu"), [(0.0, 0.3), (0.61, 0.1), (1.0, 0.5)])
-@pytest.mark.parametrize("rim", [0.31, math.inf])
-def test_one_cosine_is_what_its_own_twin_finds(k: float, nu: float, rim: float) -> None:
-    one, other = (solve(scene_of(k, nu, 310.0, 0.2, 0.07, 0.04, rim), shape) for shape in (PLAIN, ZERO_WAVE))
-    for name in stated.KNOWN:
-        value, same = getattr(one, name), getattr(other, name)
-        assert (value is None) == (same is None)
-        if value is not None:
-            assert abs(arb(value) - arb(same)) <= 1e-34 * (1 + abs(arb(value))), name
-
-
 def test_loop_integrals() -> None:
     """The drops at the jumps sum to the loop integral of P over what is prescribed, a spring's other end too."""
     rng = np.random.default_rng(31)
@@ -102,21 +93,6 @@ def test_loop_integrals() -> None:
         size = float(sum((abs(drop) for drop in drops), arb(0)))
         assert abs(sum(drops, arb(0)) - loop(curve, path)) < 1e-30 * size
         done += 1
-
-
-def test_load_control_is_the_end_of_soft_machines() -> None:
-    """Without the jump-out, whose energy grows as 1/S, the energy of a machine comes near that of a dead load with S."""
-    scene = scene_of(0.33, 0.2, 310.0, 0.2, 0.07, 0.04, 0.4)
-    waves = ((1, 1.0, 0.1), (3, 0.2, 0.0))
-    dead = solve(scene, Shape(1.4, waves, "load")).dissipated_energy
-    rests = []
-    for softness in (1e-9, 1e-11):
-        curve = curve_of(scene | {"machine_stiffness": softness}, Shape(1.4, waves, "machine"))
-        path, _ = cycle(curve)
-        jumps = [jump for jump in path.loading + path.unloading if jump.end > 0]
-        rests.append(float(abs(sum((dissipated(curve, jump) for jump in jumps), arb(0)) - dead)))
-    assert 0.0 < rests[0] < 1e-5 * float(dead)
-    assert rests[1] == pytest.approx(0.01 * rests[0], rel=1e-3)
 
 
 @pytest.mark.parametrize("m", [1.0, 1.5, 4.0])
@@ -144,3 +120,30 @@ def test_what_has_no_end_is_told() -> None:
     assert not stated.within_reach(scene, ["dissipated_energy"], "exact", cone)
     assert stated.within_reach(scene, ["pull_off_force"], "exact", cone)
     assert stated.expected(scene, ["pull_off_force"], "exact", cone)["pull_off_force"].value > 0
+
+
+@pytest.mark.parametrize("of", ["toughness", "work"])
+def test_slopes_of_kappa_are_those_of_differences(of: str) -> None:
+    lengths = {"toughness_wavelength_over_R": 0.13, "toughness_amplitude": 0.9}
+    pattern = Pattern(lengths, Shape(pattern=((1, 0.2, -0.1), (3, 0.05, 0.1)), pattern_of=of))
+    a, step = arb(0.37), arb(2) ** -40
+    (low, below, _), (kappa, first, second), (high, above, _) = (
+        pattern.at(a * (1 + sign * step)) for sign in (-1, 0, 1)
+    )
+    assert float((high - low) / (2 * step)) == pytest.approx(float(first), rel=1e-10)
+    assert float((above - below) / (2 * step)) == pytest.approx(float(second), rel=1e-10)
+    assert abs(float(kappa)) <= pattern.greatest
+
+
+@pytest.mark.parametrize("k", [0.0, 0.31, 0.875])
+@pytest.mark.parametrize(("chi", "reach"), [(0.0625, 0.21), (0.75, 0.9), (1.625, 3.3), (0.75, 3.3)])
+def test_the_energy_of_the_envelopes_is_the_loop_integral(k: float, chi: float, reach: float) -> None:
+    scene = {"k": k, "nu": 0.5, "modulus": 7.0, "c0_over_R": 1.0, "lambda_over_R": 1e-3}
+    with mpmath.workdps(30):
+        n, M = (1 + mpmath.mpf(k)) / 2, 7 * theta(k, 0.5)
+        s = mpmath.sqrt(2 ** (2 * n) * mpmath.pi / M)
+        wave = mpmath.pi ** (1 - n) * mpmath.gamma(n) * mpmath.mpf(1e-3) ** n
+        scene |= {"A": float(chi * s / wave), "a_max_over_R": reach * float(M) ** (-1 / (3 + k))}
+        r = scene["A"] * wave
+        energy = mpmath.mpf(float(solve_envelope(scene).dissipated_energy))
+        assert abs(energy / envelope_loop(k, M, 2, r, r, scene["a_max_over_R"]) - 1) < 1e-14
