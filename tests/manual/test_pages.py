@@ -35,7 +35,7 @@ def test_every_command_and_option_stands_in_the_manual() -> None:
 
 def test_every_key_output_and_flag_stands_in_the_manual() -> None:
     study, dataset = PAGES["study"](), PAGES["dataset"]()
-    tables = "parameters physical profile loading toughness rate states optimum uncertainty method".split()
+    tables = ("parameters", "physical", "profile", "loading", "toughness", "rate", "states", "optimum", "uncertainty", "method")  # fmt: skip
     of_a_fit = ("data", "fit")
     keys = {key for table in tables_of(Form).values() for key in table.model_fields} - {*tables, *of_a_fit}
     assert keys >= {*INPUTS}
