@@ -135,8 +135,10 @@ def test_slopes_of_kappa_are_those_of_differences(of: str) -> None:
     assert abs(float(kappa)) <= pattern.greatest
 
 
-@pytest.mark.parametrize("k", [0.0, 0.31, 0.875])
-@pytest.mark.parametrize(("chi", "reach"), [(0.0625, 0.21), (0.75, 0.9), (1.625, 3.3), (0.75, 3.3)])
+@pytest.mark.parametrize(
+    ("k", "chi", "reach"),
+    [(0.31, 0.0625, 0.21), (0.31, 0.75, 0.9), (0.31, 1.625, 3.3), *((k, 0.75, 3.3) for k in (0.0, 0.31, 0.875))],
+)
 def test_the_energy_of_the_envelopes_is_the_loop_integral(k: float, chi: float, reach: float) -> None:
     scene = {"k": k, "nu": 0.5, "modulus": 7.0, "c0_over_R": 1.0, "lambda_over_R": 1e-3}
     with mpmath.workdps(30):

@@ -28,8 +28,12 @@ def length_of(k: float, M: float) -> float:
     return M ** (-1 / (3 + k))
 
 
-@pytest.mark.parametrize("k", EXPONENTS)
-@pytest.mark.parametrize(("chi", "reach"), [(0.031, 0.21), (0.72, 0.9), (1.0, 1.63), (2.6, 5.8), (0.72, 5.8)])
+REACHES = [(0.031, 0.21), (0.72, 0.9), (1.0, 1.63), (2.6, 5.8)]
+
+
+@pytest.mark.parametrize(
+    ("k", "chi", "reach"), [*((k, 0.72, 5.8) for k in EXPONENTS), *((0.2, *one) for one in REACHES)]
+)
 def test_the_energy_is_the_loop_integral_of_load_over_depth(k: float, chi: float, reach: float) -> None:
     M, rim = 37.0, reach * length_of(k, 37.0)
     scene, one = scene_of_ratio(k, M, 0.0023, chi, rim), chi * adhesion(k, M)

@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 from gradhesion.core import solve
-from gradhesion.core.equations import effective, envelopes, general, hertz, jkr, short_waves
+from gradhesion.core.equations import effective, envelopes, general, jkr, short_waves
 from gradhesion.core.problem.material import stiffness
 from tests.exact import envelope_loop
 
@@ -175,23 +175,6 @@ def test_early_unloading_joins_the_envelopes(k: float, m: float) -> None:
     assert effective.drop(k, a, WAVELENGTH, [0.0]) == 0.0
 
 
-@pytest.mark.parametrize("k", [0.0, 0.41, 0.9])
-def test_early_unloading_is_contact_pinned_at_its_radius(k: float) -> None:
-    # a disc of the radius a_am held at any depth: P = P_H + K a^(1+k) (delta - delta_H), of the whole series
-    a, depth = 0.6, 0.3
-    for wavelength in (1e-3, 1e-4):
-        wave = (wavelength, COSINES, SINES)
-        lowered = depth - general.hertz_indentation(k, a, *wave)
-        pinned = general.hertz_load(k, M, a, *wave) + hertz.disc_stiffness(k, M, a) * lowered
-        line = effective.load_at_depth(k, M, a, depth, mean_height=wavelength * 0.016)
-        # what is left is the waviness's own moment, (lambda/a)^((3+k)/2)
-        assert abs(float(pinned - line)) < 3 * M * 0.03 * a * (wavelength / a) ** (0.5 * (3 + k))
-        assert abs(float(pinned - effective.load_at_depth(k, M, a, depth))) > 0.1 * wavelength
-        one = jkr.load_at_depth(k, M, a, depth, wavelength, AMPLITUDE)
-        line = effective.early_unloading_load(k, M, a, depth, wavelength * AMPLITUDE)
-        assert abs(float(one - line)) < 3 * M * AMPLITUDE * a * (wavelength / a) ** (0.5 * (3 + k))
-
-
 # ---- the energy
 
 
@@ -237,17 +220,6 @@ def test_fitted_energy_is_good_for_weak_waviness(k: float, ratio: float, low: fl
 
 
 # ---- the end of folds
-
-
-@pytest.mark.parametrize(
-    ("k", "wavelength", "error"), [(0.0, 0.01, 0.003), (0.2, 0.01, 0.006), (0.5, 0.01, 0.017), (0.2, 0.001, 0.0008)]
-)
-def test_last_fold(k: float, wavelength: float, error: float) -> None:
-    end = float(short_waves.end_of_folds(k, wavelength, SCENE["A"]))
-    a = np.arange(0.8 * end, 1.2 * end, wavelength / 100)
-    stable = jkr.fold_number(k, stiffness(k, 0.3, 300.0, 0.01), a, wavelength, SCENE["A"]) > 0.5 * (1 - k)
-    last = a[np.flatnonzero(stable[1:] != stable[:-1])[-1]]
-    assert 0.0 < last / end - 1 < error
 
 
 @pytest.mark.parametrize("u", [0.0, 0.03, 0.4, 0.95])
