@@ -5,6 +5,7 @@ import importlib
 import inspect
 import pkgutil
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -28,6 +29,7 @@ SECTIONS = dict(zip(*[iter(re.split(r"^## (.*)$", TEXT, flags=re.MULTILINE)[1:])
 ROWS = [line.split("|")[1:-1] for line in SECTIONS["Equations"].splitlines() if line.startswith("| (")]
 
 
+@cache
 def _tests_of(path: Path) -> set[str]:
     """Return the names of all tests and classes of tests in a file."""
     found = {node for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.FunctionDef | ast.ClassDef)}

@@ -11,7 +11,7 @@ from gradhesion.core import OUTPUTS, solve
 from gradhesion.core.problem.profile import swings
 from gradhesion.twin import stated
 from gradhesion.twin.general import Shape
-from tests.core.scene import Waves, adhesion, profile_of, scene_of_ratio
+from tests.core.scene import adhesion, profile_of, scene_of_ratio
 from tests.exact import envelope_loop
 
 EPS = float(np.finfo(float).eps)
@@ -83,18 +83,3 @@ def test_the_twin_has_the_same_envelopes() -> None:
         values = solve(scene, OUTPUTS, solver="envelope", profile=PROFILE)
         for name, one in stated.expected(scene, OUTPUTS, "envelope", Shape(1.4, WAVES)).items():
             assert stated.deviation(float(values[name]), one) <= one.error, name
-
-
-@pytest.mark.parametrize("k", [0.0, 0.6])
-@pytest.mark.parametrize("waves", [((1, 0.0, 0.5),), ((1, 0.6, 0.1), (3, -0.4, -0.3), (4, -0.2, 0.2))])
-def test_the_exact_solution_tends_to_the_envelopes(k: float, waves: Waves) -> None:
-    """Waves of no mean height, which the energy of the envelopes leaves out; one harmonic's crest moves, but keeps its height."""
-    wavelength = np.array([4e-3, 1e-3])
-    scene = {"k": k, "nu": 0.2, "modulus": 300.0, "c0_over_R": 0.1, "lambda_over_R": wavelength, "a_max_over_R": 0.6}
-    scene["A"] = 0.02 * (4e-3 / wavelength) ** (0.5 * (1.0 + k))
-    exact, limit = (solve(scene, OUTPUTS, profile=profile_of(2.5, *waves), solver=own) for own in ("exact", "envelope"))
-    force = np.abs(exact["pull_off_force"] / limit["pull_off_force"] - 1.0)
-    assert np.all(force <= (10.0 * wavelength**2 if len(waves) == 1 else 0.05 * wavelength))
-    energy = np.abs(exact["dissipated_energy"] / limit["dissipated_energy"] - 1.0)
-    assert np.all((energy > 0.0) & (energy <= 30.0 * wavelength))
-    assert np.all(np.abs(exact["delta_max"] - limit["delta_max"]) < 1.2 * wavelength)
