@@ -10,7 +10,7 @@ import pytest
 from gradhesion.core import solve
 from gradhesion.core.loops.fitted import FittedLoop
 from gradhesion.core.loops.minima import others
-from gradhesion.core.loops.paths.misfit import Data, Misfit
+from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.results import (
     alternatives,
     covariance_of,
@@ -20,29 +20,23 @@ from gradhesion.core.loops.results import (
     status_of,
 )
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, JUMP_IN_TO_RIM, POOR_FIT
-from tests.core.loops.models import CASES, SCENE, UNIT, Array, Case, R, vector
+from tests.core.loops.models import CASES, NOISE, SCENE, UNIT, Array, Case, R, misfit_of, path_of, vector
 
-NOISE = (1e-4 * R, 0.01 * UNIT)
 NAMES = ("E_star", "work_of_adhesion")
 
 
-def loop(
-    names: tuple[str, ...] = NAMES, error: float = 1.0, low: float = 2.0, name: str = "smooth", **known: float
-) -> tuple[Misfit, Array]:
-    """A loop with noise, and the numbers it was made with; `known` are given, or where the names have them searched."""
-    model = CASES[name].model(names, {one: x for one, x in known.items() if one not in names})
-    here = vector(model, **known)
-    drawn = model.path(here)
-    assert drawn is not None
+def loop(error: float = 1.0) -> tuple[Misfit, Array]:
+    """A loop of a smooth ball with noise, and the numbers it was made with."""
+    model = CASES["smooth"].model(NAMES)
+    here = vector(model)
+    drawn = path_of(model, here)
     places = drawn.places + error * np.random.default_rng(3).standard_normal(drawn.places.shape) * NOISE
-    data = Data(places, np.arange(len(places)) > drawn.turn, NOISE, np.ones(len(places)))
-    return Misfit(data, model, here - low, here + 2.0), here
+    return misfit_of(model, here, places, np.arange(len(places)) > drawn.turn, wide=2.0), here
 
 
-def results(own: Misfit, minima: list[Any], intervals: str = "linear", *, widened: bool = False) -> FittedLoop:
+def results(own: Misfit, minima: list[Any], *, widened: bool = False) -> FittedLoop:
     ends = own.named(own.low), own.named(own.high)
-    ranges = {name: (ends[0][name], ends[1][name]) for name in own.names}
-    return results_at(own, minima, intervals, ranges, widened=widened)
+    return results_at(own, minima, "linear", {name: (ends[0][name], ends[1][name]) for name in NAMES}, widened=widened)
 
 
 def test_another_minimum_is_named_with_its_values() -> None:
@@ -149,8 +143,7 @@ def test_a_closing_ratio_may_be_fine_waves_and_these_a_closing_ratio(
     model = case.model(names)
     if "chi" in case.own:
         model.fixed = {name: value for name, value in model.fixed.items() if name != "A"}
-    drawn = model.path(vector(model, closing_ratio=0.25, wavelength=2e-3 * R))
-    assert drawn is not None
+    drawn = path_of(model, vector(model, closing_ratio=0.25, wavelength=2e-3 * R))
     found = alternatives(model, drawn, noise * np.array([R, UNIT]), np.full(len(names), spread))
     assert len(found) == bool(numbers)
     assert all(number in found[0] for number in numbers)

@@ -5,10 +5,8 @@ import pytest
 
 from gradhesion.core.loops.paths.misfit import LOST, Data, Misfit
 from gradhesion.core.loops.paths.offsets import NAMES
-from gradhesion.core.loops.paths.path import LoopModel, LoopPath
-from tests.core.loops.models import CASES, UNIT, Array, R, vector
+from tests.core.loops.models import CASES, NOISE, Array, R, misfit_of, path_of, vector
 
-NOISE = (1e-4 * R, 0.01 * UNIT)
 STEP = 1e-5
 """Of the numbers as they are searched; of offsets, in units of the noise."""
 ALL = ("E_star", "work_of_adhesion", "wavelength", "A", *NAMES)
@@ -31,17 +29,6 @@ SEARCHED: dict[str, tuple[str, ...]] = {
 }
 
 
-def path_of(model: LoopModel, here: Array) -> LoopPath:
-    drawn = model.path(here)
-    assert drawn is not None
-    return drawn
-
-
-def misfit_of(model: LoopModel, here: Array, spots: Array, back: Array, count: float = 1.0) -> Misfit:
-    """The misfit of some points, with ranges far away."""
-    return Misfit(Data(spots, back, NOISE, np.full(len(spots), count)), model, here - 1e3, here + 1e3)
-
-
 def misfit(name: str, seed: int, points: int = 400) -> tuple[Misfit, Array]:
     """A loop of a kind whose points lie about its path, also within jumps and beyond the turn."""
     case = CASES.get(name, CASES["wavy"])
@@ -55,7 +42,7 @@ def misfit(name: str, seed: int, points: int = 400) -> tuple[Misfit, Array]:
     piece[: at.size], share[: at.size] = np.minimum(at, len(drawn.places) - 2), 0.0
     spots = (1.0 - share)[:, None] * drawn.places[piece] + share[:, None] * drawn.places[piece + 1]
     spots += 2.0 * rng.standard_normal((points, 2)) * NOISE
-    return misfit_of(model, here, spots, piece >= drawn.turn, 4.0), here
+    return misfit_of(model, here, spots, piece >= drawn.turn, count=4.0), here
 
 
 def feet_of(own: Misfit, here: Array) -> Array:
