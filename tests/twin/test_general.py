@@ -14,7 +14,6 @@ from gradhesion.twin import stated
 from gradhesion.twin.energy import dissipated, double_exponential, loop
 from gradhesion.twin.envelope import solve_envelope
 from gradhesion.twin.general import Shape
-from gradhesion.twin.general.curve import GeneralCurve
 from gradhesion.twin.general.integrals import Integral
 from gradhesion.twin.general.pattern import Pattern
 from gradhesion.twin.general.series import Series
@@ -93,22 +92,6 @@ def test_loop_integrals() -> None:
         size = float(sum((abs(drop) for drop in drops), arb(0)))
         assert abs(sum(drops, arb(0)) - loop(curve, path)) < 1e-30 * size
         done += 1
-
-
-@pytest.mark.parametrize("m", [1.0, 1.5, 4.0])
-@pytest.mark.parametrize("k", [0.0, 0.4])
-def test_smooth_punch_of_any_power(m: float, k: float) -> None:
-    """The load is least where a^(m-c) = (3+k) s/(2 m F); a wave of no amplitude, or of amplitude zero, is none."""
-    x, c = arb(k), (1 - arb(k)) / 2
-    for amplitude, wave in ((0.0, 1.0), (0.1, 0.0)):
-        scene, shape = scene_of(k, 0.3, 1e5, 1e-4, 1e-9, amplitude, 9.0), Shape(m, ((1, wave, 0.0),))
-        curve, solution = GeneralCurve(scene, shape), solve(scene, shape)
-        at = ((3 + x) * curve.adhesion / (2 * curve.m * curve.front)) ** (1 / (m - c))
-        force = curve.adhesion * at**c - curve.m / (1 + x + curve.m) * curve.front * at**curve.m
-        force *= curve.stiffness * at ** (1 + x)
-        assert abs(solution.pull_off_radius / at - 1) < 1e-40
-        assert abs(solution.pull_off_force * (3 * arb.pi() / 2) / force - 1) < 1e-40
-        assert [solution.loading_jumps, solution.unloading_jumps] == [1, 1]
 
 
 def test_what_has_no_end_is_told() -> None:

@@ -6,17 +6,20 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gradhesion.core import draw_curves
 from gradhesion.core.loops.fit import fit_loop
 from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop, poor_from
 from gradhesion.core.loops.paths.offsets import NO_OFFSETS, Offsets
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
-from tests.core.loops.models import CASES, Array, R
+from gradhesion.core.problem.toughness import Rate
+from tests.core.loops.models import CASES, SCENE, TURN, UNIT, Array, R
 
 NU, E_STAR, WORK = 0.3, 1e7, 0.03
 FREE = {"E_star": (1e6, 1e8), "work_of_adhesion": (5e-3, 0.2)}
 SMOOTH = {"k": 0.0, "nu": NU, "A": 0.0, "R": R}
 PULL = 1.5 * math.pi * R * WORK
 TRUE = {"E_star": E_STAR, "work_of_adhesion": WORK}
+RATE = Rate(exponent=0.6)
 
 
 def ball(
@@ -192,6 +195,29 @@ def test_flat_points_at_the_pull_off_are_no_base_line() -> None:
         own = (back & (load < -2.0 * noise[1])) | (depth > 0.0)
         found = fit_loop(depth[own], load[own], back[own], SMOOTH, FREE, noise=noise, offsets=Offsets())
         assert found.base_line is None
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("one", "value", "ends"), [("speed_over_reference", 0.3, (0.01, 10.0)), ("exponent", 0.6, (0.3, 0.9))]
+)
+def test_the_speed_of_the_edge_or_its_exponent_comes_back_with_the_material(
+    one: str, value: float, ends: tuple[float, float]
+) -> None:
+    """From a quarter of the points of a drawn path, and a base line."""
+    scene = SCENE | {"A": 0.0, "a_max_over_R": math.inf, "indentation_max_over_R": TURN, "speed_over_reference": 0.3}
+    path = {name.removeprefix("path_"): row[::4] for name, row in draw_curves(scene, ["path"], rate=RATE)[0].items()}
+    line = R * (path["indentation"].min() + np.linspace(-0.02, 0.0, 20))
+    depth, load = np.append(line, R * path["indentation"]), np.append(0.0 * line, UNIT * path["load"])
+    back, noise = np.append(line > 0.0, path["unloading"] == 1), (2e-5 * R, 0.01 * UNIT)
+    errors = np.random.default_rng(4).standard_normal((2, depth.size))
+    fixed = SMOOTH if one == "speed_over_reference" else SMOOTH | {"speed_over_reference": 0.3}
+    found = fit_loop(
+        depth + noise[0] * errors[0], load + noise[1] * errors[1], back, fixed, FREE | {one: ends},
+        noise=noise, offsets=NO_OFFSETS, rate=RATE,
+    )  # fmt: skip
+    holds(found, TRUE | {one: value})
+    assert all(found.standard_deviations[name] < 0.2 * found.values[name] for name in found.names)
 
 
 D, P, U = 1e-8 * np.array([0, 1, 2, 1, 0, -1]), 1e-8 * np.array([-1, 0, 1, 0, -1, -2]), np.arange(6) > 2
