@@ -132,6 +132,7 @@ def test_waves_zeros_and_material_at_once() -> None:
     found = fit_loop(*points, {"k": 0.0, "nu": NU, "R": R}, WAVES, noise=noise)
     holds(found, TRUE | {"wavelength": 0.5e-6, "A": 0.012, "indentation_offset": 2e-6, "load_offset": -3e-7}, 5.0)
     np.testing.assert_allclose(found.correlation, found.correlation.T, atol=1e-12)
+    np.testing.assert_allclose(np.diag(found.correlation), 1.0, rtol=1e-12)
     assert found.alike == ()
 
 

@@ -37,6 +37,7 @@ def test_the_zero_and_the_tilt_are_those_of_the_line(seed: int) -> None:
     assert abs(line.slope) < min(0.02, 4.5 * line.slope_deviation)
     assert line.ends == pytest.approx((0.0, -0.2), abs=0.12)
     assert abs(tilted.slope - 0.03) < min(0.01, 4.5 * tilted.slope_deviation)
+    assert tilted.slope_deviation == pytest.approx(line.slope_deviation, rel=0.2), "what is left is the noise"
     assert drifting.level == pytest.approx(0.32, abs=0.015)
     assert NOISE < drifting.spread < 0.04, "drift of the zero is a spread"
 
