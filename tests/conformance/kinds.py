@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gradhesion.core import OUTPUTS, Harmonic, Loading, Profile, solve
+from gradhesion.core import OUTPUTS, Loading, solve
 from gradhesion.core.problem.names import EDGE
-from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
+from tests.core.scene import pattern_of, profile_of
 
 from .theory import Waves, stiffness, stretch, wave_size
 
@@ -52,13 +52,15 @@ class Kind:
     @property
     def how(self) -> dict[str, Any]:
         """The arguments of `solve` and `draw_curves` beside the parameters."""
-        waves = tuple(Harmonic(n=n, cos=even, sin=odd) for n, even, odd in self.waves)
-        how: dict[str, Any] = {"profile": Profile(exponent=self.exponent, harmonics=waves)}
-        how["loading"] = Loading(control=self.control)
-        if self.pattern:
-            harmonics = tuple(ToughnessHarmonic(n=n, cos=even, sin=odd) for n, even, odd in self.pattern_waves)
-            how["toughness"] = Toughness(harmonics, of=self.pattern)
-        return how
+        pattern = {"toughness": pattern_of(self.pattern, *self.pattern_waves)} if self.pattern else {}
+        return {"profile": profile_of(self.exponent, *self.waves), "loading": Loading(control=self.control)} | pattern
+
+    @property
+    def shape(self) -> Any:
+        """The shape by which the twin knows it."""
+        from gradhesion.twin.general import Shape
+
+        return Shape(self.exponent, self.waves, self.control, self.pattern_waves, self.pattern or "toughness")
 
     @property
     def outputs(self) -> tuple[str, ...]:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core import PARAMETERS, solve
-from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
+from tests.core.scene import pattern_of
 
 from .kinds import DEPTH, LOAD, ONE, Kind, Scenes
 from .promises import SENSITIVITY, agree
@@ -72,7 +72,7 @@ def test_two_works_and_patterns(group: str, name: str) -> None:
     how: dict[str, Any] = {}
     for of, key in (("toughness", "toughness"), ("work", "works")):
         for n, even, odd, wavelength in given.get(key, ()):
-            how["toughness"] = Toughness((ToughnessHarmonic(n=n, cos=even, sin=odd),), of=of)
+            how["toughness"] = pattern_of(of, (n, even, odd))
             scene |= {"toughness_wavelength_over_R": wavelength, "toughness_amplitude": 1.0}
     kind = Kind("stored", float(given.get("m", 2.0)), waves, control, turn, "ratio" in given)
     values = {key: np.array([np.nan if value is None else float(value)]) for key, value in result.items()}

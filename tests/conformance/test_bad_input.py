@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core import OUTPUTS, Loading, draw_curves, solve
-from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
+from tests.core.scene import pattern_of
 
 from .kinds import COUNTS, DEPTH, KINDS, LOAD, Kind, drawn, for_kinds, some
 from .promises import NO_CONTACT, NO_VALUE, agree, has
@@ -30,16 +30,18 @@ OUT_OF_RANGE: dict[str, list[float]] = {
     "toughness_wavelength_over_R": [0.0, -1.0, NAN],
     "toughness_amplitude": [NAN, INF, 1e3],
 }
-PATTERN = Toughness((ToughnessHarmonic(n=1, sin=0.3),))
+PATTERN = pattern_of("toughness", (1, 0.0, 0.3))
 PERIOD, STIFFNESS = "toughness_wavelength_over_R", "machine_stiffness"
 LOADED, MACHINE = Loading(control="load"), Loading(control="machine")
 CONTRADICTORY: list[tuple[str, dict[str, Any], dict[str, Any]]] = [  # what the refusal names, keys, how to solve
+    *((name, {name: None}, {}) for name in SCENE),
     ("force", {}, {"outputs": ["force"]}),
     ("pull_off_force_error", {}, {"outputs": ["pull_off_force_error"]}),
     ("fast", {}, {"solver": "fast"}),
     (LOAD, {DEPTH: 0.1, LOAD: 0.1}, {}),
     (DEPTH, {DEPTH: 0.1}, {"solver": "asymptotic"}),
-    ("asymptotic", {}, {"solver": "asymptotic", "loading": LOADED}),
+    *((solver, {}, {"solver": solver, "loading": LOADED}) for solver in ("asymptotic", "envelope")),
+    *((solver, {STIFFNESS: 1.0}, {"solver": solver, "loading": MACHINE}) for solver in ("asymptotic", "envelope")),
     ("energy_residual", {}, {"solver": "asymptotic", "outputs": ["energy_residual"]}),
     ("asymptotic", {PERIOD: 0.1}, {"solver": "asymptotic", "toughness": PATTERN}),
     (STIFFNESS, {STIFFNESS: 1.0}, {}),
@@ -51,15 +53,11 @@ CONTRADICTORY: list[tuple[str, dict[str, Any], dict[str, Any]]] = [  # what the 
 
 
 @pytest.mark.parametrize(("name", "keys", "how"), CONTRADICTORY)
-def test_what_contradicts_itself_is_refused(name: str, keys: dict[str, Any], how: dict[str, Any]) -> None:
+def test_what_contradicts_itself_or_lacks_a_parameter_is_refused(
+    name: str, keys: dict[str, Any], how: dict[str, Any]
+) -> None:
     with pytest.raises(ValueError, match=name):
-        solve(SCENE | keys, **how)
-
-
-@pytest.mark.parametrize("name", SCENE)
-def test_what_lacks_a_parameter_is_refused(name: str) -> None:
-    with pytest.raises(ValueError, match=name):
-        solve({other: value for other, value in SCENE.items() if other != name})
+        solve({key: value for key, value in (SCENE | keys).items() if value is not None}, **how)
 
 
 @for_kinds(KINDS)
@@ -108,6 +106,7 @@ def test_what_is_no_number_or_does_not_fit_is_refused(change: Any) -> None:
 def test_a_depth_without_contact_has_nothing(kind: Kind) -> None:
     found = kind.solve(some(drawn(kind)[0], slice(4)) | {DEPTH: np.full(4, -0.01)})
     assert (found["status"].astype(int) == NO_CONTACT).all()
+    assert (found["status"].dtype, solve(SCENE)["status"].dtype) == (np.int16, np.int8)
     assert not np.any([found[name] for name in ("pull_off_force", "dissipated_energy", "turning_radius", *COUNTS)])
     assert np.isnan([found[name] for name in ("pull_off_radius", "delta_jump_out")]).all()
 

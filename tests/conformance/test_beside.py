@@ -1,9 +1,6 @@
 """A scene has the values that it has alone: beside any others, in any order, by any number of threads and blocks."""
 
-from dataclasses import replace
-
 import numpy as np
-import pytest
 
 from .kinds import KINDS, SCENES, Kind, drawn, for_kinds, one_of, rng_of, some
 from .promises import NO_VALUE, agree, has
@@ -65,16 +62,3 @@ def test_what_is_asked_for_changes_no_value(kind: Kind) -> None:
         asked = kind.solve(scenes, few)
         assert set(asked) == {*few, "status"}
         agree(kind, scenes, found | asked, found, few, where=where)
-
-
-@pytest.mark.parametrize("ratio", [0.0, 0.2, 0.97])
-@for_kinds(["cosine", "two harmonics", "sines, machine", "cosine, load"])
-def test_a_ratio_beside_1_and_0(kind: Kind, ratio: float) -> None:
-    """An array of ratios that holds 1 or 0 once gave every scene the values of its opening curve."""
-    closing = replace(kind, ratio=True)
-    scenes = drawn(kind)[0]
-    scenes = scenes | {"closing_ratio": np.full_like(scenes["k"], ratio)}
-    alone = closing.solve(scenes)
-    for other in (1.0, 0.0, 0.9):
-        both = closing.solve(scenes | {"closing_ratio": np.array([[ratio], [other]])})
-        agree(closing, scenes, some(both, 0), alone)

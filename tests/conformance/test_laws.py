@@ -4,16 +4,13 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-import pytest
 
-from gradhesion.core import FLAGS, draw_curves
+from gradhesion.core import draw_curves
 
 from .kinds import (
     COUNTS,
-    DEPTH,
     EXACT,
     KINDS,
-    LOAD,
     SCENES,
     Kind,
     Scenes,
@@ -25,16 +22,13 @@ from .kinds import (
     some,
 )
 from .promises import (
-    CLOSE,
     NO_VALUE,
     agree,
     depth_size,
     errors,
-    has,
     is_sure,
     load_size,
     phase_of,
-    turn_error,
     work_size,
 )
 from .theory import FORCE, Curve, stiffness
@@ -124,40 +118,6 @@ def test_a_turn_is_a_rim_where_it_turns(kind: Kind) -> None:
         np.testing.assert_array_equal(other[count], found[count])
 
 
-def reached_by_loading(kind: Kind, turn: str, rng: np.random.Generator) -> tuple[Any, Any, Any]:
-    """Numbers of scenes, radii on their drawn loading paths, and depths or loads there that were not met before."""
-    scenes, found = drawn(kind)
-    turns = []
-    for i in rng.permutation(np.flatnonzero((found["loading_jumps"] > 0) & (found["loading_jumps"] < 3000)))[:8]:
-        path, _ = draw_curves(one_of(scenes, i), ["path"], **kind.how)
-        loading = path["path_unloading"] == 0
-        a, on = path["path_contact_radius"][loading], path["path_jump"][loading] == 0
-        measured = path["path_indentation" if turn == DEPTH else "path_load"][loading]
-        before = np.maximum.accumulate(np.append(-np.inf, measured[:-1]))
-        first = np.flatnonzero(on & (measured > before + 1e-3 * np.ptp(measured)) & (measured > 0))
-        free = [j for j in first if 0 < j < a.size - 1 and on[j + 1] and 0 < a[j] < a[-1]]
-        turns += [(i, a[j], measured[j]) for j in rng.permutation(free)[:3].astype(int)]
-    index, radii, values = (np.array(column) for column in zip(*turns, strict=True))
-    return index, radii, values
-
-
-@for_kinds([kind for kind in EXACT if not kind.turn])
-@pytest.mark.parametrize("turn", [DEPTH, LOAD])
-def test_a_turn_at_what_loading_reaches_is_a_rim_there(kind: Kind, turn: str) -> None:
-    """Depths and loads are those of drawn paths, which are good to 1e-11 of their terms."""
-    index, radii, values = reached_by_loading(kind, turn, rng_of(f"reach {turn} {kind.name}"))
-    own, turned = some(drawn(kind)[0], index), replace(kind, turn=turn)
-    found = turned.solve(own | {turn: values})
-    free = ~has(found, CLOSE)  # where a path is steepest or a load highest is a drawn point, and a tie
-    own, found, radii = some(own, free), some(found, free), radii[free]
-    wide = own | {turn: values[free]}
-    assert radii.size >= 3
-    allowed = np.maximum(1e-9 * radii, 20 * turn_error(turned, wide, radii))
-    assert (np.abs(found["turning_radius"] - radii) <= allowed).all()
-    rim = kind.solve(own | {"a_max_over_R": found["turning_radius"]})
-    agree(turned, wide, rim, found, [name for name in kind.outputs if name != "contact_slope"])
-
-
 @for_kinds(EXACT)
 def test_no_drawn_state_pulls_harder_than_the_pull_off(kind: Kind) -> None:
     scenes, found = drawn(kind)
@@ -209,14 +169,3 @@ def has_the_area(kind: Kind, scene: Scenes, path: Any, energy: float) -> None:
     area = float(np.sum(0.5 * (load[1:] + load[:-1]) * np.diff(depth)))
     moved = np.hypot(np.diff(depth) / np.ptp(depth), np.diff(load) / np.ptp(load))
     assert abs(area - energy) <= 2e-4 * np.ptp(depth) * np.ptp(load) * moved.sum(), scene
-
-
-@for_kinds(["cosine", "sines, machine", "exponent 1.5"])
-def test_flags_of_the_rim(kind: Kind) -> None:
-    """pull_off_at_rim: the pull-off radius is the rim; jump_in_to_rim: full contact by one jump."""
-    scenes, found = drawn(kind)
-    at_rim, into = has(found, FLAGS["pull_off_at_rim"]), has(found, FLAGS["jump_in_to_rim"])
-    assert np.array_equal(at_rim, found["pull_off_radius"] >= scenes["a_max_over_R"] * (1 - 1e-9))
-    assert 0 < at_rim.sum() < at_rim.size
-    assert into.any()
-    assert (found["loading_jumps"][into] == 1).all()

@@ -1,17 +1,12 @@
 """Limits in which another theory, or another kind, has the same values."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
-import pytest
-
-from gradhesion.core import solve
-from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
 
 from .kinds import EXACT, Kind, Scenes, drawn, for_kinds
 from .promises import SHARE, agree, errors, work_size
-from .theory import stiffness, stretch, wave_size
+from .theory import stiffness, stretch
 
 EXPONENTS = np.array([0.0, 0.1, 0.37, 0.7, 0.96])
 SMOOTH: Scenes = {"k": EXPONENTS, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.07, "lambda_over_R": 0.1, "A": 0.0}
@@ -71,29 +66,6 @@ def test_a_soft_machine_prescribes_the_load(kind: Kind) -> None:
     agree(kind, scenes, soft, expected, ["pull_off_force", "loading_jumps", "unloading_jumps"])
     bound = work_size(kind, scenes, scenes["a_max_over_R"])
     assert (np.abs(soft["loading_energy"] - expected["loading_energy"]) <= 1e-8 * bound).all()
-
-
-def short(k: float, chi: float, ratio: float) -> Scenes:
-    """A scene of a given lambda/L and chi = r/s with its rim at 4 L, beyond the pull-off of every chi up to 0.5."""
-    nu = 0.5 if k == 1.0 else 0.3
-    M = float(stiffness(k, nu, 500.0, 0.07))
-    length = M ** (-1 / (3 + k))
-    A = chi * float(stretch(k, M) / wave_size(k, 1.0, ratio * length))
-    scene = SMOOTH | {"k": k, "nu": nu, "lambda_over_R": ratio * length, "A": A, "a_max_over_R": 4.0 * length}
-    return scene | {"mean": ratio * A / length}  # the mean height lambda A over L^2
-
-
-@pytest.mark.parametrize("k", [0.0, 0.31, 0.8])
-@pytest.mark.parametrize("ratio", [0.5, 0.1, 0.03])
-def test_the_pattern_that_has_the_load_of_short_waves(k: float, ratio: float) -> None:
-    """kappa = 1 - chi sin(2 pi r/lambda - (1 + k) pi/4) has exactly the load of the asymptotic form, section 16."""
-    chi, phase, scene = 0.4, (1 + k) * math.pi / 4, short(k, 0.4, ratio)
-    waves = (ToughnessHarmonic(n=1, cos=chi * math.sin(phase), sin=-chi * math.cos(phase)),)
-    tough = scene | {"A": 0.0, "toughness_wavelength_over_R": scene["lambda_over_R"]}
-    off = {"pull_off_force": 20 * SHARE, "pull_off_radius": 1e-6}
-    one, other = solve(scene, list(off), solver="asymptotic"), solve(tough, list(off), toughness=Toughness(waves))
-    for name, allowed in off.items():
-        assert float(one[name]) == pytest.approx(float(other[name]), rel=allowed)
 
 
 @for_kinds([kind for kind in EXACT if kind.ratio])

@@ -45,19 +45,28 @@ def bisected(kind: Kind, scenes: Scenes, name: str, output: str) -> list[Scenes]
 @pytest.mark.parametrize("at_1", [False, True])
 @for_kinds([kind for kind in EXACT if not kind.unbounded])
 def test_scenes_on_a_tie_are_close_to_a_jump(kind: Kind, at_1: bool) -> None:
-    """Counts, and the place of the pull-off, are promised without the bit: at two neighbouring doubles they may differ."""
-    scenes, tied = drawn(kind)[0], 0
+    """Counts, and the place of the pull-off, are promised without the bit: at two neighbouring doubles they may differ.
+
+    A billionth away most are free, and an error of 1e-12 changes no count of these.
+    """
+    scenes, tied, free = drawn(kind)[0], 0, 0
     scenes = some(scenes, np.flatnonzero((scenes["k"] == 1) == at_1)[: SCENES // 2])
     steps = (("A", COUNTS[0]), ("lambda_over_R", COUNTS[1]), ("lambda_over_R", "pull_off_radius"))
     for name, output in steps if scenes["k"].size else ():
-        for ends in bisected(kind, scenes, name, output):
+        for ends, off in zip(bisected(kind, scenes, name, output), (-1e-9, 1e-9), strict=True):
             if ends["A"].size:
                 on = has(kind.solve(ends, [output]), CLOSE)
                 assert on.all(), some(ends, ~on)
                 apart = has(kind.solve(ends | {name: ends[name] * (1 + 1e-6)}, [output]), CLOSE)
                 assert apart.mean() <= 0.1
+                steps_off = (off, off - 1e-12, off + 1e-12)
+                near, *moved = (kind.solve(ends | {name: ends[name] * (1 + step)}, [output]) for step in steps_off)
+                sure = ~has(near, CLOSE)
+                for other in moved if output in COUNTS else ():
+                    np.testing.assert_array_equal(other[output][sure], near[output][sure])
+                free += int(sure.sum())
                 tied += on.size
-    assert tied > 3 or at_1
+    assert (tied > 3 and free > 0.7 * tied) or at_1
 
 
 def least_gap(kind: Kind, scene: Scenes) -> float:

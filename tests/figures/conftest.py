@@ -16,10 +16,7 @@ if str(ROOT) not in sys.path:
     sys.path.append(str(ROOT))  # the scripts that draw are not installed
 
 SMALL = {
-    "fig4a": (
-        "k={ start = 0.0, stop = 0.98, num = 50 }",
-        "lambda_over_R={ start = 0.1, stop = 0.8, num = 29 }",
-    ),
+    "fig4a": ("k={ start = 0.0, stop = 0.98, num = 50 }", "lambda_over_R={ start = 0.1, stop = 0.8, num = 29 }"),
     "fig4b": ("lambda_over_R={ start = 0.1, stop = 0.8, num = 29 }",),
     "fig4c": ("lambda_over_R={ start = 0.1, stop = 0.8, num = 141 }",),
     "fig9": ("k={ start = 0.0, stop = 1.0, num = 16 }",),
@@ -29,17 +26,11 @@ SMALL = {
     "extra_error_bars": ("lambda_over_R={ start = 0.05, stop = 0.6, num = 41 }",),
     "extra_front": ("k=[0.0, 0.5]", "A={ start = 0.005, stop = 0.02 }"),
     "extra_rim": ("a_max_over_R={ start = 0.02, stop = 0.8, num = 40 }",),
-    "extra_energy_map": (
-        'lambda_over_R={ start = 0.0001, stop = 0.01, num = 5, spacing = "log" }',
-        "A={ start = 0.0, stop = 0.15, num = 4 }",
-    ),
+    "extra_energy_map": ('lambda_over_R={ start = 0.0001, stop = 0.01, num = 5, spacing = "log" }', "A={ start = 0.0, stop = 0.15, num = 4 }"),
     "extra_energy_amplitude": ("A={ start = 0.0, stop = 0.15, num = 7 }",),
-    "extra_roughness": (
-        "A=[0.0, 0.003, 0.006]",
-        "profile.spectrum={ hurst = 0.8, first = 1, last = 32, realisations = 30, seed = 1 }",
-    ),
+    "extra_roughness": ("A=[0.0, 0.003, 0.006]", "profile.spectrum={ hurst = 0.8, first = 1, last = 32, realisations = 30, seed = 1 }"),
     "extra_energy_wavelength": ('lambda_over_R={ start = 0.0001, stop = 0.01, num = 7, spacing = "log" }',),
-}
+}  # fmt: skip
 """Shorter axes for the studies that are maps, and fewer random profiles."""
 
 

@@ -73,11 +73,6 @@ def test_make_draws_every_picture_from_its_study_and_the_page_shows_it() -> None
     assert {path.stem for path in (ROOT / "docs" / "figures" / "paper").glob("*.png")} == set(PICTURES)
 
 
-@pytest.mark.parametrize("name", PICTURES)
-def test_the_page_on_the_paper_shows_every_picture(name: str) -> None:
-    assert f"(figures/paper/{name}.png)" in (ROOT / "docs" / "paper.md").read_text()
-
-
 @pytest.mark.parametrize(
     ("name", "file", "words"),
     [

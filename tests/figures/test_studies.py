@@ -17,7 +17,7 @@ from figures.fig8 import parts_of
 from figures.fig9 import fitted_curve
 from gradhesion.core import PARAMETERS, TURNS, solve
 from gradhesion.core.answers.flags import LINEAR_DEVIATION_OFF
-from gradhesion.core.equations import effective, energy, envelopes, hertz, jkr
+from gradhesion.core.equations import effective, energy, envelopes, jkr
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.status import LOADING_NOT_ONE_DISC, PULL_OFF_AT_RIM
 
@@ -49,14 +49,6 @@ def material(dataset: xarray.Dataset) -> float:
     return float(stiffness(*(dataset[name].item() for name in ("k", "nu", "modulus", "c0_over_R"))))
 
 
-def ratio(dataset: xarray.Dataset) -> float:
-    """The largest r/s of its scenes."""
-    k = np.atleast_1d(dataset["k"].values)
-    M = stiffness(k, *(dataset[name].item() for name in ("nu", "modulus", "c0_over_R")))
-    r = envelopes.waviness_strength(k, dataset["lambda_over_R"].values.max(), dataset["A"].values.max())
-    return float((r / envelopes.adhesion_strength(k, M)).max())
-
-
 @pytest.mark.parametrize("config", CONFIGS, ids=lambda path: path.stem)
 def test_nothing_is_to_be_reported_of_any_scene(config: Path, computed: Compute) -> None:
     status = computed(config.stem)["status"].values
@@ -71,21 +63,6 @@ def test_the_contact_of_every_curve_stays_one_disc(name: str, computed: Compute)
     dataset = computed(name)
     parameters = {key: dataset[key].values for key in (*PARAMETERS, *TURNS) if key in dataset.coords}
     assert not (solve(parameters, ["dissipated_energy"])["status"] & LOADING_NOT_ONE_DISC).any()
-
-
-@pytest.mark.parametrize("name", ["fig3", "fig7"])
-def test_every_jump_of_loading_leaves_one_disc(name: str, computed: Compute) -> None:
-    """The sufficient condition, delta_H(s) >= delta for all s outside the contact, at every fold of loading."""
-    of_path = computed(name)
-    radius, depth, jump, back = values(
-        of_path, *(f"path_{part}" for part in ("contact_radius", "indentation", "jump", "unloading"))
-    )
-    folds = np.flatnonzero((jump > 0.5) & (back < 0.5))[1:] - 1  # at the first the gap is the profile
-    assert folds.size >= 2
-    for fold in folds:
-        outside = np.linspace(radius[fold], 1.5 * radius.max(), 2001)[1:]
-        without = hertz.indentation(of_path["k"].item(), outside, of_path["lambda_over_R"].item(), of_path["A"].item())
-        assert np.min(without) > depth[fold]
 
 
 def test_fig1_shows_an_equilibrium_of_one_disc(computed: Compute) -> None:
@@ -117,18 +94,6 @@ def test_fig3_has_the_events_of_the_paper_and_the_loop_is_the_energy(computed: C
     assert depth[corners[6]] == depth.max() == pytest.approx(dataset["indentation_max_over_R"].item(), rel=1e-12)
 
 
-@pytest.mark.parametrize("name", ["fig3", "fig6", "fig7"])
-def test_turning_at_the_depth_of_a_rim_is_turning_at_the_rim(name: str, computed: Compute) -> None:
-    """The paper turns at delta_max: the same cycle as that of a punch with its rim where the depth is met."""
-    dataset = computed(name)
-    outputs = ["pull_off_force", "dissipated_energy", "loading_jumps", "unloading_jumps", "delta_max", "turning_radius"]
-    turned = solve(scene(dataset), outputs)
-    at_rim = {key: value for key, value in scene(dataset).items() if key not in TURNS}
-    rim = solve(at_rim | {"a_max_over_R": turned["turning_radius"]}, outputs)
-    for output in outputs:
-        assert float(rim[output]) == pytest.approx(float(turned[output]), rel=1e-12)
-
-
 def test_fig4a_the_best_exponent_depends_on_poissons_ratio(computed: Compute) -> None:
     dataset = computed("fig4a")
     greatest = dataset["pull_off_force"].max("lambda_over_R")
@@ -141,58 +106,25 @@ def test_fig4a_the_best_exponent_depends_on_poissons_ratio(computed: Compute) ->
     assert ((at & LOADING_NOT_ONE_DISC) > 0).all()
 
 
-def test_fig4b_the_force_grows_as_the_gradient_gets_shallow_and_its_depth_is_a_factor_of_the_modulus(
-    computed: Compute,
-) -> None:
-    force = computed("fig4b")["pull_off_force"]
-    greatest = force.max("lambda_over_R").values
-    assert (np.diff(greatest) < 0).all()
-    stiffer = computed("fig4b", f"modulus={500.0 * 1000.0**0.3!r}")["pull_off_force"]
-    np.testing.assert_allclose(stiffer.sel(c0_over_R=1.0), force.sel(c0_over_R=0.001), rtol=1e-11)
-
-
-def test_fig4c_a_rim_lowers_the_maximum_and_adds_none_here(computed: Compute) -> None:
+def test_fig4b_and_fig4c_the_force_grows_as_the_gradient_gets_shallow_and_with_the_rim(computed: Compute) -> None:
+    assert (np.diff(computed("fig4b")["pull_off_force"].max("lambda_over_R").values) < 0).all()
     whole = 'lambda_over_R={ start = 0.02, stop = 1.0, num = 600, spacing = "log" }'
-    force = computed("fig4c", whole)["pull_off_force"].transpose("a_max_over_R", "lambda_over_R")
-    greatest = force.max("lambda_over_R").values
-    assert (np.diff(greatest[:3]) > 0.5).all()
-    np.testing.assert_allclose(force.isel(a_max_over_R=3), force.isel(a_max_over_R=4), rtol=1e-13)
-    inner = force.values[:, 1:-1]
-    maxima = ((inner > force.values[:, :-2]) & (inner > force.values[:, 2:])).sum(axis=1)
+    force = computed("fig4c", whole)["pull_off_force"].transpose("a_max_over_R", "lambda_over_R").values
+    assert (np.diff(force.max(axis=1)[:3]) > 0.5).all()
+    np.testing.assert_allclose(force[3], force[4], rtol=1e-13)
+    maxima = ((force[:, 1:-1] > force[:, :-2]) & (force[:, 1:-1] > force[:, 2:])).sum(axis=1)
     assert maxima.tolist() == [9] * 5  # the paper has more local maxima with a rim: that depends on the scene
 
 
 def test_the_threshold_is_the_furthest_radius_of_the_pull_off(computed: Compute) -> None:
     dataset = computed("extra_rim")
-    force = dataset["pull_off_force"]
-    unbounded = {name: dataset[name].values for name in ("k", "nu", "modulus", "c0_over_R", "A")} | {
-        "a_max_over_R": math.inf
-    }
+    force, names = dataset["pull_off_force"], ("k", "nu", "modulus", "c0_over_R", "A")
+    endless = {name: dataset[name].values for name in names} | {"a_max_over_R": math.inf}
     wavelengths = np.geomspace(0.05, 1.0, 2000)
-    furthest = solve(unbounded | {"lambda_over_R": wavelengths}, ["pull_off_radius"])["pull_off_radius"].max()
-    assert furthest == pytest.approx(0.574, abs=5e-4)
+    furthest = solve(endless | {"lambda_over_R": wavelengths}, ["pull_off_radius"])["pull_off_radius"].max()
     step = float(force["a_max_over_R"][1] - force["a_max_over_R"][0])
-    assert (
-        -0.003 < threshold_of(force) - furthest < step
-    )  # 0.003: the wavelengths of the study are near the last one, not it
-    limit = solve(unbounded | {"lambda_over_R": force["lambda_over_R"].values}, ["pull_off_force"])["pull_off_force"]
-    np.testing.assert_allclose(force.isel(a_max_over_R=-1), limit, rtol=1e-13)
-
-
-def test_fig5_the_asymptotic_curve_is_off_by_a_few_per_cent_at_the_longest_wave_only(computed: Compute) -> None:
-    dataset = computed("fig5")
-    errors = []
-    for i in range(3):
-        one = dataset.isel(lambda_over_R=i)
-        radius, load = values(one, "contact_radius", "load")
-        other, asymptotic = values(one, "asymptotic_contact_radius", "asymptotic_load")
-        grid = np.linspace(0.1, 0.3, 400)
-        wave = envelopes.waviness_strength(one["k"], one["lambda_over_R"], one["A"])
-        swing = float(hertz.disc_stiffness(one["k"], material(one), 0.3) * wave * 0.3**0.45)
-        errors.append(np.max(np.abs(np.interp(grid, radius, load) - np.interp(grid, other, asymptotic))) / swing)
-    assert 0.02 < errors[0] < 0.2
-    assert errors[0] > 1.5 * errors[1] > 3 * errors[2]
-    assert dataset["lambda_over_R"].values.tolist() == [0.1, 0.05, 0.01]
+    # 0.003: the wavelengths of the study are near the last one, not it
+    assert -0.003 < threshold_of(force) - furthest < step
 
 
 def test_fig6_two_waves_are_not_bounded_by_their_envelopes(computed: Compute) -> None:
@@ -272,14 +204,6 @@ def test_the_energy_is_johnsons_without_waves_and_grows_with_them(name: str, com
         assert (lost.sel(solver="envelope").diff("lambda_over_R") > 0).all()
 
 
-def test_the_energy_of_short_waves_tends_to_that_of_the_envelopes(computed: Compute) -> None:
-    lost = computed("extra_energy_wavelength")["dissipated_energy"]
-    share = lost.sel(solver="exact") / lost.sel(solver="envelope")
-    assert (share < 1).all()
-    assert (share.isel(lambda_over_R=0) > 0.95).all()
-    assert (share.isel(lambda_over_R=0) > share.isel(lambda_over_R=-1)).all()
-
-
 def test_fig9_the_papers_fits_are_as_far_from_the_closed_form_as_the_study_says(computed: Compute) -> None:
     dataset = computed("fig9", "k={ start = 0.0, stop = 1.0, num = 11 }")
     closed = dataset["dissipated_energy"].sel(solver="envelope")
@@ -350,11 +274,7 @@ def test_a_front_ends_in_the_best_of_each(computed: Compute) -> None:
         assert np.nanmax(force) >= grid["pull_off_force"].max()
         assert np.nanmax(energy) >= grid["dissipated_energy"].max() * (1.0 - 1e-9)
         # points between those of the sweep may excel it, but by little
-        excelled = [
-            np.any((force >= 0.99 * one_force) & (energy >= 0.98 * one_energy))
-            for one_force, one_energy in zip(
-                grid["pull_off_force"].ravel(), grid["dissipated_energy"].ravel(), strict=True
-            )
-        ]
-        assert all(excelled)
+        others = {name: values.ravel()[:, None] for name, values in grid.items()}
+        near = (force >= 0.99 * others["pull_off_force"]) & (energy >= 0.98 * others["dissipated_energy"])
+        assert near.any(axis=1).all()
     assert bool((front["best_dissipated_energy"].max("pareto_point").diff("k") < 0.0).all()), "gradients cost energy"

@@ -162,9 +162,3 @@ def test_the_sources_that_a_page_names_exist() -> None:
     for page in PAGES:
         for named in re.findall(r"`([\w/]+\.py)\b", page.read_text(encoding="utf-8")):
             assert any(source.endswith(f"/{named}") for source in sources), f"{page.name}: {named}"
-
-
-def test_no_paragraph_ends_within_a_sentence() -> None:
-    for page in PAGES:
-        text = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
-        assert not re.search(r"^[^#|\n].*[\w-]\n\n[a-z]", text, flags=re.MULTILINE), page.name

@@ -27,41 +27,46 @@ TOPS = sorted({folder.split("/")[0] for folder in FOLDERS.values()})
 LEFT_OUT = ignore_patterns(".*", "__pycache__", "build", "dist", "outputs", "*.egg-info", "figures", "images")
 
 
-def _files() -> set[str]:
-    """List what belongs into a wheel; the folder api/ is the package itself, the others are its sub-packages."""
-    return {f"gradhesion/{name.removeprefix('api/')}" for name in _sources()}
+SOURCES = {
+    path.relative_to(ROOT).as_posix()
+    for top in TOPS
+    for path in (ROOT / top).rglob("*")
+    if path.is_file() and "__pycache__" not in path.parts
+}
+"""What belongs into a wheel, as it stands in the tree."""
 
 
-def _sources() -> set[str]:
-    """List the same as it stands in the tree."""
-    return {
-        path.relative_to(ROOT).as_posix()
-        for top in TOPS
-        for path in (ROOT / top).rglob("*")
-        if path.is_file() and "__pycache__" not in path.parts
-    }
+def call(*arguments: str | Path, cwd: Path, **environment: str) -> str:
+    """What Python prints in a folder."""
+    command, own = [sys.executable, *arguments], os.environ | environment
+    done = subprocess.run(command, cwd=cwd, env=own, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def install(wheel: Path, folder: Path) -> None:
+    call("-m", "pip", "install", "--quiet", "--no-deps", "--no-index", "--target", folder, wheel, cwd=folder.parent)
+
+
+def build(kind: str, tree: Path, folder: Path) -> None:
+    """Build from a copy: a build leaves folders behind."""
+    pytest.importorskip("setuptools", minversion="77")  # as pyproject.toml asks; the extra `test` has it
+    if not tree.exists():
+        copytree(ROOT, tree, ignore=LEFT_OUT)
+    call("-c", f"from setuptools import build_meta; build_meta.build_{kind}({str(folder)!r})", cwd=tree)
 
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Build the wheel and the source distribution, from a copy: a build leaves folders behind."""
-    pytest.importorskip("setuptools", minversion="77")  # as pyproject.toml asks; the extra `test` has it
+    """The wheel and the source distribution."""
     folder = tmp_path_factory.mktemp("built")
-    copytree(ROOT, folder / "tree", ignore=LEFT_OUT)
-    code = (
-        "from setuptools import build_meta as backend; "
-        f"backend.build_sdist({str(folder)!r}); backend.build_wheel({str(folder)!r})"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code], cwd=folder / "tree", capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0, done.stderr
+    for kind in ("sdist", "wheel"):
+        build(kind, folder / "tree", folder)
     return folder
 
 
 @pytest.fixture(scope="module")
 def wheel(built: Path) -> Path:
-    """The wheel."""
     (path,) = built.glob("*.whl")
     return path
 
@@ -70,7 +75,8 @@ def test_the_wheel_has_the_program_and_nothing_else(wheel: Path) -> None:
     with zipfile.ZipFile(wheel) as archive:
         names = {name for name in archive.namelist() if not name.endswith("/")}
     information = {name for name in names if ".dist-info/" in name}
-    assert names - information == _files()
+    # the folder api/ is the package itself, the others are its sub-packages
+    assert names - information == {f"gradhesion/{name.removeprefix('api/')}" for name in SOURCES}
     assert {name.rpartition("/")[2] for name in information} == {
         "LICENSE", "METADATA", "RECORD", "WHEEL", "entry_points.txt", "top_level.txt",
     }  # fmt: skip
@@ -81,7 +87,7 @@ def test_the_source_has_what_a_build_needs_and_no_outputs(built: Path) -> None:
     with tarfile.open(path) as archive:
         names = {member.name.partition("/")[2] for member in archive.getmembers() if member.isfile()}
     of_a_reader = {"README.md", "LICENSE", "CHANGELOG.md", "CITATION.cff"}
-    assert names >= _sources() | of_a_reader | {"pyproject.toml", "constraints.txt"}  # pip install -c constraints.txt .
+    assert names >= SOURCES | of_a_reader | {"pyproject.toml", "constraints.txt"}  # pip install -c constraints.txt .
     assert not [name for name in names if name.startswith(("outputs", "build", "."))]
 
 
@@ -122,51 +128,37 @@ def test_every_package_that_is_imported_is_declared() -> None:
 def test_the_installed_program_works_away_from_the_repository(wheel: Path, tmp_path: Path) -> None:
     installed, elsewhere = tmp_path / "installed", tmp_path / "elsewhere"
     elsewhere.mkdir()
-    pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index", "--target", installed, wheel]
-    subprocess.run(pip, check=True, capture_output=True)
+    install(wheel, installed)
     assert sorted(path.name for path in installed.iterdir() if path.suffix != ".dist-info") == ["bin", "gradhesion"]
 
-    def call(*arguments: str) -> str:
-        done = subprocess.run(
-            [sys.executable, *arguments],
-            cwd=elsewhere,
-            env=os.environ | {"PYTHONPATH": str(installed), "XDG_CACHE_HOME": str(tmp_path / "cache")},
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-        assert done.returncode == 0, done.stderr
-        return done.stdout
+    def there(*arguments: str) -> str:
+        cache = str(tmp_path / "cache")
+        return call(*arguments, cwd=elsewhere, PYTHONPATH=str(installed), XDG_CACHE_HOME=cache)
 
-    where = call(
+    where = there(
         "-c",
         "import gradhesion, gradhesion.cli, gradhesion.core, gradhesion.scenes as scenes; "
         "print(*(one.__file__ for one in (gradhesion, gradhesion.cli, gradhesion.core, scenes)))",
     )
     assert where.count(str(installed)) == 4
-    assert "run" in call("-m", "gradhesion.cli", "--help")
-    assert "run" in call("-m", "gradhesion", "--help")
-    call("-m", "gradhesion.cli", "init", "smoke")
+    for program in ("gradhesion.cli", "gradhesion"):
+        assert "run" in there("-m", program, "--help")
+    there("-m", "gradhesion.cli", "init", "smoke")
     sets = ["parameters.k=0.5", "parameters.A=0.0", 'outputs=["pull_off_force"]']
     sets.append('method={ solver = "envelope" }')  # which compiles little
-    call("-m", "gradhesion.cli", "run", "smoke.toml", "-o", "smoke.nc", *(f"--set={entry}" for entry in sets))
-    assert "1.166667" in call("-m", "gradhesion.cli", "info", "smoke.nc")  # (3 + k)/3
+    there("-m", "gradhesion.cli", "run", "smoke.toml", "-o", "smoke.nc", *(f"--set={entry}" for entry in sets))
+    assert "1.166667" in there("-m", "gradhesion.cli", "info", "smoke.nc")  # (3 + k)/3
     code = "import gradhesion as gr; print(gr.open('smoke.nc').gr.valid().all().item(), gr.load('smoke.toml').kind)"
-    assert call("-c", code).split() == ["True", "map"]
+    assert there("-c", code).split() == ["True", "map"]
 
 
 def test_an_editable_installation_has_the_same_package_and_sees_new_modules(tmp_path: Path) -> None:
-    pytest.importorskip("setuptools", minversion="77")
     tree, elsewhere, installed = tmp_path / "tree", tmp_path / "elsewhere", tmp_path / "installed"
-    copytree(ROOT, tree, ignore=LEFT_OUT)
-    elsewhere.mkdir()
-    installed.mkdir()
-    code = f"from setuptools import build_meta as backend; backend.build_editable({str(installed)!r})"
-    done = subprocess.run([sys.executable, "-c", code], cwd=tree, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
+    for folder in (elsewhere, installed):
+        folder.mkdir()
+    build("editable", tree, installed)
     (wheel,) = installed.glob("*.whl")
-    pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index", "--target", installed, wheel]
-    subprocess.run(pip, check=True, capture_output=True)
+    install(wheel, installed)
     (tree / "api" / "added.py").write_text('"""Added later."""\n')
     # -S, and other packages by their path alone: the editable installation of this very environment must not answer.
     code = (
@@ -175,10 +167,6 @@ def test_an_editable_installation_has_the_same_package_and_sees_new_modules(tmp_
         "print(gradhesion.__file__, gradhesion.added.__file__, gradhesion.core.problem.status.__file__, "
         "gradhesion.cli.study.study.__file__, gradhesion.configs.__file__, gradhesion.load.__module__)"
     )
-    done = subprocess.run(
-        [sys.executable, "-S", "-c", code], cwd=elsewhere, capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0, done.stderr
-    *files, module = done.stdout.split()
+    *files, module = call("-S", "-c", code, cwd=elsewhere).split()
     assert [Path(file).relative_to(tree).parts[0] for file in files] == ["api", "api", "core", "cli", "configs"]
     assert module == "gradhesion.studies"

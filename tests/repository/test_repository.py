@@ -2,22 +2,22 @@
 
 import doctest
 import importlib
-import json
-import math
+import inspect
 import pkgutil
 import re
 import subprocess
 import sys
+import sysconfig
 import tomllib
 from collections.abc import Callable
 from dataclasses import replace
+from importlib.machinery import PathFinder
 from pathlib import Path
 from typing import Any
 
 import click
 import numpy as np
 import pytest
-import xarray
 from click.testing import Result
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
@@ -27,6 +27,7 @@ import gradhesion.cli
 import gradhesion.core
 import gradhesion.twin
 from gradhesion.cli.main import cli
+from gradhesion.core.problem.inputs import INPUTS
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text()
@@ -90,65 +91,6 @@ def test_commands_import_only_what_they_need(tmp_path: Path) -> None:
         (["plot", file], compilers),
     ):
         assert loaded(arguments, names) == "[]", arguments
-
-
-PICTURED = ("fig", "extra_")  # tests/figures
-OF_FEATURES = ("closing", "cone", "crackfront", "dead_load", "fit_spring", "materials", "optimum", "rate", "reduced", "reduced_rim", "rings",
-               "sensitive_probe", "sensitivities", "series", "short_waves", "solvers", "specimens", "spring", "uncertain_probe")  # test_examples  # fmt: skip
-CONFIGS = sorted(
-    path
-    for path in (ROOT / "configs").glob("*.toml")
-    if not path.stem.startswith(PICTURED) and path.stem not in OF_FEATURES
-)
-MAPS = [
-    config
-    for config in CONFIGS
-    if tomllib.loads(config.read_text()).get("kind", "map") == "map"
-    and config.stem != "profile"  # it has no smooth scene
-]
-
-
-@pytest.mark.parametrize("config", MAPS, ids=lambda path: path.stem)
-def test_every_study_works_small_and_its_smooth_scenes_are_known(
-    config: Path, gradhesion: Callable[..., Result], tmp_path: Path
-) -> None:
-    small = {"parameters.k": "[0.0, 0.37]", "parameters.A": "[0.0, 0.01]"}
-    if config.stem == "points":
-        small = {"parameters.A": "0.0", "parameters.a_max_over_R": "inf"}
-    elif config.stem == "jkr":
-        small = {"physical.a_max": "inf"}
-    elif "physical" in tomllib.loads(config.read_text()):
-        small |= {"physical.wavelength": "['0.3 um']", "physical.R": "'1 um'", "physical.a_max": "[inf]"}
-    else:
-        small |= {"parameters.lambda_over_R": "[0.3]", "parameters.a_max_over_R": "[inf]"}
-    sets = [f"--set={name}={values}" for name, values in small.items()]
-    result = gradhesion("run", config, "-o", tmp_path / "small.nc", "--quiet", *sets)
-    assert result.exit_code == 0, result.stderr
-    with xarray.open_dataset(tmp_path / "small.nc") as dataset:
-        force = dataset["pull_off_force"]
-        smooth = force.sel(A=0.0) if "A" in force.dims else force
-        expected = (3 + dataset["k"]) / 3
-        assert float(abs(smooth / expected - 1).max()) <= 1e-13
-        assert set(dataset.data_vars) > {"pull_off_force", "dissipated_energy"}
-
-
-def test_the_curve_is_that_of_a_reference_scene(gradhesion: Callable[..., Result], tmp_path: Path) -> None:
-    config, output = ROOT / "configs" / "curve.toml", tmp_path / "curve.nc"
-    assert [path for path in CONFIGS if path not in MAPS and path.stem not in ("profile", "fit")] == [config]
-    assert gradhesion("run", config, "-o", output, "--quiet").exit_code == 0
-    parameters = tomllib.loads(config.read_text())["parameters"]
-    scenes = json.loads((ROOT / "tests" / "reference" / "scenes.json").read_text())["scenes"]
-    (expected,) = [scene["expected"] for scene in scenes if scene["parameters"] == parameters]
-    with xarray.open_dataset(output) as dataset:
-        for load in ("load", "path_load"):
-            assert math.isclose(-float(dataset[load].min()), expected["pull_off_force"], rel_tol=1e-14)
-        assert math.isclose(float(dataset["path_indentation"].max()), expected["delta_max"], rel_tol=1e-12)
-        jumps, unloading = dataset["path_jump"] == 1, dataset["path_unloading"] == 1
-        assert int((jumps & ~unloading).sum()) == expected["loading_jumps"]
-        assert int((jumps & unloading).sum()) == expected["unloading_jumps"]
-        starts = (dataset["stable"] == 1).astype(int).diff("point") == 1
-        assert int(starts.sum()) == 5
-    assert gradhesion("plot", output, "-o", tmp_path / "curve.svg").exit_code == 0
 
 
 def test_the_picture_of_the_readme_compares_like_with_like() -> None:
@@ -247,3 +189,34 @@ def test_make_alone_prints_the_targets() -> None:
     for target in ("docs", "maps", "test"):
         assert re.search(rf"^{target}\t", done.stdout, flags=re.MULTILINE)
         assert f"make {target}" in README
+
+
+def test_the_public_names_are_all_that_is_listed() -> None:
+    assert dir(gradhesion) == sorted(gradhesion.__all__)
+    assert not {"Any", "Final", "importlib", "sys"} & {*dir(gradhesion)}
+
+
+def test_every_parameter_is_a_keyword_that_editors_complete() -> None:
+    for call in (gradhesion.solve, gradhesion.curves):
+        assert INPUTS.keys() <= inspect.signature(call).parameters.keys()
+
+
+def test_both_ways_of_installing_show_the_sources_to_tools() -> None:
+    """A finder hook is all that an editable installation has: to mypy, pyright and jedi it says nothing."""
+    make = ["make", "--dry-run", "--always-make", ".venv/complete"]
+    done = subprocess.run(make, cwd=ROOT, capture_output=True, text=True, check=True)
+    lines = done.stdout.splitlines()
+    (place,) = [line for line in lines if "gradhesion.pth" in line]
+    assert str(ROOT / "build" / "types") in place
+    assert any(line.startswith("ln -s") and "api/__init__.py" in line for line in lines)
+
+
+def test_the_package_is_found_without_the_hook_of_an_editable_installation() -> None:
+    """As mypy and pyright look for it: in folders that `.pth` files name, and in site-packages itself."""
+    site = Path(sysconfig.get_path("purelib"))
+    named = [line for file in sorted(site.glob("*.pth")) for line in file.read_text().splitlines()]
+    folders = [str(site), *(line for line in named if not line.startswith("import"))]
+    found = PathFinder.find_spec("gradhesion", folders)
+    assert found is not None, "install anew: rm .venv/installed, and make"
+    assert found.origin is not None
+    assert Path(found.origin).with_name("py.typed").exists()

@@ -71,19 +71,11 @@ def eventful(seed: int, size: int, most_waves: float = math.inf) -> Scenes:
     """Draw the similarity groups around where folds are, on materials over all decades."""
     rng = np.random.default_rng([seed, 2])
     scenes = _materials(rng, size)
-    k = scenes["k"]
-    m = stiffness(k, scenes["nu"], scenes["modulus"], scenes["c0_over_R"])
-    unit = m ** (-1 / (3 + k))
-    wavelength = log_uniform(rng, 1e-4, 1e2, size) * unit
-    chi = log_uniform(rng, 1e-3, 30, size)
-    s = np.sqrt(2 ** (1 + k) * np.pi / m)
-    n = 0.5 * (1 + k)
-    gamma = np.array([math.gamma(value) for value in n])
-    scenes |= {
-        "lambda_over_R": wavelength,
-        "A": chi * s / (np.pi ** (1 - n) * gamma * wavelength**n),
-        "a_max_over_R": log_uniform(rng, 1e-2, 20, size) * unit,
-    }
+    ones = np.ones(size)
+    unit = groups(scenes | {"lambda_over_R": ones, "A": ones})["L"]
+    scenes["lambda_over_R"] = log_uniform(rng, 1e-4, 1e2, size) * unit
+    scenes["A"] = log_uniform(rng, 1e-3, 30, size) / groups(scenes | {"A": ones})["chi"]
+    scenes["a_max_over_R"] = log_uniform(rng, 1e-2, 20, size) * unit
     scenes["a_max_over_R"][rng.uniform(size=size) < 0.1] = math.inf
     return limited(scenes, most_waves)
 

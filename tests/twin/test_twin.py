@@ -1,21 +1,34 @@
-"""The twin against closed forms, a second quadrature, the reference scenes and its own stored values."""
+"""The twin against closed forms, a second quadrature, other programs, loop integrals and its own stored values."""
 
 import json
 import math
 from pathlib import Path
+from typing import Any
 
+import mpmath
+import numpy as np
 import pytest
 from flint import arb
 
-from gradhesion.twin import stated
-from gradhesion.twin.curve import Curve
+from gradhesion.twin import special, stated
 from gradhesion.twin.energy import dissipated, double_exponential, loop
+from gradhesion.twin.envelope import solve_envelope
+from gradhesion.twin.general import PLAIN, Shape
+from gradhesion.twin.general.integrals import Integral
+from gradhesion.twin.general.pattern import Pattern
+from gradhesion.twin.general.series import Series
 from gradhesion.twin.path import cycle
-from gradhesion.twin.scene import PARAMETERS, solve
-from gradhesion.twin.special import Sine, s0_series, s1_series, struve_expansion, theta
+from gradhesion.twin.scene import PARAMETERS, curve_of, solve, waves_to_follow
+from gradhesion.twin.special import Sine, s0_series, s1_series, struve_expansion
+from tests.core.scene import scene_of
+from tests.exact import envelope_loop, theta
+
+from .compare import general_scene
 
 HERE = Path(__file__).parent
-REFERENCE = HERE.parent / "reference" / "scenes.json"
+REFERENCE = {name: json.loads((HERE.parent / f"reference/{name}.json").read_text()) for name in ("scenes", "general")}
+CASES = [*(REFERENCE["scenes"]["scenes"][i] for i in (3, 8, 30, 33, 34, 44, 47)), *REFERENCE["general"]["scenes"]]
+"""Seven of one cosine, with k = 0.247, 0.109, 1, 0.999, 1e-6, 0.5, 1e-6, and 24 of any profile and control."""
 ULP = 2.0**-52
 
 
@@ -28,6 +41,19 @@ def stored() -> list[dict[str, object]]:
 def expected(value: arb, size: float) -> bool:
     """Whether a value is below 1e-40 of a size."""
     return bool(abs(value) < arb("1e-40") * size)
+
+
+@pytest.mark.parametrize("case", CASES, ids=range(len(CASES)))
+def test_reference(case: dict[str, Any]) -> None:
+    """To the last bits of doubles."""
+    given, shape = dict(case["parameters"]), PLAIN
+    if "harmonics" in given:
+        waves = tuple((wave["n"], wave["cos"], wave["sin"]) for wave in given.pop("harmonics"))
+        shape = Shape(given.pop("exponent"), waves, given.pop("control"))
+    solution = solve(given, shape)
+    for name in case["expected"].keys() - {"theta", "M"}:
+        value = case["expected"][name]
+        assert abs(float(getattr(solution, name)) - value) <= 2 * ULP * abs(value), name
 
 
 @pytest.mark.parametrize("z", ["0.013", "0.25", "3.3", "41.7", "260.2"])
@@ -46,33 +72,78 @@ def test_special_functions(z: str) -> None:
         assert abs(s1 - s1_integral) < 1e-28
 
 
+@pytest.mark.parametrize("k", [0.0, 0.37, 1.0])
+@pytest.mark.parametrize("y", [0.013, 0.25, 3.3, 41.7, 260.2])
+def test_the_cosine_integral_is_its_definition(k: float, y: float) -> None:
+    """T0 and its slope by quadrature, with t = 1 - u as in test_twin; k = 1 against elementary functions."""
+    exponent, z = arb(k), arb(y)
+    value, slope = Integral(exponent, sine=False).at(z)
+    if k == 1.0:
+        assert abs(value - z.sin() / z) < 1e-40
+        assert abs(slope - (z.cos() / z - z.sin() / z**2)) < 1e-40
+    elif y < 10:
+        rule = double_exponential()
+        weight = [(w * (u * (2 - u)) ** ((exponent - 1) / 2), 1 - u) for u, w in rule]
+        ends = 1e-12 if k > 0 else 1e-18  # the rule ends at u = 1e-40
+        assert abs(value - sum((w * (z * t).cos() for w, t in weight), arb(0))) < ends
+        assert abs(slope + sum((w * t * (z * t).sin() for w, t in weight), arb(0))) < ends
+
+
+def test_the_sum_over_waves_is_that_of_its_terms() -> None:
+    waves = ((2, 0.3, -0.2), (7, 0.0, 0.05), (9, -0.4, 0.0))
+    series = Series(0.41, waves)
+    sine, cosine = Integral(arb(0.41), sine=True), Integral(arb(0.41), sine=False)
+    for z in (arb(0), arb(0.02), arb(1) / 3, arb(17.03)):
+        w = v = arb(0)
+        for n, even, odd in waves:
+            (s, s1), (t, t1) = sine.at(n * z), cosine.at(n * z)
+            w += n * (even * s + odd * t)
+            v += n * (even * (s + n * z * s1) + odd * (t + n * z * t1))
+        assert abs(series.w(z) - w) < 1e-40
+        assert abs(series.v(z)[0] - v) < 1e-40
+    step = arb(2) ** -60
+    z = arb(5.5)
+    assert abs((series.v(z + step)[0] - series.v(z - step)[0]) / (2 * step) - series.v(z)[1]) < 1e-25
+    (s, _), (t, _) = sine.at(z), cosine.at(z)
+    alone = [Series(0.41, ((1, 1.0, 0.0),)).pair(z), Series(0.41, ((1, 0.0, 1.0),)).pair(z)]
+    assert abs(alone[0][0] - s) < 1e-40
+    assert abs(alone[1][0] - t) < 1e-40
+    assert abs((1 + arb(0.41)) * cosine.at(z)[1] + z * alone[1][1]) < 1e-40  # T0' = -z T1/(1+k)
+
+
 def test_theta() -> None:
     """Theta is 1 at k = 0 and continuous at k = 1, nu = 1/2."""
-    assert expected(theta(arb(0), arb("0.3")) - 1, 1)
-    assert abs(theta(arb(1), arb(1) / 2) - arb.pi()) < arb("1e-48")
-    assert abs(theta(1 - arb("1e-20"), arb(1) / 2) - arb.pi()) < arb("1e-18")
+    assert expected(special.theta(arb(0), arb("0.3")) - 1, 1)
+    assert abs(special.theta(arb(1), arb(1) / 2) - arb.pi()) < arb("1e-48")
+    assert abs(special.theta(1 - arb("1e-20"), arb(1) / 2) - arb.pi()) < arb("1e-18")
 
 
-@pytest.mark.parametrize("index", [3, 8, 30, 33, 34, 44, 47])
-def test_reference(index: int) -> None:
-    """Reference scenes to the last bits of their doubles; k = 0.247, 0.109, 1, 0.999, 1e-6, 0.5, 1e-6."""
-    scene = json.loads(REFERENCE.read_text(encoding="utf-8"))["scenes"][index]
-    solution = solve(scene["parameters"])
-    for name, value in scene["expected"].items():
-        if name in ("theta", "M"):
-            continue
-        assert abs(float(getattr(solution, name)) - value) <= 2 * ULP * abs(value), name
+def loop_scenes(group: str) -> list[tuple[dict[str, float], Shape]]:
+    """Eight scenes: stored ones, or of any kind with few waves and an end of their loops."""
+    if group != "general":
+        rows = [row for row in stored() if row["group"] == group][::20][:8]
+        return [({name: float(str(row[name])) for name in PARAMETERS}, PLAIN) for row in rows]
+    rng, made = np.random.default_rng(31), []
+    while len(made) < 8:
+        scene, shape = general_scene(rng, 3)
+        endless = shape.control == "load" or scene["a_max_over_R"] == math.inf
+        if not endless and waves_to_follow(scene, shape, cycle=True) <= 20:
+            made.append((scene, shape))
+    return made
 
 
-@pytest.mark.parametrize("group", ["random", "hard"])
-def test_loop_integral(group: str) -> None:
-    """The drops at the jumps sum to the loop integral, also where adhesion is weak and some are negative."""
-    for row in [r for r in stored() if r["group"] == group][::20][:8]:
-        curve = Curve({name: float(str(row[name])) for name in PARAMETERS})
+@pytest.mark.parametrize(("group", "error"), [("random", "1e-24"), ("hard", "1e-24"), ("general", "1e-30")])
+def test_loop_integral(group: str, error: str) -> None:
+    """The drops at the jumps sum to the loop integral, also where adhesion is weak and some are negative.
+
+    Of P over what is prescribed, a spring's other end too.
+    """
+    for scene, shape in loop_scenes(group):
+        curve = curve_of(scene, shape)
         path, _ = cycle(curve)
         drops = [dissipated(curve, jump) for jump in path.loading + path.unloading]
         size = float(sum((abs(drop) for drop in drops), arb(0)))
-        assert abs(sum(drops, arb(0)) - loop(curve, path)) < arb("1e-24") * size
+        assert abs(sum(drops, arb(0)) - loop(curve, path)) < arb(error) * size
 
 
 def test_stored_values() -> None:
@@ -100,7 +171,7 @@ def test_smooth_punch_of_any_wavelength(k: float, nu: float) -> None:
     for wavelength, rim in ((1e-12, math.inf), (1e6, 1e9), (0.3, 3e-9)):
         scene = dict(zip(PARAMETERS, (k, nu, 1e9, 1e-7, wavelength, 0.0, rim), strict=True))
         solution = solve(scene)
-        curve = Curve(scene)
+        curve = curve_of(scene)
         s, x = curve.adhesion, arb(k)
         q, first = (1 - x) / 4, ((1 + x) * curve.adhesion) ** (2 / (3 + x))
         if rim > first:
@@ -117,6 +188,35 @@ def test_smooth_punch_of_any_wavelength(k: float, nu: float) -> None:
             assert float(solution.pull_off_radius) == rim
 
 
+@pytest.mark.parametrize("of", ["toughness", "work"])
+def test_slopes_of_kappa_are_those_of_differences(of: str) -> None:
+    lengths = {"toughness_wavelength_over_R": 0.13, "toughness_amplitude": 0.9}
+    pattern = Pattern(lengths, Shape(pattern=((1, 0.2, -0.1), (3, 0.05, 0.1)), pattern_of=of))
+    a, step = arb(0.37), arb(2) ** -40
+    (low, below, _), (kappa, first, second), (high, above, _) = (
+        pattern.at(a * (1 + sign * step)) for sign in (-1, 0, 1)
+    )
+    assert float((high - low) / (2 * step)) == pytest.approx(float(first), rel=1e-10)
+    assert float((above - below) / (2 * step)) == pytest.approx(float(second), rel=1e-10)
+    assert abs(float(kappa)) <= pattern.greatest
+
+
+@pytest.mark.parametrize(
+    ("k", "chi", "reach"),
+    [(0.31, 0.0625, 0.21), (0.31, 0.75, 0.9), (0.31, 1.625, 3.3), *((k, 0.75, 3.3) for k in (0.0, 0.31, 0.875))],
+)
+def test_the_energy_of_the_envelopes_is_the_loop_integral(k: float, chi: float, reach: float) -> None:
+    scene = {"k": k, "nu": 0.5, "modulus": 7.0, "c0_over_R": 1.0, "lambda_over_R": 1e-3}
+    with mpmath.workdps(30):
+        n, M = (1 + mpmath.mpf(k)) / 2, 7 * theta(k, 0.5)
+        s = mpmath.sqrt(2 ** (2 * n) * mpmath.pi / M)
+        wave = mpmath.pi ** (1 - n) * mpmath.gamma(n) * mpmath.mpf(1e-3) ** n
+        scene |= {"A": float(chi * s / wave), "a_max_over_R": reach * float(M) ** (-1 / (3 + k))}
+        r = scene["A"] * wave
+        energy = mpmath.mpf(float(solve_envelope(scene).dissipated_energy))
+        assert abs(energy / envelope_loop(k, M, 2, r, r, scene["a_max_over_R"]) - 1) < 1e-14
+
+
 def test_what_is_solved_does_not_depend_on_the_outputs() -> None:
     """The pull-off alone is that of the whole scene, and each output comes with an error in proportion to its size."""
     scene = {name: float(str(stored()[5][name])) for name in PARAMETERS}
@@ -131,9 +231,16 @@ def test_what_is_solved_does_not_depend_on_the_outputs() -> None:
     assert stated.deviation(math.inf, stated.Expected(arb("inf"), 0.0)) == 0.0
 
 
-def test_scenes_of_too_many_waves_are_out_of_reach() -> None:
-    """A bound on the time: 1,000 waves."""
-    scene = dict(zip(PARAMETERS, (0.3, 0.3, 500.0, 0.01, 1e-3, 0.2, 0.9), strict=True))
-    assert stated.within_reach(scene, ["dissipated_energy"], "exact")
-    assert not stated.within_reach(scene | {"lambda_over_R": 5e-4}, ["dissipated_energy"], "exact")
-    assert stated.within_reach(scene | {"lambda_over_R": 5e-4}, ["dissipated_energy"], "envelope")
+def test_what_is_out_of_reach_is_told() -> None:
+    """1,000 waves are a bound on the time; the waves of an endless cone never cease to fold, but its pull-off has a value."""
+    scene = scene_of(0.3, 0.3, 500.0, 0.01, 1e-3, 0.2, 0.9)
+    long, energy = scene | {"lambda_over_R": 5e-4}, ["dissipated_energy"]
+    assert stated.within_reach(scene, energy, "exact")
+    assert not stated.within_reach(long, energy, "exact")
+    assert stated.within_reach(long, energy, "envelope")
+    endless, cone = scene_of(0.3, 0.2, 100.0, 0.1, 0.1, 0.1, math.inf), Shape(1.0, ((1, 1.0, 0.0),))
+    with pytest.raises(ArithmeticError, match="no end"):
+        solve(endless, cone)
+    assert not stated.within_reach(endless, energy, "exact", cone)
+    assert stated.within_reach(endless, ["pull_off_force"], "exact", cone)
+    assert stated.expected(endless, ["pull_off_force"], "exact", cone)["pull_off_force"].value > 0

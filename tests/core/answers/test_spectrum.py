@@ -5,10 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from gradhesion.core import Profile, solve
+from gradhesion.core import Profile
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
-from gradhesion.core.problem.profile import swings
-from tests.core.scene import scene_of_ratio
 
 EPS = np.finfo(float).eps
 ROUGH = {"hurst": 0.7, "first": 2, "last": 41, "realisations": 400, "seed": 11}
@@ -52,42 +50,6 @@ def test_phases_are_uniform_and_independent() -> None:
     neighbours = (phases[:, 1:] - phases[:, :-1], phases[1:] - phases[:-1])
     for sample in (phases, 2 * phases, *neighbours):
         assert abs(np.mean(np.exp(1j * sample))) < 4.0 / math.sqrt(sample.size)
-
-
-@pytest.mark.parametrize(("hurst", "k"), [(0.0, 0.0), (0.8, 0.0), (0.3, 0.5)])
-def test_the_strength_of_the_envelope_tends_to_that_of_a_gaussian_line(hurst: float, k: float) -> None:
-    """The median of the largest zeta by Rice (1944): sqrt(2 m0 ln(N/ln 2)), N upcrossings of zero a period."""
-    ratios = []
-    for last in (6, 64):
-        spectrum = Spectrum(hurst=hurst, first=1, last=last, realisations=300, seed=5)
-        profiles = [random_profile(spectrum, number) for number in range(300)]
-        rows = [tuple((float(wave.n), wave.cos, wave.sin) for wave in profile.harmonics) for profile in profiles]
-        n, cos, sin = waves(profiles[0])
-        powers = n ** (1.0 - k) * (cos**2 + sin**2) / 2.0
-        upcrossings = math.sqrt((n**2 * powers).sum() / powers.sum())
-        rice = math.sqrt(2.0 * powers.sum() * math.log(upcrossings / math.log(2.0)))
-        ratios.append(float(np.median([swings(k, row)[1] for row in rows])) / rice)
-    few, many = ratios
-    assert many == pytest.approx(1.0, abs=0.03), "the median of 300 is off by 0.01"
-    assert abs(many - 1.0) < 0.5 * abs(few - 1.0)
-
-
-@pytest.mark.slow
-def test_of_one_wave_the_spread_of_the_force_falls_with_the_wavelength() -> None:
-    """Its phase alone is random, and far from the centre a phase has no effect: F tends to (1 + chi)^2."""
-    spectrum, chi, spreads, offs = Spectrum(hurst=0.5, first=1, last=1, realisations=6, seed=2), 0.3, [], []
-    for wavelength in (0.05, 0.005, 0.0005):
-        # an rms height of 1 is an amplitude of sqrt(2)
-        scene = scene_of_ratio(0.0, 500.0, wavelength, chi / math.sqrt(2.0), np.inf)
-        forces = [
-            float(solve(scene, ["pull_off_force"], profile=random_profile(spectrum, number))["pull_off_force"])
-            for number in range(6)
-        ]
-        spreads.append(float(np.ptp(forces)))
-        offs.append(abs(float(np.mean(forces)) / (1.0 + chi) ** 2 - 1.0))
-    assert spreads[0] > 4 * spreads[1] > 16 * spreads[2] > 0.0
-    assert offs[2] < offs[1] < offs[0]
-    assert offs[2] < 0.01
 
 
 WRONG = ({"hurst": -0.1}, {"hurst": 1.1}, {"first": 0}, {"last": 1}, {"last": 66}, {"last": 10_001, "first": 10_000})

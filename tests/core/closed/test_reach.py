@@ -7,9 +7,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core import Loading, Profile, draw_curves, solve
-from gradhesion.core.closed.reach import depends_on_contact
-from gradhesion.core.problem.status import NO_CONTACT
-from tests.core.scene import ENDLESS, profile_of, scene_of
+from tests.core.scene import profile_of, scene_of
 
 SCENE = scene_of(0.3, 0.3, 30.0, 0.1, 0.2, 0.05, math.inf)
 SERIES = profile_of(1.7, (1, 1.0, 0.0), (3, 0.0, 0.2))
@@ -76,22 +74,3 @@ def test_of_the_force_alone_it_is_that_at_pull_off(solver: str) -> None:
     assert slope(SCENE, ["pull_off_force", "loading_jumps"]) > found["contact_slope"][-1]
     if solver == "envelope":
         assert slope(SCENE, ["dissipated_energy"], solver=solver, profile=SERIES) == math.inf, "waves have no end"
-
-
-def test_a_depth_below_first_contact_is_said() -> None:
-    depths = np.array([-10.0, -1e-3, 0.05])
-    for profile in (Profile(), SERIES):
-        found = solve(SCENE | {"indentation_max_over_R": depths}, [*ENERGY, "turning_radius"], profile=profile)
-        away = found["turning_radius"] == 0.0
-        assert away.tolist() == [True, away[1], False]
-        np.testing.assert_array_equal((found["status"] & NO_CONTACT) != 0, away)
-        for name in ENERGY:
-            np.testing.assert_array_equal(found[name][away], 0.0)
-    assert found["status"].dtype == np.int16
-    assert solve(SCENE | {"load_max": 1.0})["status"].dtype == solve(SCENE)["status"].dtype == np.int8
-
-
-def test_what_depends_on_no_radius() -> None:
-    assert not depends_on_contact(["wave_slope", "johnson_alpha", "roughness_parameter"])
-    assert depends_on_contact(["saturation_radius"])
-    assert np.isnan(slope(SCENE | ENDLESS | {"A": -1.0}, ["dissipated_energy"]))

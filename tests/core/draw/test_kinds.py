@@ -9,7 +9,6 @@ import pytest
 
 from gradhesion.core import Loading, draw_curves, solve
 from gradhesion.core.problem.status import NO_VALUE
-from tests.core.draw.printed import chord_error, curve_of
 from tests.core.scene import ENDLESS, pattern_of, profile_of, scene_of
 
 EPS = float(np.finfo(float).eps)
@@ -18,12 +17,6 @@ ROUGH = profile_of(1.5, (1, 1.0, 0.3), (3, 0.2, -0.1))
 PATTERN = pattern_of("toughness", (1, 0.2, 0.1), (3, 0.0, 0.1))
 BY_LOAD, BY_MACHINE = Loading(control="load"), Loading(control="machine")
 SPRINGS: dict[str, dict[str, float]] = {"displacement": {}, "load": {}, "machine": {"machine_stiffness": 2.0}}
-
-
-def _path(control: str, **more: float) -> dict[str, Any]:
-    drawn, status = draw_curves(SCENE | more, ["path"], ROUGH, Loading(control=control))
-    assert status & NO_VALUE == 0
-    return {name.removeprefix("path_"): values for name, values in drawn.items()}
 
 
 @pytest.mark.parametrize("rim", [0.5, math.inf])
@@ -61,25 +54,10 @@ def test_the_smooth_punch_of_any_power_is_the_closed_form(exponent: float) -> No
     assert set(smooth["smooth_indentation"] > 0.0) == {True, False}
 
 
-def test_the_path_of_a_machine_keeps_the_contract_and_turns_where_a_jump_over_a_depth_lands() -> None:
-    path, scene = _path("machine", **SPRINGS["machine"]), SCENE | {"machine_stiffness": 0.1}
-    along = (path["jump"] == 0) & (np.diff(path["branch"], prepend=0) == 0)
-    along &= np.diff(path["contact_radius"], prepend=0.0) != 0.0
-    points = [path[name] for name in ("contact_radius", "indentation", "load")]
-    assert chord_error(curve_of(SCENE, ROUGH), points, along) <= 2e-4
-    assert path["jump"].size < 1000
-    path = _path("machine", machine_stiffness=0.1)
-    after = int(np.flatnonzero((path["jump"] == 1) & (path["unloading"] == 0))[2])
-    assert path["indentation"][after] > path["indentation"][after - 1]
-    scene["indentation_max_over_R"] = float(path["indentation"][after - 1 : after + 1].mean())
-    found, _ = draw_curves(scene, ["jumps", "path"], ROUGH, BY_MACHINE)
-    assert found["path_contact_radius"].max() == pytest.approx(float(path["contact_radius"][after]), rel=1e-9)
-    assert found["jump_radius_after"].max() == found["path_contact_radius"].max()
-    assert not found["jump_at_rim"].any(), "which is no rim"
-
-
 def test_under_a_load_the_punch_falls_where_it_lets_go() -> None:
-    path = _path("load")
+    drawn, status = draw_curves(SCENE, ["path"], ROUGH, BY_LOAD)
+    assert status & NO_VALUE == 0
+    path = {name.removeprefix("path_"): values for name, values in drawn.items()}
     assert path["contact_radius"][-1] == 0.0
     assert path["jump"][-1] == path["unloading"][-1] == 1
     assert path["load"][-1] == path["load"][-2] == path["load"].min() < 0.0
@@ -99,39 +77,30 @@ def test_the_closing_curve_is_that_of_a_punch_of_that_work() -> None:
     assert np.array_equal(found["load"], opening["load"])
 
 
-def _effective(drawn: dict[str, Any], *, unloading: bool) -> tuple[Any, Any]:
-    """Radii and loads of one way of the effective path, by rising radii, without its jumps and ends."""
-    radius, load = drawn["effective_contact_radius"], drawn["effective_load"]
-    if unloading:
-        last = radius.size - int(np.argmax(radius[::-1]))
-        return radius[last:][::-1], load[last:][::-1]
-    on = (np.arange(radius.size) <= int(np.argmax(radius))) & (drawn["effective_jump"] == 0)
-    return radius[on][2:], load[on][2:]
-
-
 def test_envelopes_and_the_effective_path_close_at_the_work_of_closing() -> None:
-    found, _ = draw_curves(WORKS | {"closing_ratio": 0.49}, ["envelope", "effective"])
-    closing, _ = draw_curves(WORKS | {"modulus": 500.0 / 0.49}, ["effective"])
-    opening, _ = draw_curves(WORKS, ["effective"])
+    """Loading is that of a punch of the work of closing, and unloading that of one of the work of opening."""
+
+    def on_the_way(modulus: float, unloading: bool, **more: float) -> tuple[Any, Any]:
+        """Radii and loads of one way of the effective path, by rising radii, without its jumps and ends."""
+        drawn, _ = draw_curves(WORKS | {"modulus": modulus} | more, ["effective"])
+        radius, load = drawn["effective_contact_radius"], drawn["effective_load"]
+        if unloading:
+            last = radius.size - int(np.argmax(radius[::-1]))
+            return radius[last:][::-1], load[last:][::-1]
+        on = (np.arange(radius.size) <= int(np.argmax(radius))) & (drawn["effective_jump"] == 0)
+        return radius[on][2:], load[on][2:]
+
+    found, _ = draw_curves(WORKS | {"closing_ratio": 0.49}, ["envelope"])
     radii, loads = found["envelope_contact_radius"], found["loading_envelope_load"]
-    for drawn, factor in ((closing, 0.49), (found, 1.0)):
-        a, load = _effective(drawn, unloading=False)
-        assert a.size > 10
-        np.testing.assert_allclose(factor * load, np.interp(a, radii, loads), atol=1e-3 * np.ptp(loads))
-    a, load = _effective(found, unloading=True)
-    other = np.interp(a, *_effective(opening, unloading=True))
-    np.testing.assert_allclose(load, other, atol=1e-3 * np.ptp(loads))
-
-
-def test_at_ratio_1_both_curves_are_one() -> None:
-    scene = WORKS | ENDLESS | {"indentation_max_over_R": 0.05}
-    curves = ["path", "equilibrium", "jumps", "envelope"]
-    plain, flags = draw_curves(scene, curves)
-    one, own = draw_curves(scene | {"closing_ratio": 1.0}, [*curves, "closing_equilibrium"])
-    assert flags == own
-    for name, values in plain.items():
-        assert np.array_equal(one[name], values)
-    assert np.array_equal(one["closing_load"], one["load"])
+    allowed = 1e-3 * np.ptp(loads)
+    for factor, way in (
+        (0.49, on_the_way(500.0 / 0.49, unloading=False)),
+        (1.0, on_the_way(500.0, unloading=False, closing_ratio=0.49)),
+    ):
+        assert way[0].size > 10
+        np.testing.assert_allclose(factor * way[1], np.interp(way[0], radii, loads), atol=allowed)
+    a, load = on_the_way(500.0, unloading=True, closing_ratio=0.49)
+    np.testing.assert_allclose(load, np.interp(a, *on_the_way(500.0, unloading=True)), atol=allowed)
 
 
 LENGTH = {"toughness_wavelength_over_R": 0.1}

@@ -7,7 +7,7 @@ import pytest
 
 from gradhesion.core import Profile, draw_curves, solve
 from gradhesion.core.draw import states
-from gradhesion.core.equations import general, jkr
+from gradhesion.core.equations import general, quadrature
 from tests.core.scene import ENDLESS, material_of, profile_of, scene_of
 
 SCENE = scene_of(0.1, 0.3, 500.0, 0.01, 0.2, 0.055, 0.45)
@@ -39,19 +39,15 @@ def test_absent_states_are_nan() -> None:
 
 
 @pytest.mark.parametrize("profile", [Profile(), profile_of(1.7, (1, 1.0, 0.0), (3, 0.0, 0.2))])
-def test_the_pressure_carries_the_load(profile: Profile) -> None:
+def test_the_pressure_is_that_of_the_equation_up_to_the_edge(profile: Profile) -> None:
     given = states.equilibrium_states(SCENE, [0.11, 0.31], profile)
     found = states.draw_states(SCENE, given, ["pressure"], profile)
     M, wave = material_of(SCENE), (0.2, *states.series_of(0.055, profile), profile.exponent)
-    for (a, _), r, p in zip(given.T, found["pressure_radius"], found["pressure"], strict=True):
-        # with X = a^2 - r^2, int r p dr = int p X^0.45 d(X^0.55)/1.1 has no singular end; at X = 0 the flat punch is left
-        edge = float(jkr.adhesive_depth(0.1, M, a))
-        span = np.append(a * a - r * r, 0.0)
-        smooth = np.append(p * span[:-1] ** 0.45, -(2.0**-0.1) * M / math.pi * edge)
-        total = 2 * math.pi / 1.1 * float(np.sum(0.5 * (smooth[1:] + smooth[:-1]) * -np.diff(span**0.55)))
-        load = 1.5 * math.pi * float(general.load(0.1, M, a, *wave))
-        disc = 2**0.9 * M / 1.1 * a**1.1 * edge
-        assert total == pytest.approx(load, abs=1e-3 * disc)
+    for (a, depth), r, p in zip(given.T, found["pressure_radius"], found["pressure"], strict=True):
+        assert depth == pytest.approx(float(general.indentation(0.1, M, a, *wave)), rel=1e-12)
+        assert 0.0 <= r[0] < r[-1] < a
+        inside = r > 0.0
+        np.testing.assert_allclose(p[inside], quadrature.pressure(0.1, M, r[inside], a, depth, *wave), rtol=1e-9)
 
 
 def test_the_surface_lies_on_the_punch_and_opens_from_it() -> None:

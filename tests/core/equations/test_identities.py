@@ -149,18 +149,6 @@ def test_largest_amplitude_of_a_rising_profile() -> None:
         assert not general.is_monotonic(wavelength, np.nextafter(limit, 1.0))
 
 
-def test_coefficients_are_the_integrals() -> None:
-    cosines, sines = general.coefficients(lambda xi: np.exp(np.sin(2 * PI * xi)) * np.cos(2 * PI * xi), 5)
-    with mpmath.workdps(20):
-        for n in range(1, 6):
-            for found, wave in ((cosines, mpmath.cos), (sines, mpmath.sin)):
-                exact = mpmath.quad(
-                    lambda x, n=n, wave=wave: mpmath.exp(mpmath.sin(x)) * mpmath.cos(x) * wave(n * x),
-                    mpmath.linspace(-mpmath.pi, mpmath.pi, 9),
-                )
-                assert found[n - 1] == pytest.approx(float(exact / mpmath.pi), abs=1e-14)
-
-
 @pytest.mark.parametrize(
     ("call", "message"),
     [

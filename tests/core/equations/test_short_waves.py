@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 from gradhesion.core import solve
-from gradhesion.core.equations import effective, envelopes, general, hertz, jkr, short_waves
+from gradhesion.core.equations import effective, envelopes, general, jkr, short_waves
 from gradhesion.core.problem.material import stiffness
 from tests.exact import envelope_loop
 
@@ -71,14 +71,6 @@ def test_zeta_is_weyls_fractional_derivative(k: float) -> None:
     def slope(x: mpmath.mpf) -> mpmath.mpf:  # of f2 - a0/2, over x = 2 pi xi
         return -COSINES[0] * mpmath.sin(x) - 2 * COSINES[1] * mpmath.sin(2 * x) + SINES[0] * mpmath.cos(x)
 
-    def integral(x: mpmath.mpf) -> mpmath.mpf:  # of the order be, as (B13) has it
-        half, total = mpmath.pi * be / 2, mpmath.mpf(0)
-        for n, a_n, b_n in general.harmonics(COSINES, SINES[:1]):
-            c, s = mpmath.cos(n * x), mpmath.sin(n * x)
-            wave = mpmath.cos(half) * (a_n * c + b_n * s) + mpmath.sin(half) * (a_n * s - b_n * c)
-            total += mpmath.mpf(n) ** -be * wave
-        return total
-
     with mpmath.workdps(15):
         turn = 2 * mpmath.pi
         for xi in (0.13, 3.7):
@@ -91,9 +83,6 @@ def test_zeta_is_weyls_fractional_derivative(k: float) -> None:
             exact = turn * mpmath.quad(integrand, mpmath.linspace(0, 1, 5)) / mpmath.gamma(be)  # of xi, not of x
             found = float(short_waves.zeta(k, xi, COSINES, SINES[:1]))
             assert found == pytest.approx(float(exact), abs=1e-12)
-            step = mpmath.mpf("1e-5")  # (B12) by a central difference
-            slope_of = turn**al * (integral(x + step) - integral(x - step)) / (2 * step)
-            assert found == pytest.approx(float(slope_of), abs=1e-9)
 
 
 # ---- the envelopes
@@ -153,20 +142,12 @@ def test_envelopes_of_any_power(k: float, m: float) -> None:
     _, fold = envelopes.power_radii(k, s + r, m)
     near = envelopes.indentation(k, float(fold) * np.array([1 - 1e-4, 1.0, 1 + 1e-4]), s + r, 0.0, m)
     assert fold == 0.0 if k == 1.0 else near[1] < min(near[0], near[2])
+    if m == 2.0:
+        assert effective.jump_in_radius(k, s, r) == pytest.approx(float(touch), rel=8 * EPS)
+        assert effective.jump_out_radius(k, s, r) == pytest.approx(float(fold), rel=8 * EPS)
 
 
 # ---- the effective path
-
-
-@pytest.mark.parametrize("k", EXPONENTS)
-def test_corners_of_the_effective_path(k: float) -> None:
-    s, r = strengths(k)
-    start, end = effective.jump_in_radius(k, s, r), float(effective.jump_out_radius(k, s, r))
-    assert envelopes.indentation(k, start, s - r) == pytest.approx(0.0, abs=8 * EPS * s)
-    assert envelopes.indentation(k, 1.01 * start, s - r) > 0.0
-    around = envelopes.indentation(k, end * np.array([0.99, 1.0, 1.01]), s + r)
-    assert k == 1.0 or around[1] < min(around[0], around[2])
-    assert abs(around[2] - around[0]) <= 0.05 * (around[2] - around[1])
 
 
 @pytest.mark.parametrize("k", EXPONENTS)
@@ -192,23 +173,6 @@ def test_early_unloading_joins_the_envelopes(k: float, m: float) -> None:
     assert effective.drop(k, a, WAVELENGTH, [-AMPLITUDE]) == pytest.approx(one, rel=1e-13)
     assert one == pytest.approx(2 * float(r) * a ** (0.5 * (1 - k)), rel=1e-13)
     assert effective.drop(k, a, WAVELENGTH, [0.0]) == 0.0
-
-
-@pytest.mark.parametrize("k", [0.0, 0.41, 0.9])
-def test_early_unloading_is_contact_pinned_at_its_radius(k: float) -> None:
-    # a disc of the radius a_am held at any depth: P = P_H + K a^(1+k) (delta - delta_H), of the whole series
-    a, depth = 0.6, 0.3
-    for wavelength in (1e-3, 1e-4):
-        wave = (wavelength, COSINES, SINES)
-        lowered = depth - general.hertz_indentation(k, a, *wave)
-        pinned = general.hertz_load(k, M, a, *wave) + hertz.disc_stiffness(k, M, a) * lowered
-        line = effective.load_at_depth(k, M, a, depth, mean_height=wavelength * 0.016)
-        # what is left is the waviness's own moment, (lambda/a)^((3+k)/2)
-        assert abs(float(pinned - line)) < 3 * M * 0.03 * a * (wavelength / a) ** (0.5 * (3 + k))
-        assert abs(float(pinned - effective.load_at_depth(k, M, a, depth))) > 0.1 * wavelength
-        one = jkr.load_at_depth(k, M, a, depth, wavelength, AMPLITUDE)
-        line = effective.early_unloading_load(k, M, a, depth, wavelength * AMPLITUDE)
-        assert abs(float(one - line)) < 3 * M * AMPLITUDE * a * (wavelength / a) ** (0.5 * (3 + k))
 
 
 # ---- the energy
@@ -256,17 +220,6 @@ def test_fitted_energy_is_good_for_weak_waviness(k: float, ratio: float, low: fl
 
 
 # ---- the end of folds
-
-
-@pytest.mark.parametrize(
-    ("k", "wavelength", "error"), [(0.0, 0.01, 0.003), (0.2, 0.01, 0.006), (0.5, 0.01, 0.017), (0.2, 0.001, 0.0008)]
-)
-def test_last_fold(k: float, wavelength: float, error: float) -> None:
-    end = float(short_waves.end_of_folds(k, wavelength, SCENE["A"]))
-    a = np.arange(0.8 * end, 1.2 * end, wavelength / 100)
-    stable = jkr.fold_number(k, stiffness(k, 0.3, 300.0, 0.01), a, wavelength, SCENE["A"]) > 0.5 * (1 - k)
-    last = a[np.flatnonzero(stable[1:] != stable[:-1])[-1]]
-    assert 0.0 < last / end - 1 < error
 
 
 @pytest.mark.parametrize("u", [0.0, 0.03, 0.4, 0.95])

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core import draw_curves
+from gradhesion.core.loops.paths.misfit import Data, Misfit
 from gradhesion.core.loops.paths.model import LINEAR
-from gradhesion.core.loops.paths.path import LoopModel
+from gradhesion.core.loops.paths.path import LoopModel, LoopPath
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.profile import Profile
 from tests.core.scene import pattern_of, profile_of
@@ -90,3 +91,21 @@ def vector(model: LoopModel, **more: float) -> Array:
     known = {"k": 0.0, "turn": TURN * R, "indentation_offset": 2e-9, "load_offset": 1e-8, "load_slope": 0.02}
     known |= TRUE | model.fixed | more
     return np.array([known[name] if name in LINEAR else math.log(known[name]) for name in model.names])
+
+
+NOISE: Final = (1e-4 * R, 0.01 * UNIT)
+"""Of depth and load."""
+
+
+def path_of(model: LoopModel, here: Array) -> LoopPath:
+    """The path of some numbers, which has to be there."""
+    drawn = model.path(here)
+    assert drawn is not None
+    return drawn
+
+
+def misfit_of(
+    model: LoopModel, here: Array, spots: Array, back: Array, *, count: float = 1.0, wide: float = 1e3
+) -> Misfit:
+    """The misfit of some points, with ranges so far away."""
+    return Misfit(Data(spots, back, NOISE, np.full(len(spots), count)), model, here - wide, here + wide)

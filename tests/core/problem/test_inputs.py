@@ -9,7 +9,6 @@ import pytest
 from gradhesion.core.closed.reduced import WAYS
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL, Input
 from gradhesion.core.problem.outputs import CURVES, OUTPUTS, OVER, VARIABLES, without_scale
-from gradhesion.core.problem.toughness import EXPONENTS, Rate
 
 UNITS = pint.UnitRegistry()
 
@@ -63,13 +62,3 @@ def test_the_words_of_a_value_say_what_it_is_over() -> None:
 def test_names_are_given_once() -> None:
     names = [*INPUTS, *OUTPUTS, *VARIABLES, *(curve.extent for curve in CURVES.values())]
     assert sorted({*names}) == sorted(names)
-
-
-@pytest.mark.parametrize(
-    ("setting", "value"),
-    [("exponent", value) for value in (0.0, 0.0999, 2.0001, math.nan, math.inf)] + [("closing", "slow")],
-)
-def test_a_setting_out_of_its_range_is_named(setting: str, value: object) -> None:
-    with pytest.raises(ValueError, match=f"{setting} = "):
-        Rate(**{"exponent": 0.6} | {setting: value})  # type: ignore[arg-type]
-    assert [Rate(exponent=end, closing="same").exponent for end in EXPONENTS] == [*EXPONENTS]

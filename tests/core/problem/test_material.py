@@ -63,14 +63,6 @@ def test_stiffness_is_theta_times_modulus_over_the_power_of_the_depth() -> None:
         assert np.isnan(stiffness(**good | {name: values})).all()
 
 
-def test_shapes_broadcast() -> None:
-    assert theta(np.full((3, 1), 0.3), np.full(2, 0.1)).shape == (3, 2)
-    assert stiffness(np.full((3, 1), 0.3), 0.1, 1.0, np.full((1, 4), 0.2)).shape == (3, 4)
-    assert theta(0.3, 0.1).shape == ()
-    assert theta([], 0.1).shape == (0,)
-    assert stiffness(np.array([0.3]), 0.3, [500.0], 0.01).shape == (1,)
-
-
 @pytest.mark.parametrize("k", [0.0, 0.3, 0.9])
 def test_the_modulus_law_is_the_same_at_every_reference_depth(k: float) -> None:
     # E = E0 (z/c0)^k is not changed by c0 -> 7 c0, E0 -> 7^k E0

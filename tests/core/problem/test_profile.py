@@ -1,4 +1,4 @@
-"""Profiles and controls: what is refused, and what is left out."""
+"""Profiles, controls, patterns and rates: what is refused, and what is left out."""
 
 import dataclasses
 import math
@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from gradhesion.core import Harmonic, Loading, Profile, solve
+from gradhesion.core.problem.toughness import Rate, Toughness, ToughnessHarmonic
 from tests.core.scene import scene_of
 
 SCENE = scene_of(0.31, 0.27, 430.0, 0.013, 0.11, 0.023, 0.7)
@@ -19,6 +20,13 @@ REFUSED: list[tuple[Any, dict[str, Any], str]] = [
     *((Harmonic, {"n": n}, f"n = {n}") for n in (0, 1.5)),
     *((Harmonic, {"n": 2} | bad, "n = 2") for bad in ({"cos": math.nan}, {"sin": math.inf})),
     (Loading, {"control": "force"}, "displacement, load, machine"),
+    *((ToughnessHarmonic, {"n": n}, "whole number") for n in (0, 1.5, 10_001)),
+    (ToughnessHarmonic, {"n": 1, "cos": math.inf}, "must be finite"),
+    (Toughness, {"harmonics": ()}, "1 to 64"),
+    (Toughness, {"harmonics": (ToughnessHarmonic(n=2, sin=0.1),) * 2}, "more than once"),
+    (Toughness, {"harmonics": (ToughnessHarmonic(n=2, sin=0.1),), "of": "energy"}, "toughness, work"),
+    *((Rate, {"exponent": value}, "exponent = ") for value in (0.0, 0.0999, 2.0001, math.nan, math.inf)),
+    (Rate, {"exponent": 0.6, "closing": "slow"}, "closing = "),
 ]
 
 
@@ -26,13 +34,6 @@ REFUSED: list[tuple[Any, dict[str, Any], str]] = [
 def test_what_is_out_of_range(kind: Any, values: dict[str, Any], told: str) -> None:
     with pytest.raises(ValueError, match=told):
         kind(**values)
-
-
-@pytest.mark.parametrize("solver", ["asymptotic", "envelope"])
-@pytest.mark.parametrize(("control", "spring"), [("load", {}), ("machine", {"machine_stiffness": 1.0})])
-def test_approximations_know_displacement_control_only(solver: str, control: str, spring: dict[str, float]) -> None:
-    with pytest.raises(ValueError, match=f"{solver}.*displacement control only"):
-        solve(SCENE | spring, solver=solver, profile=Profile(exponent=1.0), loading=Loading(control=control))
 
 
 def test_the_default_profile_and_control_change_nothing() -> None:

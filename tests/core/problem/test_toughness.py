@@ -29,24 +29,6 @@ def values(toughness: Toughness, end: float) -> tuple[Any, Any]:
     return u, sum(h.cos * np.cos(x) + h.sin * np.sin(x) for h, x in zip(toughness.harmonics, phases, strict=True))
 
 
-ONE = ToughnessHarmonic(n=2, sin=0.1)
-
-
-@pytest.mark.parametrize(
-    ("kind", "given", "told"),
-    [
-        *((ToughnessHarmonic, {"n": n}, "whole number") for n in (0, 1.5, 10_001)),
-        (ToughnessHarmonic, {"n": 1, "cos": math.inf}, "must be finite"),
-        (Toughness, {"harmonics": ()}, "1 to 64"),
-        (Toughness, {"harmonics": (ONE, ONE)}, "more than once"),
-        (Toughness, {"harmonics": (ONE,), "of": "energy"}, "toughness, work"),
-    ],
-)
-def test_what_is_out_of_range(kind: Any, given: dict[str, Any], told: str) -> None:
-    with pytest.raises(ValueError, match=told):
-        kind(**given)
-
-
 @pytest.mark.parametrize("seed", range(12))
 def test_the_lowest_value_and_the_first_radius_with_a_wrong_sign_are_those_of_a_dense_grid(seed: int) -> None:
     pattern, wavelength = drawn(seed), 0.37

@@ -58,17 +58,6 @@ def test_nothing_folds_beyond_the_saturation_radius(k: float, amplitude: float) 
         assert np.all(sign * np.diff(depths) > 0.0)
 
 
-@pytest.mark.parametrize("of", ["toughness", "work"])
-def test_a_pattern_saturates_too_and_leaves_the_roughness_of_the_punch(of: str) -> None:
-    how, scene = {"toughness": pattern_of(of, *PATTERN)}, SCENE | {"A": 0.003, "toughness_wavelength_over_R": 0.04}
-    found = solve(scene, ("saturation_radius", "roughness_parameter"), **how)
-    beyond = found["saturation_radius"] * np.array([1.001, 2.0])
-    one, other = solve(scene | {"a_max_over_R": beyond}, ["dissipated_energy"], **how)["dissipated_energy"]
-    assert one == pytest.approx(other, rel=1e-12)
-    s, r = strengths_of(scene)
-    assert found["roughness_parameter"] == pytest.approx(r / s, rel=1e-13)
-
-
 def test_what_has_no_report() -> None:
     many = solve(SCENE | {"lambda_over_R": 1e-5, "A": 0.05, "k": 0.0, "modulus": 1e4}, ("energy_residual",))
     assert np.isnan(many["energy_residual"])

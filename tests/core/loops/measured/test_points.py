@@ -45,17 +45,13 @@ def test_a_jump_at_the_end_of_a_cycle_belongs_to_its_unloading() -> None:
     assert np.count_nonzero(unloading != np.tile(np.arange(600) >= 270, 3)) <= 6
 
 
-def test_one_spike_is_no_turn() -> None:
+def test_one_spike_is_no_turn_and_one_way_alone_has_none() -> None:
     depth = triangle(1)
-    depth[50] = 2.5
-    depth[320] = -0.9
+    depth[[50, 320]] = 2.5, -0.9
     unloading, number = ways(depth)
     assert number.max() == 1
     assert not unloading[:199].any()
     assert unloading[201:].all()
-
-
-def test_a_loop_that_only_loads_has_no_unloading_and_one_that_unloads_a_first_point() -> None:
     unloading, number = ways(np.linspace(0.0, 1.0, 50))
     assert not unloading.any()
     assert (number == 1).all()

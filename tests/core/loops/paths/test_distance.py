@@ -42,15 +42,3 @@ def test_points_far_outside_of_a_sharp_bend_have_its_distances(count: int, most:
     found = feet(points, circle, circle[:, ::-1] * [-1.0, 1.0], np.append(False, np.ones(count - 1, bool)))
     np.testing.assert_allclose(found.distance, -4.0, atol=most)
     assert np.abs(np.diff(found.distance)).max() < most / 100.0, "without jumps"
-
-
-def test_slopes_are_those_of_the_distances_as_the_vertices_move() -> None:
-    rng = np.random.default_rng(4)
-    chain, points = rng.standard_normal((7, 2)), rng.standard_normal((40, 2))
-    moving = rng.standard_normal((7, 2, 3))
-    found, step = feet(points, chain).slopes(moving, 0.0 * chain), 1e-6
-    for i in range(3):
-        above, below = (feet(points, chain + sign * step * moving[:, :, i]) for sign in (1.0, -1.0))
-        same = above.piece == below.piece  # a point between two pieces may change from one to the other
-        assert np.count_nonzero(same) >= 38
-        np.testing.assert_allclose(((above.distance - below.distance) / (2.0 * step))[same], found[same, i], atol=1e-6)

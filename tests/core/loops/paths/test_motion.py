@@ -1,13 +1,12 @@
-"""How paths move: derivatives of distances are central differences of distances to paths that are drawn again."""
+"""Distances to paths, how they change as paths move, and a scene without a path."""
 
 import numpy as np
 import pytest
 
-from gradhesion.core.loops.paths.misfit import Data, Misfit
+from gradhesion.core.loops.paths.misfit import LOST, Data, Misfit
 from gradhesion.core.loops.paths.offsets import NAMES
-from tests.core.loops.models import CASES, UNIT, Array, R, vector
+from tests.core.loops.models import CASES, NOISE, Array, R, misfit_of, path_of, vector
 
-NOISE = (1e-4 * R, 0.01 * UNIT)
 STEP = 1e-5
 """Of the numbers as they are searched; of offsets, in units of the noise."""
 ALL = ("E_star", "work_of_adhesion", "wavelength", "A", *NAMES)
@@ -35,21 +34,15 @@ def misfit(name: str, seed: int, points: int = 400) -> tuple[Misfit, Array]:
     case = CASES.get(name, CASES["wavy"])
     names = tuple(one for one in SEARCHED[name] if one != "c0")
     model = case.model(names, {"c0": 0.1 * R} if name == "graded" else None)
-    more = {"k": 0.3} if name == "graded" else {}
-    here = vector(model, **(case.own | more))
-    drawn = model.path(here)
-    assert drawn is not None
-    rng = np.random.default_rng(seed)
-    piece = rng.integers(0, len(drawn.places) - 1, points)
-    share = rng.random(points)
+    here = vector(model, **(case.own | ({"k": 0.3} if name == "graded" else {})))
+    drawn, rng = path_of(model, here), np.random.default_rng(seed)
+    piece, share = rng.integers(0, len(drawn.places) - 1, points), rng.random(points)
     corners = np.flatnonzero(drawn.jump | np.roll(drawn.jump, -1))
     at = rng.choice([*corners, drawn.turn], points // 4)
     piece[: at.size], share[: at.size] = np.minimum(at, len(drawn.places) - 2), 0.0
     spots = (1.0 - share)[:, None] * drawn.places[piece] + share[:, None] * drawn.places[piece + 1]
     spots += 2.0 * rng.standard_normal((points, 2)) * NOISE
-    data = Data(spots, piece >= drawn.turn, NOISE, np.full(points, 4.0))
-    wide = np.full(here.size, 1e3)
-    return Misfit(data, model, here - wide, here + wide), here
+    return misfit_of(model, here, spots, piece >= drawn.turn, count=4.0), here
 
 
 def feet_of(own: Misfit, here: Array) -> Array:
@@ -68,10 +61,9 @@ def test_distances_change_as_those_to_a_path_that_is_drawn_again(name: str) -> N
     """
     own, here = misfit(name, seed=1)
     exact = own.jacobian(here)[:400]
+    units = {NAMES[0]: NOISE[0], NAMES[1]: NOISE[1], "indentation_max": NOISE[0], "turn": NOISE[0]}
     for i, one in enumerate(own.names):
-        step = STEP * {NAMES[0]: NOISE[0], NAMES[1]: NOISE[1], "indentation_max": NOISE[0], "turn": NOISE[0]}.get(
-            one, 1.0
-        )
+        step = STEP * units.get(one, 1.0)
         ends = [here + sign * step * np.eye(here.size)[i] for sign in (1.0, -1.0)]
         places = [feet_of(own, end) for end in ends]
         same = np.hypot(*(places[0] - places[1]).T) < 0.3
@@ -85,18 +77,15 @@ def test_distances_change_as_those_to_a_path_that_is_drawn_again(name: str) -> N
             assert apart[same].max() < 0.15 * size, one
 
 
-def test_the_turn_follows_what_it_is_prescribed_by() -> None:
+@pytest.mark.parametrize("name", ["wavy", "rim"])
+def test_the_turn_follows_what_it_is_prescribed_by(name: str) -> None:
     """A point beyond the end of a path is as far as the end is: that moves along its branch with the zero of depth."""
-    for name in ("wavy", "rim"):
-        own, here = misfit(name, seed=2)
-        i, step = own.names.index(NAMES[0]), 1e-3 * NOISE[0]
-        drawn = own.model.path(here)
-        assert drawn is not None
-        beyond = drawn.places[drawn.turn] + [0.0, 5.0 * NOISE[1]]
-        data = Data(beyond[None], np.zeros(1, bool), NOISE, np.ones(1))
-        one = Misfit(data, own.model, own.low, own.high)
-        ends = [one.residual(here + sign * step * np.eye(here.size)[i])[0] for sign in (1.0, -1.0)]
-        assert one.jacobian(here)[0, i] == pytest.approx((ends[0] - ends[1]) / (2.0 * step), rel=1e-3)
+    own, here = misfit(name, seed=2)
+    i, step = own.names.index(NAMES[0]), 1e-3 * NOISE[0]
+    drawn = path_of(own.model, here)
+    one = misfit_of(own.model, here, drawn.places[[drawn.turn]] + [0.0, 5.0 * NOISE[1]], np.zeros(1, bool))
+    ends = [one.residual(here + sign * step * np.eye(here.size)[i])[0] for sign in (1.0, -1.0)]
+    assert one.jacobian(here)[0, i] == pytest.approx((ends[0] - ends[1]) / (2.0 * step), rel=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -104,14 +93,12 @@ def test_the_turn_follows_what_it_is_prescribed_by() -> None:
     [("machine", "spring_constant"), ("rim", "a_max"), ("preload", "preload"), ("machine", "indentation_max")],
 )
 def test_one_number_that_leaves_equilibrium_as_it_is_may_be_searched_alone(name: str, one: str) -> None:
-    case = CASES[name]
-    model = case.model((one,))
-    here = vector(model, **case.own)
-    drawn = model.path(here)
-    assert drawn is not None
+    model = CASES[name].model((one,))
+    here = vector(model, **CASES[name].own)
+    drawn = path_of(model, here)
     spots = drawn.places + 2.0 * np.random.default_rng(3).standard_normal(drawn.places.shape) * NOISE
     spots[drawn.turn] = drawn.places[drawn.turn] + 5.0 * np.array(NOISE)  # beyond the end
-    own = Misfit(Data(spots, np.arange(len(spots)) > drawn.turn, NOISE, np.ones(len(spots))), model, here - 1, here + 1)
+    own = misfit_of(model, here, spots, np.arange(len(spots)) > drawn.turn)
     step = 1e-3 * NOISE[0] if one == "indentation_max" else STEP
     exact, below, above = own.jacobian(here)[:, 0], own.residual(here - step), own.residual(here + step)
     assert np.abs(exact).max() > 1.0
@@ -119,3 +106,30 @@ def test_one_number_that_leaves_equilibrium_as_it_is_may_be_searched_alone(name:
     if one == "a_max":  # the corners where the rim is met, and to which the contact is pressed on
         rim = np.flatnonzero(drawn.radius == drawn.scene.rim)[:2]
         np.testing.assert_allclose(exact[rim], ((above - below) / (2.0 * step))[rim], rtol=1e-4, atol=1e-2)
+
+
+def test_works_of_closing_down_to_0_have_derivatives() -> None:
+    """At an end of what there is, the difference has one side only."""
+    model = CASES["closing ratio 0"].model(("E_star", "closing_ratio"))
+    here = vector(model, closing_ratio=0.0)
+    drawn = path_of(model, here)
+    data = Data(drawn.places, np.arange(len(drawn.places)) > drawn.turn, NOISE, np.ones(len(drawn.places)))
+    slopes = Misfit(data, model, here - 0.1, here + 1.0).jacobian(here)
+    assert np.isfinite(slopes).all()
+    assert slopes[:, 1].any()
+
+
+def test_a_scene_without_a_path_is_far_from_all_points_and_outliers_hardly_count() -> None:
+    model = CASES["wavy"].model(("E_star", "wavelength"))
+    here = vector(model)
+    drawn = path_of(model, here)
+    own = misfit_of(model, here, drawn.places, np.arange(len(drawn.places)) > drawn.turn)
+    assert np.abs(own.residual(here)).max() < 1e-6, "its own points"
+    nowhere = here - [0.0, 20.0]  # waves of 1e-15 m: too many radii
+    assert own.model.path(nowhere) is None
+    assert set(own.residual(nowhere)) == {LOST}
+    assert not own.jacobian(nowhere).any()
+    spots = drawn.places.copy()
+    spots[5] += 1e3 * np.array(NOISE)
+    far = misfit_of(model, here, spots, np.arange(len(spots)) > drawn.turn)
+    assert far.size(here) - own.size(here) < np.log1p(2e6) + 1e-3

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core.loops.paths.distance import feet
-from tests.core.loops.models import CASES, TRUE, TURN, UNIT, Case, R, vector
+from tests.core.loops.models import CASES, TRUE, TURN, UNIT, Case, R, path_of, vector
 
 WAVE = np.array([2e-3 * R, 0.3 * UNIT])
 """Depth and load of a wave of the scene, as a loop shows it: a hundredth of it is below any noise."""
@@ -17,8 +17,7 @@ def test_a_path_lies_where_drawn_curves_do(name: str) -> None:
     """Within 0.003 of a wave, jumps and turn included; ends of jumps along them to 1e-4 of the radius."""
     case = CASES[name]
     own, drawn = case.model(), case.drawn()
-    found = own.path(vector(own))
-    assert found is not None
+    found = path_of(own, vector(own))
     back, jump = drawn["path_unloading"] > 0, drawn["path_jump"] > 0
     assert np.count_nonzero(found.jump & (found.radius > 0.0)) >= np.count_nonzero(jump) - 2
     inside = found.radius > 0.0
@@ -42,23 +41,20 @@ def test_it_turns_where_the_data_do_and_goes_on_within_the_noise_to_the_end_of_t
 
     def end(blur: float) -> float:
         own.blur = blur
-        found = own.path(vector(own))
-        assert found is not None
+        found = path_of(own, vector(own))
         return float(found.places[found.turn, 0])
 
     assert end(0.0) == pytest.approx(TURN * R, rel=1e-10)
     assert end(1e-12) == pytest.approx(TURN * R + 1e-12, rel=1e-10)
-    beyond = own.path(vector(own))
+    beyond = path_of(own, vector(own))
     own.furthest = (0.2 * TURN * R, -math.inf)
-    assert beyond is not None
     folds = beyond.places[np.flatnonzero(beyond.jump[: beyond.turn]) - 1, 0]
     assert end(R) == pytest.approx(folds[folds >= 0.2 * TURN * R][0], rel=1e-6), "at a jump it ends"
 
 
 def test_where_works_differ_the_turn_is_a_number() -> None:
     own = CASES["closing ratio 0.3"].model(("E_star", "turn"))
-    found = own.path(vector(own, turn=1.02 * TURN * R))
-    assert found is not None
+    found = path_of(own, vector(own, turn=1.02 * TURN * R))
     assert found.places[found.turn, 0] == pytest.approx(1.02 * TURN * R, rel=1e-10)
     assert found.radius[found.turn] == found.radius[found.turn + 1]
     assert found.places[found.turn + 1, 0] < found.places[found.turn, 0], "the edge is pinned"
@@ -68,28 +64,16 @@ def test_zeros_and_a_tilt_are_added() -> None:
     plain, shifted = (CASES["wavy"].model(names) for names in (
         ("E_star",), ("E_star", "indentation_offset", "load_offset", "load_slope")))  # fmt: skip
     plain.furthest = (TURN * R - 2e-9, -math.inf)
-    before, after = plain.path(vector(plain)), shifted.path(vector(shifted))
-    assert before is not None
-    assert after is not None
+    before, after = (path_of(one, vector(one)) for one in (plain, shifted))
     x = before.places[1:-1, 0] + 2e-9
     np.testing.assert_allclose(after.places[1:-1, 0], x, rtol=1e-9)
     np.testing.assert_allclose(after.places[1:-1, 1], before.places[1:-1, 1] + 1e-8 + 0.02 * x, atol=1e-9 * UNIT)
 
 
-def test_through_a_machine_jumps_keep_its_displacement() -> None:
-    own = CASES["machine"].model()
-    found = own.path(vector(own))
-    assert found is not None
-    after = np.flatnonzero(found.jump)
-    np.testing.assert_allclose(found.places[after, 0], found.places[after - 1, 0], atol=1e-4 * R)
-    assert np.abs(found.places[after, 1] - found.places[after - 1, 1]).max() > 0.1 * UNIT
-
-
 @pytest.mark.parametrize("name", ["rim", "preload at the rim"])
 def test_an_edge_pressed_on_at_the_rim_is_a_flat_punch(name: str) -> None:
     own = CASES[name].model()
-    found = own.path(vector(own))
-    assert found is not None
+    found = path_of(own, vector(own))
     assert found.pressed is not None
     rim, end = found.places[found.turn - 1], found.places[found.turn]
     assert (end[1] - rim[1]) / (end[0] - rim[0]) == pytest.approx(2.0 * TRUE["E_star"] * 0.2 * R, rel=1e-9)
@@ -100,12 +84,6 @@ def test_an_edge_pressed_on_at_the_rim_is_a_flat_punch(name: str) -> None:
 
 def test_no_contact_is_a_line_of_no_load() -> None:
     own = Case(more={"furthest": (-0.01 * R, -math.inf)}).model()
-    found = own.path(vector(own))
-    assert found is not None
+    found = path_of(own, vector(own))
     assert not found.places[:, 1].any()
     assert not found.radius.any()
-
-
-def test_a_scene_without_a_path_has_none() -> None:
-    assert CASES["wavy"].model(("k",)).path(np.array([1.5])) is None, "an exponent beyond 1"
-    assert CASES["wavy"].model(("wavelength",)).path(np.array([-60.0])) is None, "more waves than are walked"
