@@ -14,7 +14,7 @@ from gradhesion.cli.dataset.read.soundness import is_fit, refuse_fit
 from gradhesion.cli.disk import replacement, writing
 from gradhesion.cli.errors import DatasetError, OutputError
 from gradhesion.cli.installation import checked
-from gradhesion.cli.names.scenes import SCENE, SOLVER
+from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
 from gradhesion.cli.picture.looks import Looks, looks_of
 from gradhesion.cli.picture.picture import picture_of
 from gradhesion.cli.picture.pictured import styled
@@ -251,7 +251,7 @@ def explore(
 
 def _check_dimensions(dataset: xarray.Dataset) -> None:
     """Refuse dimensions that no picture knows."""
-    others = [str(dim) for dim in dataset["status"].dims if dim not in (*INPUTS, SCENE, SOLVER)]
+    others = [str(dim) for dim in dataset["status"].dims if dim not in (*INPUTS, REALISATION, SCENE, SOLVER)]
     if others:
         raise DatasetError(
             f"the dataset: its dimension {others[0]} is no parameter, and pictures are drawn over parameters; draw it "

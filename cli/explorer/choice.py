@@ -23,11 +23,6 @@ def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[s
     """
     Cut a dataset down to some variables and to some values of axes; `status` stays.
 
-    Raises
-    ------
-    DatasetError
-        A variable, an axis or a value is not there, or the rest is too large for a page.
-
     See Also
     --------
     gradhesion.cli.dataset.read.selection : how a value is found on an axis.

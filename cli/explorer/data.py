@@ -71,11 +71,6 @@ def study_data(dataset: xarray.Dataset, units: Mapping[str, Unit] = MappingProxy
         `status`, `flags`.
     variables
         A list of what has values, each flat in that order; a row of `length` values a scene of a curve.
-
-    Raises
-    ------
-    DatasetError
-        No variable has a finite value.
     """
     dataset = _rising(dataset)
     axes = [str(axis) for axis in dataset["status"].dims if dataset.sizes[axis] > 1]

@@ -35,14 +35,7 @@ class Lines:
 
 
 def lines_of(dataset: xarray.Dataset) -> Lines:
-    """
-    List the planes that a dataset of curves fills, and the lines in them, in units if it has them.
-
-    Raises
-    ------
-    DatasetError
-        No curve has two variables that could be drawn over each other.
-    """
+    """List the planes that a dataset of curves fills, and the lines in them, in units if it has them."""
     names = [str(name) for name in dataset.data_vars]
     there = tracks_in(names, TRACKS, si=wants_si(names, ()))
     if not there:

@@ -51,11 +51,6 @@ def page(dataset: xarray.Dataset, file: str, variables: Sequence[str], places: S
         The name of the dataset, which the page shows.
     variables, places
         What to take of it: variables by name (all if none), and AXIS=VALUE for the nearest value of an axis.
-
-    Raises
-    ------
-    DatasetError
-        What was asked for is not there or has no value, or is too large for a page, or nothing varies.
     """
     cut = chosen(dataset, variables, places)
     curves = has_curves(dataset)

@@ -191,14 +191,7 @@ def flags_of(dataset: xarray.Dataset, loop: int) -> list[str]:
 
 
 def fits_compared(datasets: Sequence[xarray.Dataset], files: Sequence[Path]) -> Iterator[str]:
-    """
-    Compare fits of the same data by Akaike's criterion, chi square + 2 p: differences to the least, and weights.
-
-    Raises
-    ------
-    DatasetError
-        One is no fit, or they differ in data, noise, branch or averaging, so that their misfits cannot be compared.
-    """
+    """Compare fits of the same data by Akaike's criterion, chi square + 2 p: differences to the least, and weights."""
     first = datasets[0]
     for dataset, file in zip(datasets, files, strict=True):
         if not is_fit(dataset):
