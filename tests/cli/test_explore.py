@@ -15,8 +15,6 @@ import gradhesion as gr
 from gradhesion.cli.dataset.read.reader import opened
 from gradhesion.cli.explorer import choice
 from gradhesion.cli.explorer.data import rounded, study_data
-from gradhesion.cli.explorer.plain import title
-from gradhesion.cli.names.outputs import SPREADS
 
 Call = Callable[..., Result]
 Made = Callable[..., Path]
@@ -105,17 +103,6 @@ def test_a_dataset_too_large_for_a_page_is_said(
     assert "96 values are too many for a page, which takes 90" in result.stderr
     example = result.stderr.split("as in ")[1].split(",")[0]
     assert gradhesion("explore", dataset_file, *example.split()).exit_code == 0
-
-
-def test_each_part_of_a_spread_has_a_name_of_its_own() -> None:
-    """In the order of a list that may be cut short: the letter and what it is, then the quantity."""
-    titles = {name: title(name, long_name) for name, long_name in SPREADS.items()}
-    assert len({*titles.values()}) == len(titles)
-    words = {"std": "standard deviation", "p05": "5 % quantile", "p50": "median", "p95": "95 % quantile"}
-    for how, word in words.items():
-        assert titles[f"pull_off_force_{how}"].startswith("F/(1.5 "), "the letter comes first"
-        assert f", {word} " in titles[f"pull_off_force_{how}"]
-        assert title(f"dissipated_energy_{how}_si", "").startswith(f"H, {word} ")
 
 
 @pytest.mark.parametrize(("scenes", "announced"), [(0.3, False), ([0.3, 0.5], True)])
