@@ -108,27 +108,18 @@ def test_planes_and_limits_are_chosen(curves: xarray.Dataset, probe: xarray.Data
 
 
 WRONG: list[tuple[str, dict[str, Any]]] = [
-    ("variable pth", {"variables": "pth"}),
-    ("path_indentation_si", {"variables": ["path_load", "path_indentation_si"]}),
-    ("x k", {"x": "k"}),
-    ("x load", {"x": "load", "y": "load"}),
-    ("over", {"over": {"A": "max"}}),
-    ("xlim 0:1", {"xlim": "0:1"}),
-    ("ylim 0:1", {"ylim": "0:1"}),
-    ("inset 0:1", {"inset": "0:1"}),
-    ("xlabel", {"xlabel": "depth"}),
-    ("map: ", {"kind": "map"}),
-    ("levels", {"levels": 5}),
-    ("band", {"band": "std"}),
-]
+    ("variable pth", {"variables": "pth"}), ("path_indentation_si", {"variables": ["path_load", "path_indentation_si"]}), ("x k", {"x": "k"}),
+    ("x load", {"x": "load", "y": "load"}), ("over", {"over": {"A": "max"}}), ("xlim 0:1", {"xlim": "0:1"}), ("ylim 0:1", {"ylim": "0:1"}),
+    ("inset 0:1", {"inset": "0:1"}), ("xlabel", {"xlabel": "depth"}), ("map: ", {"kind": "map"}), ("levels", {"levels": 5}), ("band", {"band": "std"}),
+]  # fmt: skip
 
 
-@pytest.mark.parametrize(("key", "choices"), WRONG)
-def test_what_curves_do_not_have_is_refused(key: str, choices: dict[str, Any], probe: xarray.Dataset) -> None:
-    with pytest.raises(gr.DatasetError) as refused:
-        gr.plot(probe, **choices)
-    assert key in str(refused.value)
-    assert "--" not in str(refused.value)
+def test_what_curves_do_not_have_is_refused(probe: xarray.Dataset) -> None:
+    for key, choices in WRONG:
+        with pytest.raises(gr.DatasetError) as refused:
+            gr.plot(probe, **choices)
+        assert key in str(refused.value)
+        assert "--" not in str(refused.value)
 
 
 def test_a_plane_without_its_variables_is_refused(curves: xarray.Dataset) -> None:
@@ -191,23 +182,20 @@ def measured(axes: Axes) -> list[Any]:
     return [line for line in axes.lines if line.get_label() == "measured"]
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "indentation [nm],load [nN]\n20,-740\n260,3280\n",
-        "time,branch,depth [um],force [uN]\n0,loading,0.02,-0.74\n1,unloading,0.26,3.28\n2,lost,nan,1\n",
-        "P (N);delta (mm)\n-7.4e-7;2e-5\n3.28e-6;2.6e-4\n",
-    ],
+TABLES = (
+    "indentation [nm],load [nN]\n20,-740\n260,3280\n",
+    "time,branch,depth [um],force [uN]\n0,loading,0.02,-0.74\n1,unloading,0.26,3.28\n2,lost,nan,1\n",
+    "P (N);delta (mm)\n-7.4e-7;2e-5\n3.28e-6;2.6e-4\n",
 )
-def test_points_stand_where_they_were_measured_whatever_their_units(
-    text: str, probe: xarray.Dataset, tmp_path: Path
-) -> None:
-    panels = gr.plot(probe, data=written(tmp_path, text))
-    (points,) = measured(panels[0])
-    np.testing.assert_allclose(points.get_xydata(), [[2e-8, -7.4e-7], [2.6e-7, 3.28e-6]], rtol=1e-13)
-    assert not measured(panels[1])
-    assert not measured(panels[2])
-    assert "measured" in legend(panels)
+
+
+def test_points_stand_where_they_were_measured_whatever_their_units(probe: xarray.Dataset, tmp_path: Path) -> None:
+    for text in TABLES:
+        panels = gr.plot(probe, data=written(tmp_path, text))
+        (points,) = measured(panels[0])
+        np.testing.assert_allclose(points.get_xydata(), [[2e-8, -7.4e-7], [2.6e-7, 3.28e-6]], rtol=1e-13)
+        assert not any(map(measured, panels[1:]))
+        assert "measured" in legend(panels)
 
 
 def test_ratios_have_no_units_and_a_table_may_be_in_netcdf(
