@@ -16,6 +16,7 @@ import gradhesion as gr
 from gradhesion.cli.dataset.read.model_range import LIMITS
 from gradhesion.core import DOUBTFUL, FLAGS
 from gradhesion.core.answers.flags import FLAG_WORDS
+from tests.cli.picture.seen import legend
 
 LOADING, TOLERANCE, GONE = (FLAGS[name] for name in ("loading_contact_not_one_disc", "tolerance_not_met", "no_value"))
 HATCH = "////"
@@ -24,10 +25,6 @@ PUNCH: dict[str, Any] = {"k": 0.2, "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.
 WAVES = {"start": 0.1, "stop": 0.5, "num": 12}
 SEVEN = {"k": {"start": 0.0, "stop": 0.9, "num": 7}}
 WORDS = {bit: FLAG_WORDS[name] for name, bit in FLAGS.items()}
-
-
-def legend(panels: Any) -> list[str]:
-    return [text.get_text() for one in panels.figure.legends for text in one.get_texts()]
 
 
 def open_marks(axes: Axes, bit: int) -> list[Any]:
