@@ -151,6 +151,12 @@ class Opened:
         self.page.mouse.move(*self.point_of(part, float(x), float(y)))
         self.settle()
 
+    def boxes(self, which: str) -> list[dict[str, float]]:
+        """Say where some elements stand."""
+        return list(
+            self.js(f"[...document.querySelectorAll('{which}')].map(one => one.getBoundingClientRect().toJSON())")
+        )
+
     def wait_for_text(self, element: str, text: str) -> None:
         """Wait until an element has a text."""
         self.page.wait_for_function(f"document.getElementById('{element}').textContent.includes('{text}')")
@@ -301,18 +307,14 @@ def test_other_axes_and_variables_are_chosen(open_page: Open) -> None:
 
 def test_on_a_phone_there_is_one_column_and_a_finger_reads_a_cell(open_page: Open) -> None:
     page = open_page("maps", viewport={"width": 390, "height": 844}, has_touch=True)
-    first, second = (page.page.locator(".plot.map").nth(i).bounding_box() for i in (0, 1))
-    assert first is not None
-    assert second is not None
-    assert first["x"] == second["x"]
-    assert second["y"] > first["y"] + first["height"]
+    first, second = page.boxes(".plot.map")
+    assert first["left"] == second["left"]
+    assert second["top"] > first["bottom"]
     for axis in AXES:
         page.js(f"document.getElementById('axis-{axis}').scrollIntoView({{block: 'center'}})")
         page.settle()
-        slider, first = (page.page.locator(which).first.bounding_box() for which in (f"#axis-{axis}", ".plot.map"))
-        assert slider is not None
-        assert first is not None
-        assert -1 <= first["y"] < first["y"] + first["height"] <= slider["y"] + 1, "the map stays in view"
+        first, (slider,) = page.boxes(".plot.map")[0], page.boxes(f"#axis-{axis}")
+        assert -1 <= first["top"] < first["bottom"] <= slider["top"] + 1, "the map stays in view"
     place = np.log10(float(page.dataset["lambda_over_R"][1])), 0.9
     page.page.touchscreen.tap(*page.point_of("explorer.parts.maps[0]", *place))
     page.wait_for_text("held", "held")
@@ -326,7 +328,7 @@ FRAMES = """explorer.figures().map((figure) => {
 """Of two maps, and of the two sections of each."""
 
 
-@pytest.mark.parametrize("width", [360, 1280, 1920])
+@pytest.mark.parametrize("width", [360, 1920])
 def test_the_page_is_used_frames_stand_in_line_and_it_can_be_read_without_a_picture(
     width: int, open_page: Open
 ) -> None:
@@ -336,8 +338,7 @@ def test_the_page_is_used_frames_stand_in_line_and_it_can_be_read_without_a_pict
         f"Math.max(...({FRAMES}).slice(2).map(([left, right], i) => {{"
         f"const map = ({FRAMES})[i >> 1]; return Math.max(Math.abs(left - map[0]), Math.abs(right - map[1])) }})) < 1.5"
     )  # the layout follows the borders
-    boxes = [page.page.locator(".plot.map").nth(i).bounding_box() for i in (0, 1)]
-    assert max(box["x"] + box["width"] for box in boxes if box) > 0.95 * width, "no part of a wide window is empty"
+    assert max(box["right"] for box in page.boxes(".plot.map")) > 0.95 * width, "no part of a wide window is empty"
     assert page.page.get_attribute("html", "lang") == "en"
     assert page.js("[...document.querySelectorAll('main input, main select')].every(one => one.labels.length)")
     assert page.page.locator(".plot:not([aria-label])").count() == 0
@@ -345,29 +346,22 @@ def test_the_page_is_used_frames_stand_in_line_and_it_can_be_read_without_a_pict
     assert "[parameters]" in page.page.inner_text("details >> nth=0")
 
 
-def test_one_axis_is_drawn_as_lines_of_all_solvers(open_page: Open) -> None:
+def test_lines_are_those_of_all_solvers_and_points_are_dots_over_a_parameter(open_page: Open) -> None:
     page = open_page("lines")
     page.press("solver", "End")
     page.point("explorer.parts.sections[1].x", np.log10(0.47), 0.0)
     page.shows(solver=1, lambda_over_R=2)  # held by the key: the pointer does not move it
     assert page.text("value-solver") == "envelope"
-    page.press("lambda_over_R", "End")
-    page.shows(solver=1, lambda_over_R=4)
     page.check("log-0", on=False)
     drawn = page.js("explorer.parts.sections[0].x.lines.data.ys.map(line => Array.from(line))")
     np.testing.assert_allclose(drawn, page.dataset["pull_off_force"], rtol=5e-6)  # six digits
     assert page.text("lines").split() == ["exact", "envelope"]
-
-
-def test_points_are_dots_over_a_parameter(open_page: Open) -> None:
     page = open_page("points")
     page.choose("along-x", "λ/R – wavelength of the waviness")
     page.check("log-0", on=False)
     dot = page.dataset.isel(scene=2)
     page.point("explorer.parts.sections[0].x", np.log10(dot["lambda_over_R"]), dot["pull_off_force"])
     page.shows(scene=2)
-    page.press("scene", "Home")
-    page.shows(scene=0)
 
 
 @pytest.mark.parametrize(
@@ -386,10 +380,8 @@ def test_curves_are_those_of_the_scene_and_are_hidden_one_by_one(
         lines = page.js(f"explorer.parts.planes[{i}].lines.data")
         for side, quantity in zip(("xs", "ys"), sides, strict=True):
             drawn = np.concatenate(lines[side])
-            expected = np.concatenate([scene[f"{part}{quantity}{si}"] for part in ("", "path_")]) / units.get(
-                quantity, 1
-            )
-            ends = np.nanmin(expected), np.nanmax(expected)
+            expected = np.concatenate([scene[f"{part}{quantity}{si}"] for part in ("", "path_")])
+            ends = np.array([np.nanmin(expected), np.nanmax(expected)]) / units.get(quantity, 1)
             np.testing.assert_allclose([drawn.min(), drawn.max()], ends, rtol=5e-6)
     lines = page.js("explorer.parts.planes[0].lines.data")
     assert lines["width"].count(page.js("explorer.study.tracks[0].jumpWidth")) == int(scene["path_jump"].sum())
@@ -463,9 +455,8 @@ def test_a_table_that_is_downloaded_is_the_map_that_is_shown(open_page: Open) ->
             assert row[name] == "" if np.isnan(wanted) else float(row[name]) == float(f"{wanted:.6g}")
 
 
-@pytest.mark.parametrize("width", [390, 1400])
-def test_sensitivities_are_those_under_the_pointer_and_the_strongest_is_marked(width: int, open_page: Open) -> None:
-    page = open_page("sensitivities", viewport={"width": width, "height": 900})
+def test_sensitivities_are_those_under_the_pointer_and_the_strongest_is_marked(open_page: Open) -> None:
+    page = open_page("sensitivities")
     for place in (0, 4):
         page.point("explorer.parts.maps[0]", page.dataset["lambda_over_R"][place], 0.3)
         scene = page.dataset.isel(k=1, lambda_over_R=place)
@@ -477,6 +468,3 @@ def test_sensitivities_are_those_under_the_pointer_and_the_strongest_is_marked(w
             sizes = {name: abs(value) for name, value in values.items() if name not in ("k", "nu")}
             marked = [name for name, cell in cells.items() if cell.get_attribute("class") == "strongest"]
             assert marked == [max(sizes, key=sizes.__getitem__)]
-    box = page.page.locator("#values").bounding_box()
-    assert box
-    assert box["x"] + box["width"] <= width
