@@ -5,7 +5,7 @@ import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import pandas as pd
@@ -59,7 +59,10 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
         yield from jump_lines(dataset)
     else:
         yield from _outputs(dataset)
-    yield from _status(dataset)
+    status, scenes = dataset["status"], dataset["status"].size
+    failed = sum(int(np.count_nonzero(status[block].values.astype(np.int16) & FAILED)) for block in tiling_of(status))
+    written = f"{scenes - failed:,} of {counted(scenes, 'scene')} ({(scenes - failed) / scenes:.1%})"
+    yield from ("", f"status: {written} have values", *_flag_counts(status))
     if beyond := list(_beyond_the_model(dataset)):
         yield from ("", "outside the range of the model", *beyond)
     yield from origin_lines(dataset)
@@ -111,36 +114,30 @@ def _spacing(values: NDArray[np.float64]) -> str:
     """
     Report how the values of an axis are spaced, inf apart.
 
-    >>> _spacing(np.array([0.01, 0.1, 1.0, np.inf]))
-    'log-spaced'
-    >>> _spacing(np.array([0.0, 0.1, 0.2]))
-    'evenly spaced'
+    >>> _spacing(np.array([0.01, 0.1, 1.0, np.inf])), _spacing(np.array([0.0, 0.1, 0.2]))
+    ('log-spaced', 'evenly spaced')
     """
     finite = np.sort(values[np.isfinite(values)])
-    if finite.size < 3:
-        return "listed"
-    steps = np.diff(finite)
-    if np.ptp(steps) <= 1e-6 * np.max(steps):
-        return "evenly spaced"
-    if finite[0] > 0 and np.ptp(np.diff(np.log(finite))) <= 1e-6 * np.log(finite[-1] / finite[0]):
-        return "log-spaced"
-    return "listed"
+    ways = {"evenly spaced": finite, "log-spaced": np.log(finite) if finite[:1] > 0 else np.empty(0)}
+    even = (how for how, own in ways.items() if own.size > 2 and np.ptp(np.diff(own)) <= 1e-6 * np.ptp(own))
+    return next(even, "listed")
 
 
 def _uncertain_inputs(dataset: xarray.Dataset) -> Iterator[str]:
     """Say which inputs are uncertain, and by how much, as the study has it."""
-    table: object = None
+    table: Any = None
     with suppress(ValueError, RecursionError):
         table = tomllib.loads(str(dataset.attrs.get("study", ""))).get("uncertainty")
-    if not isinstance(table, Mapping):
-        return
-    yield ""
-    yield "uncertain inputs" + (f", {table['samples']:,} samples" if table.get("samples") else "")
-    for name, value in table.items():
-        if isinstance(value, Mapping):
-            yield f"  {name:<17} uniform from {value.get('low')} to {value.get('high')}"
-        elif name not in ("samples", "seed"):
-            yield f"  {name:<17} standard deviation {value}" + (" of the value" if str(value).endswith("%") else "")
+    if isinstance(table, Mapping):
+        samples = f", {table['samples']:,} samples" if table.get("samples") else ""
+        yield from ("", f"uncertain inputs{samples}")
+        for name in [name for name in table if name not in ("samples", "seed")]:
+            value = table[name]
+            if isinstance(value, Mapping):
+                yield told(name, f"uniform from {value.get('low')} to {value.get('high')}", width=17)
+            else:
+                share = " of the value" if str(value).endswith("%") else ""
+                yield told(name, f"standard deviation {value}{share}", width=17)
 
 
 def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
@@ -242,21 +239,13 @@ def _flag_counts(variable: xarray.DataArray) -> list[str]:
     lines = []
     for name, count in zip(str(variable.attrs["flag_meanings"]).split(), counts, strict=True):
         if count:
-            share = f"{count:,} of {counted(variable.size, 'scene')} ({percent(count, variable.size)})"
-            lines.append(told(name, share, FLAG_WORDS.get(name, "")))
+            lines.append(told(name, _share(count, variable.size), FLAG_WORDS.get(name, "")))
     return lines
 
 
-def _status(dataset: xarray.Dataset) -> Iterator[str]:
-    """Report how many scenes have failed, and what the others report."""
-    status = dataset["status"]
-    failed = sum(int(np.count_nonzero(status[block].values.astype(np.int16) & FAILED)) for block in tiling_of(status))
-    scenes = status.size
-    yield from (
-        "",
-        f"status: {scenes - failed:,} of {counted(scenes, 'scene')} ({(scenes - failed) / scenes:.1%}) have values",
-    )
-    yield from _flag_counts(status)
+def _share(count: int, scenes: int) -> str:
+    """Write how many of some scenes."""
+    return f"{count:,} of {counted(scenes, 'scene')} ({percent(count, scenes)})"
 
 
 def _beyond_the_model(dataset: xarray.Dataset) -> Iterator[str]:
@@ -271,8 +260,7 @@ def _beyond_the_model(dataset: xarray.Dataset) -> Iterator[str]:
         if name == CONTACT_SLOPE and is_cone(dataset):
             count, condition = scenes, "1 at every radius: slopes of a cone are not small"
         if count:
-            share = f"{count:,} of {counted(scenes, 'scene')} ({percent(count, scenes)})"
-            yield told(name, share, condition)
+            yield told(name, _share(count, scenes), condition)
 
 
 def origin_lines(dataset: xarray.Dataset) -> Iterator[str]:
