@@ -160,35 +160,13 @@ def plot(
     """
     with as_keywords(), data_of(dataset) as values:
         looks = looks_of(
-            kind=kind,
-            width=width,
-            height=height,
-            colour_map=colour_map,
-            levels=levels,
-            labels=labels,
-            title=title,
-            caption=caption,
-            xlabel=xlabel,
-            ylabel=ylabel,
-            style=style,
-            xlim=xlim,
-            ylim=ylim,
-            inset=inset,
-            band=band,
-        )
+            kind=kind, width=width, height=height, colour_map=colour_map, levels=levels, labels=labels, title=title,
+            caption=caption, xlabel=xlabel, ylabel=ylabel, style=style, xlim=xlim, ylim=ylim, inset=inset, band=band,
+        )  # fmt: skip
         if not is_fit(values):
             _check_dimensions(values)
-        figure = picture_of(
-            values,
-            _listed(variables),
-            looks,
-            at=_wishes(at),
-            over=_wishes(over),
-            interpolate=interpolate,
-            x=x,
-            y=y,
-            data=None if data is None else Path(data),
-        )
+        wishes: dict[str, Any] = {"at": _wishes(at), "over": _wishes(over), "interpolate": interpolate, "x": x, "y": y}
+        figure = picture_of(values, _listed(variables), looks, **wishes, data=None if data is None else Path(data))
     return Panels(figure, looks)
 
 

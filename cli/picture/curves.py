@@ -77,10 +77,6 @@ class Scene:
     item: int
     """Which of the scenes it is."""
 
-    def colour_of(self, track: Track) -> Colour:
-        """Give the colour of one of its lines."""
-        return self.colour or track.colour
-
 
 def drawn_curves(
     dataset: xarray.Dataset,
@@ -106,15 +102,13 @@ def drawn_curves(
     chosen = [curve for curve in chosen if curve not in of_states]
     if requested and of_states and chosen:
         raise DatasetError(
-            f"--variable {of_states[0]} is drawn over the distance from the axis, and {chosen[0]} is not: they "
-            "have no axis in common; draw one after the other"
+            f"--variable {of_states[0]} has no axis in common with {chosen[0]}; draw one after the other"
         )
     if not chosen:
         for option, value in (("data", data), ("x", x), ("y", y)):
             if value:
                 raise DatasetError(
-                    f"--{option} {value}: curves of states are drawn over the distance from the axis; leave it out, or "
-                    "draw another curve with --variable"
+                    f"--{option} {value}: curves of states lie over the distance from the axis; leave it out"
                 )
         return draw_states(dataset, of_states, looks)
     scenes, caption = _scenes_of(dataset, looks)
@@ -126,8 +120,8 @@ def drawn_curves(
     if not panels:
         wanted = " ".join(f"--{side} {name}" for side, name in (("x", x), ("y", y)) if name) or "a picture"
         raise DatasetError(
-            f"{wanted}: {', '.join(chosen)} of this dataset lacks two of contact radius, indentation and load to draw "
-            f'over each other; name whole curves in the outputs of the study, as in outputs = ["{chosen[0]}"]'
+            f"{wanted}: {', '.join(chosen)} lacks two of contact radius, indentation and load; name whole curves in "
+            f'the outputs of the study, as in outputs = ["{chosen[0]}"]'
         )
     rows = [track.points(scene.values, plane) for plane, tracks in panels for track in tracks for scene in scenes]
     if not any(np.isfinite(row).all(axis=0).any() for row in rows):
@@ -149,7 +143,7 @@ def drawn_curves(
             arrows: list[Values] = []
             for track in (one for one in tracks if one.curve == "path"):
                 for scene in scenes:
-                    draw_arrows(axes, track, scene.values, plane, scene.colour_of(track), arrows)
+                    draw_arrows(axes, track, scene.values, plane, scene.colour or track.colour, arrows)
         used = [track for track in known if any(track in tracks for _, tracks in panels)]
         handles = [*_handles(scenes, used), *([Line2D([], [], **points.looks)] if points else [])]
         size = width, 2.4 * below + 0.6
@@ -169,10 +163,7 @@ def wants_si(there: Iterable[str], requested: Sequence[str]) -> bool:
     plain = [name for name in requested if name in UNITS]
     units = [name for name in requested if name.endswith(SI)]
     if plain and units:
-        raise DatasetError(
-            f"--variable {plain[0]} has no unit and {units[0]} has one: they have no axis in common; "
-            f"ask for {plain[0]}{SI} instead"
-        )
+        raise DatasetError(f"--variable {plain[0]}: has no unit, and {units[0]} has one; ask for {plain[0]}{SI}")
     return not plain and any(name.endswith(SI) for name in there)
 
 
@@ -235,7 +226,7 @@ def _draw_panel(
     """Draw the lines of all scenes into a panel, measured points below them, and mark where depth and load are zero."""
     for track in tracks:
         for scene in scenes:
-            colour, own = scene.colour_of(track), track.points(scene.values, plane)
+            colour, own = scene.colour or track.colour, track.points(scene.values, plane)
             draw_track(axes, track, scene.values, plane, colour)
             if scene.colour:
                 start = MARKED * (0.15 + scene.item / len(MARKERS))  # beside those of the scene before

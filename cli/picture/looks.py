@@ -222,11 +222,6 @@ def _near(value: Any, known: Any) -> str:
     return f'did you mean "{near}"?' if near else f'choose one of its own, as "{next(iter(known))}"'
 
 
-def _title(option: str, value: Any) -> str | None:  # noqa: ARG001 (readers take it)
-    """Read a title: True is that of the study, False none."""
-    return {True: None, False: ""}[value] if isinstance(value, bool) else value
-
-
 def _span(option: str, value: Any) -> Span:
     """
     Read what a user writes: "LOW:HIGH", or two ends in a sequence.
@@ -250,7 +245,7 @@ _READ: Final[dict[str, Callable[[str, Any], Any]]] = {
     "colour_map": _colour_map,
     "levels": _levels,
     "style": _style,
-    "title": _title,
+    "title": lambda _, value: {True: None, False: ""}[value] if isinstance(value, bool) else value,
     "xlim": _span,
     "ylim": _span,
     "inset": _span,

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.study.text.quantities import si_value
+from gradhesion.cli.study.text.quantities import factor_of_column, scaled
 from gradhesion.cli.tables.columns import Columns, ColumnsError
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.amounts import counted
@@ -24,8 +24,8 @@ NAMES: Final = {
 }
 """What a column of each quantity may be called."""
 
-UNITS: Final = {"contact_radius": ("c0", "nm"), "indentation": ("indentation", "nm"), "load": ("load", "nN")}
-"""For each quantity a key of its dimension, and a unit to name."""
+KEYS: Final = {"contact_radius": "c0", "indentation": "indentation", "load": "load"}
+"""For each quantity a key of its dimension."""
 
 FEW: Final = 60
 """Points that are circles on top of the lines; more are grey dots below them, which would hide the lines."""
@@ -88,16 +88,9 @@ def _missing(found: Columns, there: Sequence[str]) -> str:
 
 def _scaled(found: Columns, quantity: str, word: str, *, si: bool) -> Values:
     """Give a column in the units of the dataset."""
-    unit, (key, example) = found.units.get(word, ""), UNITS[quantity]
-    if not (si or unit):
-        return found.values[word]
-    try:
-        factor = si_value(f"1 {unit}", key)
-    except ValueError:
-        factor = 0.0
-    if si and factor:
-        return found.values[word] * factor
-    has = f"{word} [{unit}]" if unit else word
-    brackets = f"write it after the name in brackets, as {word} [{example}]"
-    remedy = brackets if si else "give the study its units, or write the ratio without one"
-    raise ColumnsError(f"the unit of {has} does not suit the curves, which have {'units' if si else 'none'}; {remedy}")
+    if si:
+        return scaled(found.values[word], factor_of_column(found, word, KEYS[quantity]))
+    if unit := found.units.get(word):
+        remedy = "give the study its units, or write the ratio without one"
+        raise ColumnsError(f"{word} [{unit}] has a unit, and the curves have none; {remedy}")
+    return found.values[word]

@@ -32,8 +32,7 @@ def draw_states(dataset: xarray.Dataset, chosen: Sequence[str], looks: Looks) ->
     panels = [names for curve, names in PANELS.items() if curve in chosen and {*names} <= {*scene}]
     if not panels:
         raise DatasetError(
-            f"{chosen[0]}: this dataset lacks the radius or the value of a state; name whole curves in the outputs of "
-            f'its study, as in outputs = ["{chosen[0]}"]'
+            f"{chosen[0]}: lacks the radius or the value of a state; run a study with this curve as a whole"
         )
     if not any((scene[x].notnull() & scene[y].notnull()).any() for x, y in panels):
         raise DatasetError("no value in any state drawn; `gradhesion info` reports why")
