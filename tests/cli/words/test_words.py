@@ -12,7 +12,6 @@ from click.testing import Result
 import gradhesion as gr
 from gradhesion.cli.study import load_study, study_from
 from gradhesion.cli.terminal.room import refuse_without_threads
-from gradhesion.cli.terminal.wording import nearest
 
 Call = Callable[..., Result]
 
@@ -42,6 +41,7 @@ def search(word: str) -> dict[str, Any]:
 
 STUDIES: dict[str, tuple[dict[str, Any], str]] = {
     "another name": (of_units(work_of_adhesion=None, gamma="50 mJ/m^2"), '"work_of_adhesion"'),
+    "a synonym": ({"parameters": {**{key: one for key, one in PUNCH.items() if key != "nu"}, "poisson": 0.3}}, '"nu"'),
     "another table": ({"parameters": PUNCH | {"radius": 1.0}}, '"R", under [physical]'),
     "a step": ({"parameters": PUNCH | {"k": {"start": 0.0, "stop": 1.0, "step": 0.1}}}, "num"),
     "a scale": ({"parameters": PUNCH | {"k": {"start": 0.0, "stop": 1.0, "num": 3, "scale": "log"}}}, '"spacing"'),
@@ -64,17 +64,6 @@ def test_what_was_meant_is_said_and_nothing_else_is_wrong(name: str) -> None:
         study_from(without_none({"outputs": ["pull_off_force"]} | study))
     (sentence,) = refused.value.mistakes
     assert words in sentence
-
-
-CALLED = {"gamma": "work_of_adhesion", "gama": "work_of_adhesion", "W": "work_of_adhesion", "E*": "E_star", "radius": "R", "lambda": "lambda_over_R",
-          "wavelength_over_R": "lambda_over_R", "poisson": "nu", "youngs_modulus": "E", "stiffness": "spring_constant"}  # fmt: skip
-
-
-@pytest.mark.parametrize("word", CALLED)
-def test_a_key_by_another_name_is_recognised(word: str) -> None:
-    known = ["k", "nu", "a_max", "amplitude", *AFM, "A", "E", "spring_constant", "lambda_over_R"]
-    assert nearest(word, known) == CALLED[word]
-    assert all(nearest(one, [*gr.PARAMETERS]) == one for one in gr.PARAMETERS), "each name is its own"
 
 
 @pytest.mark.parametrize(
