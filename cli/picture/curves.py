@@ -43,6 +43,7 @@ from gradhesion.cli.picture.tracks import (
     draw_track,
     faded,
     tracks_in,
+    unloads,
 )
 from gradhesion.cli.terminal.wording import did_you_mean
 
@@ -232,13 +233,9 @@ def _draw_panel(
                 start = MARKED * (0.15 + scene.item / len(MARKERS))  # beside those of the scene before
                 draw_marks(axes, own, start, MARKED, color=colour, **_marker(scene))
             if track.curve == "path" and not track.unloading:
-                back = (
-                    scene.values["path_unloading"].values == 1
-                    if "path_unloading" in scene.values
-                    else np.zeros(own.shape[1], bool)
-                )
+                loading = own[:, ~unloads(scene.values, own.shape[1])]
                 for doubt in reversed(scene.doubts):  # the larger ones below
-                    draw_marks(axes, own[:, ~back], 0.5 * APART, APART, mew=0.8, **doubt.marker(colour))
+                    draw_marks(axes, loading, 0.5 * APART, APART, mew=0.8, **doubt.marker(colour))
     if points is not None and {*plane} <= points.values.keys():
         axes.plot(*(points.values[quantity] for quantity in plane), **points.looks)
     along, up = plane

@@ -124,13 +124,18 @@ def faded(colour: Colour) -> Colour:
     return red, green, blue
 
 
+def unloads(scene: xarray.Dataset, count: int) -> Steps:
+    """Report which of the points of a path are on unloading; none if the dataset does not know."""
+    return scene["path_unloading"].values == 1 if "path_unloading" in scene else np.zeros(count, bool)
+
+
 def draw_track(axes: Axes, track: Track, scene: xarray.Dataset, plane: Plane, colour: Colour) -> None:
     """Draw one line of a scene; its jumps are thin and dashed, its unstable parts light."""
     points = track.points(scene, plane)
     jumps, falls = track.jumps(scene), track.falls(scene)
     own = np.ones(points.shape[1] - 1, bool)
     if track.unloading is not None and "path_unloading" in scene:
-        own = (scene["path_unloading"].values[1:] == 1) == track.unloading
+        own = unloads(scene, 0)[1:] == track.unloading
     for steps, dash, width, shown in (
         (own & jumps, JUMP, THIN, colour),
         (own & falls & ~jumps, track.dash, track.width, faded(colour)),
@@ -156,13 +161,13 @@ def draw_arrows(
     The limits of the panel must stand. An arrow gives way to those of `taken`, the places in the panel of others.
     """
     places = (axes.transData - axes.transAxes).transform(track.points(scene, plane).T)
-    ways = scene["path_unloading"].values[1:] if "path_unloading" in scene else np.zeros(len(places) - 1)
+    ways = unloads(scene, len(places))[1:]
     jumps = np.broadcast_to(track.jumps(scene), ways.shape)
     looks: dict[str, Any] = {"arrowstyle": "-|>", "color": colour, "lw": 0.0, "shrinkA": 0.0, "shrinkB": 0.0}
-    for run in np.split(np.arange(ways.size), np.flatnonzero((np.diff(ways) != 0) | jumps[1:] | jumps[:-1]) + 1):
+    for run in np.split(np.arange(ways.size), np.flatnonzero(np.diff(ways) | jumps[1:] | jumps[:-1]) + 1):
         line = places[run[0] : run[-1] + 2]
         lengths = np.append(0.0, np.cumsum(np.hypot(*np.diff(line, axis=0).T)))
-        if not lengths[-1] > FEWEST or track.unloading not in (None, ways[run[0]] == 1):
+        if not lengths[-1] > FEWEST or track.unloading not in (None, bool(ways[run[0]])):
             continue
         ends = 0.5 * lengths[-1] + np.array([-0.5, 0.5]) * ARROW
         tail, head = np.stack([np.interp(ends, lengths, row) for row in line.T], axis=1)
