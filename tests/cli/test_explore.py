@@ -42,18 +42,6 @@ def test_axes_rise_and_infinity_has_a_place(made: Made) -> None:
     np.testing.assert_array_equal(values, np.vectorize(lambda value: float(f"{value:.6g}"))(force).astype(np.float32))
 
 
-def test_units_have_the_prefix_that_suits_the_values(root: Path) -> None:
-    dataset = gr.run(root / "configs" / "physical.toml")
-    study, variables = study_data(dataset)
-    units = {axis["name"]: axis["unit"] for axis in study["axes"]}
-    assert (units["R"], units["work_of_adhesion"]) == ("µm", "mJ/m²")
-    radius = next(axis for axis in study["axes"] if axis["name"] == "R")
-    assert radius["values"] == pytest.approx(np.geomspace(0.5, 5.0, 13))
-    force = next(one for one in variables if one["name"] == "pull_off_force_si")
-    assert force["unit"] == "µN"
-    assert f"{force['greatest']:.6g}" == f"{1e6 * float(dataset['pull_off_force_si'].max()):.6g}"
-
-
 def test_a_page_is_taken_at_values_of_axes_and_written_once(gradhesion: Call, dataset_file: Path) -> None:
     page = dataset_file.with_suffix(".html")
     at = ["--at", "k=0.31", "--at", "a_max_over_R=inf", "--variable", "pull_off_force"]

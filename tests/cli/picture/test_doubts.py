@@ -78,10 +78,7 @@ def test_a_map_hatches_what_leaves_the_range_of_the_model(make: Callable[..., xa
     beyond = (dataset["wave_slope"] > 0.5).transpose("A", "lambda_over_R").values
     np.testing.assert_array_equal(inside(hatched(force[0], "++"), dataset, "A")[1:-1, 1:-1], beyond[1:-1, 1:-1])
     assert legend(gr.plot(dataset, "johnson_alpha")) == [several], "a number shows its own limit alone"
-    assert legend(gr.plot(dataset.isel(A=slice(0, 2)), "pull_off_force", x="lambda_over_R")) == [
-        "$A$ = 0.001",
-        "$A$ = 0.001802",
-    ]
+    assert len(legend(gr.plot(dataset.isel(A=slice(0, 2)), "pull_off_force", x="lambda_over_R"))) == 2, "lines alone"
 
 
 def test_a_map_may_have_every_doubt_and_failures_at_once(make: Callable[..., xarray.Dataset]) -> None:
@@ -129,23 +126,21 @@ def test_lines_have_open_markers_where_they_are_doubtful(make: Callable[..., xar
     assert open_marks(gr.plot(points)[0], LOADING)[-1].get_xdata().tolist() == [0.1, 0.3]
 
 
-@pytest.mark.parametrize(
-    ("name", "expected"),
-    [("best_A", [0.0, 0.6]), ("best_lambda_over_R", [0.4, 0.6]), ("best_pull_off_force", [0.0, 0.4, 0.6])],
-)
-def test_an_optimum_at_a_bound_is_marked_where_its_flag_is(name: str, expected: list[float]) -> None:
+def test_an_optimum_at_a_bound_is_marked_where_its_flag_is() -> None:
     own = {"k": [0.0, 0.2, 0.4, 0.6], "A": {"start": 0.001, "stop": 0.02}, "lambda_over_R": {"start": 0.1, "stop": 1.0}}
     search = {"maximise": "pull_off_force", "over": ["A", "lambda_over_R"], "resolution": 12}
     optima = gr.run({"kind": "optimum", "optimum": search, "parameters": PUNCH | own})
     meanings = optima["on_bound"].attrs["flag_meanings"].split()
     upper, lower = (1 << meanings.index(word) for word in ("A_at_its_upper_bound", "lambda_over_R_at_its_lower_bound"))
-    optima["on_bound"][...] = [upper, 0, lower, upper | lower]
-    panels = gr.plot(optima, name)
-    (marks,) = [line for line in panels[0].get_lines() if line.get_marker() == ">"]
-    np.testing.assert_array_equal(marks.get_xdata(), expected)
-    assert len(legend(panels)) == 1
-    optima["on_bound"][...] = 0
-    assert not legend(gr.plot(optima, name))
+    bounds = {"best_A": [0.0, 0.6], "best_lambda_over_R": [0.4, 0.6], "best_pull_off_force": [0.0, 0.4, 0.6]}
+    for name, expected in bounds.items():
+        optima["on_bound"][...] = [upper, 0, lower, upper | lower]
+        panels = gr.plot(optima, name)
+        (marks,) = [line for line in panels[0].get_lines() if line.get_marker() == ">"]
+        np.testing.assert_array_equal(marks.get_xdata(), expected)
+        assert len(legend(panels)) == 1
+        optima["on_bound"][...] = 0
+        assert not legend(gr.plot(optima, name))
 
 
 @pytest.fixture(scope="module")
