@@ -14,7 +14,7 @@ from gradhesion.cli.dataset.read.soundness import is_fit, refuse_fit
 from gradhesion.cli.disk import replacement, writing
 from gradhesion.cli.errors import DatasetError, OutputError
 from gradhesion.cli.installation import checked
-from gradhesion.cli.names.scenes import SCENE, SOLVER
+from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
 from gradhesion.cli.picture.looks import Looks, looks_of
 from gradhesion.cli.picture.picture import picture_of
 from gradhesion.cli.picture.pictured import styled
@@ -160,35 +160,13 @@ def plot(
     """
     with as_keywords(), data_of(dataset) as values:
         looks = looks_of(
-            kind=kind,
-            width=width,
-            height=height,
-            colour_map=colour_map,
-            levels=levels,
-            labels=labels,
-            title=title,
-            caption=caption,
-            xlabel=xlabel,
-            ylabel=ylabel,
-            style=style,
-            xlim=xlim,
-            ylim=ylim,
-            inset=inset,
-            band=band,
-        )
+            kind=kind, width=width, height=height, colour_map=colour_map, levels=levels, labels=labels, title=title,
+            caption=caption, xlabel=xlabel, ylabel=ylabel, style=style, xlim=xlim, ylim=ylim, inset=inset, band=band,
+        )  # fmt: skip
         if not is_fit(values):
             _check_dimensions(values)
-        figure = picture_of(
-            values,
-            _listed(variables),
-            looks,
-            at=_wishes(at),
-            over=_wishes(over),
-            interpolate=interpolate,
-            x=x,
-            y=y,
-            data=None if data is None else Path(data),
-        )
+        wishes: dict[str, Any] = {"at": _wishes(at), "over": _wishes(over), "interpolate": interpolate, "x": x, "y": y}
+        figure = picture_of(values, _listed(variables), looks, **wishes, data=None if data is None else Path(data))
     return Panels(figure, looks)
 
 
@@ -251,7 +229,7 @@ def explore(
 
 def _check_dimensions(dataset: xarray.Dataset) -> None:
     """Refuse dimensions that no picture knows."""
-    others = [str(dim) for dim in dataset["status"].dims if dim not in (*INPUTS, SCENE, SOLVER)]
+    others = [str(dim) for dim in dataset["status"].dims if dim not in (*INPUTS, REALISATION, SCENE, SOLVER)]
     if others:
         raise DatasetError(
             f"the dataset: its dimension {others[0]} is no parameter, and pictures are drawn over parameters; draw it "

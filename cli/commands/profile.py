@@ -54,7 +54,7 @@ def profile(
             raise StudyError(f"{file}: {error}") from None
         with writing(path):
             save(drawn_profile(fit, file.name), temporary, form)
-    show_block(tables_of(fit, file, terms, power))
+    show_block("\n".join(tables_of(fit, file, terms, power)))
     if not quiet:
         rows = "row was" if dropped == 1 else "rows were"
         say_written(path, [f"{file}: {dropped:,} {rows} left out, for lack of two numbers"] if dropped else [])

@@ -23,11 +23,6 @@ def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[s
     """
     Cut a dataset down to some variables and to some values of axes; `status` stays.
 
-    Raises
-    ------
-    DatasetError
-        A variable, an axis or a value is not there, or the rest is too large for a page.
-
     See Also
     --------
     gradhesion.cli.dataset.read.selection : how a value is found on an axis.
@@ -36,7 +31,11 @@ def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[s
         raise DatasetError("Pareto fronts have no page; draw them with `gradhesion plot`")
     parts = [str(name) for name in dataset.data_vars if parts_of(dataset, str(name))]
     dataset = spread(dataset).drop_vars(parts)
-    known = [str(name) for name in dataset.data_vars if name != "status" and _is_shown(dataset, str(name))]
+    scenes = dataset["status"].dims
+    hidden = ("status", *(name for name in dataset.data_vars if curve_of(str(name)) in (*RAGGED, *STATE_CURVES)))
+    known = [
+        str(name) for name in dataset.data_vars if name not in hidden and dataset[name].dims[: len(scenes)] == scenes
+    ]
     for name in variables:
         if name not in known:
             raise DatasetError(f"--variable {name}: a page cannot show it; {did_you_mean(name, known)}")
@@ -48,25 +47,17 @@ def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[s
     if has_curves(dataset):
         shown = variables or [name for name in known if name + SI not in known]  # curves are drawn in units alone
         wants_si(shown, variables)
-    else:
-        # those in units first, and last what is there in units too
+    else:  # those in units first, and last what is there in units too
         shown = variables or sorted(known, key=lambda name: (name + SI in known, not name.endswith(SI)))
     cut = dataset[[*shown, "status"]]
     cut = selection_of(cut, places).narrowed(cut)
     size = sum(variable.size for variable in cut.data_vars.values())
     if size > MOST:
         raise DatasetError(
-            f"{size:,} values are too many for a page, which takes {MOST:,}: "
-            f"choose one value of an axis with --at, as in {_example(cut)}, "
-            "or fewer variables with --variable, or make a coarser study"
+            f"{size:,} values are too many for a page, which takes {MOST:,}: choose one value of an axis with --at, as "
+            f"in {_example(cut)}, or fewer variables with --variable, or make a coarser study"
         )
     return cut
-
-
-def _is_shown(dataset: xarray.Dataset, name: str) -> bool:
-    """Check whether a variable has one value, or one row of values, a scene."""
-    own, scenes = dataset[name].dims, dataset["status"].dims
-    return own[: len(scenes)] == scenes and curve_of(name) not in (*RAGGED, *STATE_CURVES)
 
 
 def _example(dataset: xarray.Dataset) -> str:

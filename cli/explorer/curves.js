@@ -2,8 +2,7 @@
 
 class Planes {
   constructor(study, parts) {
-    Object.assign(this, { study, parts });
-    this.hidden = new Set();
+    Object.assign(this, { study, parts, hidden: new Set() });
     this.byName = Object.fromEntries(study.variables.map((variable) => [variable.name, variable]));
   }
 
@@ -14,32 +13,23 @@ class Planes {
   }
 
   draw(number) {
-    return this.parts.map((part) => {
+    for (const part of this.parts) {
       const lines = { xs: [], ys: [], colour: [], dash: [], width: [] };
-      let [left, right, low, high] = [Infinity, -Infinity, Infinity, -Infinity];
-      for (const [i, track] of this.study.tracks.entries()) {
-        if (this.hidden.has(i)) continue;
+      this.study.tracks.forEach((track, i) => {
         const [along, up] = [this.row(track[part.x], number), this.row(track[part.y], number)];
-        if (!along || !up) continue;
-        for (const run of this.runs(track, along, up, number)) {
-          const [faded, jump] = [run.kind === "falls", run.kind === "jump"];
-          lines.xs.push(run.xs);
-          lines.ys.push(run.ys);
-          lines.colour.push(faded ? theme.faded(track) : theme.seen(track.colour));
-          lines.dash.push((jump ? track.jumpDash : track.dash).join(" ") || "solid");
-          lines.width.push(jump ? track.jumpWidth : track.width);
-          for (const x of run.xs) [left, right] = [Math.min(left, x), Math.max(right, x)];
-          for (const y of run.ys) [low, high] = [Math.min(low, y), Math.max(high, y)];
+        if (this.hidden.has(i) || !along || !up) return;
+        for (const { kind, xs, ys } of this.runs(track, along, up, number)) {
+          const [dash, width] = kind === "jump" ? [track.jumpDash, track.jumpWidth] : [track.dash, track.width];
+          push(lines, { xs, ys, colour: kind === "falls" ? track.faded : track.colour, dash: dash.join(" ") || "solid", width });
         }
-      }
+      });
       part.lines.data = lines;
-      if (!(left <= right)) [left, right, low, high] = [0, 1, 0, 1];
-      const [aside, above] = [0.04 * (right - left) || 0.5, 0.05 * (high - low) || 0.5];
-      const set = (range, start, end) => range.setv({ start, end, reset_start: start, reset_end: end });
-      set(part.figure.x_range, left - aside, right + aside);
-      set(part.figure.y_range, low - above, high + above);
-      return lines;
-    });
+      for (const [range, all, share] of [[part.figure.x_range, lines.xs, 0.04], [part.figure.y_range, lines.ys, 0.05]]) {
+        const [low, high] = all.flat().reduce(([least, most], one) => [Math.min(least, one), Math.max(most, one)], [Infinity, -Infinity]);
+        const pad = share * (high - low) || 0.5;
+        setRange(range, low <= high ? low - pad : 0, low <= high ? high + pad : 1);
+      }
+    }
   }
 
   // Cut a line into runs of steps that look the same.
@@ -50,17 +40,13 @@ class Planes {
     const found = [];
     let run = null;
     for (let i = 1; i < along.length; i++) {
-      const whole = Number.isFinite(along[i - 1] + up[i - 1] + along[i] + up[i]);
       const own = unloading === undefined || (unloading[i] === 1) === track.unloading;
-      if (!whole || !own) {
+      if (!own || !Number.isFinite(along[i - 1] + up[i - 1] + along[i] + up[i])) {
         run = null;
         continue;
       }
       const kind = jumps?.[i] === 1 ? "jump" : depths && depths[i] < depths[i - 1] ? "falls" : "line";
-      if (!run || run.kind !== kind) {
-        run = { kind, xs: [along[i - 1]], ys: [up[i - 1]] };
-        found.push(run);
-      }
+      if (run?.kind !== kind) found.push((run = { kind, xs: [along[i - 1]], ys: [up[i - 1]] }));
       run.xs.push(along[i]);
       run.ys.push(up[i]);
     }
@@ -69,26 +55,18 @@ class Planes {
 
   // The legend: each line with its look, and a box to show or hide it.
   legend(list, act) {
-    const boxes = this.study.tracks.map((track, i) => {
+    this.study.tracks.forEach((track, i) => {
       const box = element("input", { type: "checkbox", id: `track-${i}`, checked: !this.hidden.has(i) });
       box.addEventListener("change", () => {
-        if (box.checked) this.hidden.delete(i);
-        else this.hidden.add(i);
+        this.hidden[box.checked ? "delete" : "add"](i);
         act();
       });
-      return box;
+      list.append(lineEntry(track.label, track.colour, track.dash.join(" "), track.width, box));
     });
-    list.replaceChildren();
-    const entries = this.study.tracks.map((track, i) => [track.label, theme.seen(track.colour), track.dash, track.width, boxes[i]]);
-    if (this.study.tracks.some((track) => track.curve === "equilibrium")) {
-      const own = this.study.tracks.find((track) => track.curve === "equilibrium");
-      entries.push(["equilibrium, unstable", theme.faded(own), own.dash, own.width]);
-    }
+    const own = this.study.tracks.find((track) => track.curve === "equilibrium");
+    if (own) list.append(lineEntry("equilibrium, unstable", own.faded, own.dash.join(" "), own.width));
     const jumping = this.study.tracks.find((track) => this.byName[track.flag]);
-    if (jumping) entries.push(["jump", theme.seen("#333333"), jumping.jumpDash, jumping.jumpWidth]);
-    for (const [label, colour, dash, width, box] of entries) {
-      list.append(lineEntry(label, colour, dash.join(" "), width, box));
-    }
+    if (jumping) list.append(lineEntry("jump", "#333333", jumping.jumpDash.join(" "), jumping.jumpWidth));
     list.hidden = false;
   }
 }

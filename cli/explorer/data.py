@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gradhesion.cli.dataset.read.doubtful import DOUBTS, doubts_of
 from gradhesion.cli.dataset.read.sensitivities import PLAIN, part_of
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.explorer.plain import in_order, symbol, title, words
+from gradhesion.cli.explorer.plain import plain, symbol, title
 from gradhesion.cli.names.curves import INTEGERS, curve_of
 from gradhesion.cli.names.scenes import SCENE, SOLVER, SOLVERS
 from gradhesion.cli.picture.labels import Unit, unit_for
@@ -71,25 +71,21 @@ def study_data(dataset: xarray.Dataset, units: Mapping[str, Unit] = MappingProxy
         `status`, `flags`.
     variables
         A list of what has values, each flat in that order; a row of `length` values a scene of a curve.
-
-    Raises
-    ------
-    DatasetError
-        No variable has a finite value.
     """
-    dataset = _rising(dataset)
-    axes = [str(axis) for axis in dataset["status"].dims if dataset.sizes[axis] > 1]
-    dataset = dataset.isel({axis: 0 for axis in dataset["status"].dims if dataset.sizes[axis] == 1})
+    dims = [str(axis) for axis in dataset["status"].dims]
+    numeric = [axis for axis in dims if axis in dataset.coords and dataset[axis].dtype.kind in "fiu"]
+    dataset = dataset.isel({axis: np.argsort(dataset[axis].values, kind="stable") for axis in numeric})
+    axes = [axis for axis in dims if dataset.sizes[axis] > 1]
+    dataset = dataset.isel({axis: 0 for axis in dims if axis not in axes})
     variables = [_variable(dataset, str(name), units) for name in dataset.data_vars if name != "status"]
     if not any(np.isfinite(variable["values"]).any() for variable in variables):
         listed = ", ".join(variable["name"] for variable in variables)
         raise DatasetError(f"{listed}: no value in any scene; `gradhesion info` reports why")
     status = dataset["status"].values.astype(np.uint16).ravel()
-    known = [str(name) for name in dataset.coords if name not in axes]
-    solvers = [SOLVER] if SOLVER in known else []
+    known = [name for name in (SOLVER, *INPUTS) if name in dataset.coords and name not in axes]
     study = {
         "axes": [_axis(dataset, axis) for axis in axes],
-        "parameters": [_parameter(dataset, name, axes) for name in (*solvers, *in_order(known))],
+        "parameters": [_parameter(dataset, name, axes) for name in known],
         "status": status,
         "flags": [
             {"bit": bit, "words": FLAG_WORDS[name], "doubtful": bool(bit & DOUBTS), "failed": bool(bit & FAILED)}
@@ -100,41 +96,25 @@ def study_data(dataset: xarray.Dataset, units: Mapping[str, Unit] = MappingProxy
     return study, variables
 
 
-def _rising(dataset: xarray.Dataset) -> xarray.Dataset:
-    """Put the values of numeric axes into rising order."""
-    numeric = [axis for axis in dataset["status"].dims if axis in dataset.coords and dataset[axis].dtype.kind in "fiu"]
-    return dataset.isel({axis: np.argsort(dataset[axis].values, kind="stable") for axis in numeric})
-
-
 def _axis(dataset: xarray.Dataset, name: str) -> Entry:
-    """Describe an axis: its values, and where they stand along a picture (at their logarithms if it has that scale)."""
-    if name == SCENE or dataset[name].dtype.kind not in "fiu":
-        size = dataset.sizes[name]
-        own = range(1, size + 1) if name == SCENE else dataset[name].values
-        long_name = "number of the scene" if name == SCENE else SOLVERS
-        return {
-            "name": name,
-            "symbol": name,
-            "words": long_name,
-            "title": long_name,
-            "unit": "",
-            "values": [str(value) for value in own],
-            **_listed(np.arange(size, dtype=float)),
-        }
-    named, values = _named(dataset, name)
-    return named | {"values": values} | _placed(values)
+    """Describe an axis: its values, and where they stand along a picture."""
+    if name in dataset.coords and dataset[name].dtype.kind in "fiu":
+        named, values = _named(dataset, name)
+        return named | {"values": values} | _placed(values)
+    size = dataset.sizes[name]
+    values = np.arange(1, size + 1) if name == SCENE else dataset[name].values
+    places = _placed(np.arange(size, dtype=float)) | {"listed": True, "log": False}
+    return _words(name, "number of the scene" if name == SCENE else SOLVERS, [*map(str, values)]) | places
 
 
-def _listed(places: NDArray[np.float64]) -> Entry:
-    """Place words along a picture, one after the other."""
-    few = places if places.size <= FEW else places[:0]
-    ends = [places[0], places[-1]]
-    return {"places": places, "log": False, "ends": ends, "infinity": None, "few": few, "listed": True}
+def _words(name: str, title: str, values: list[str]) -> Entry:
+    """Describe what has words for values."""
+    return {"name": name, "symbol": name, "title": title, "unit": "", "values": values}
 
 
 def _placed(values: NDArray[np.float64]) -> Entry:
     """
-    Place numbers in rising order along a picture; inf stands one step beyond the others.
+    Place numbers in rising order along a picture, at their logarithms if it has that scale; inf stands one step beyond.
 
     >>> _placed(np.array([1.0, 2.0, np.inf]))["places"]
     array([1., 2., 3.])
@@ -155,30 +135,21 @@ def _placed(values: NDArray[np.float64]) -> Entry:
 def _named(dataset: xarray.Dataset, name: str, unit: Unit | None = None) -> tuple[Entry, NDArray[Any]]:
     """Name a variable in its ways, and give its values in a unit (one that suits them if None)."""
     values = dataset[name].values
-    own = unit_for(name, values) if unit is None else unit
+    unit = unit or unit_for(name, values)
     named = {
         "name": name,
         "symbol": symbol(name),
-        "words": words(str(dataset[name].attrs.get("long_name", name))),
         "title": title(name, str(dataset[name].attrs.get("long_name", name))),
-        "unit": own.symbol.replace("$^2$", "²"),
+        "unit": plain(unit.symbol),
         "infinite": UNBOUNDED if name in INPUTS and INPUTS[name].infinite else "",
     }
-    return named, np.asarray(values, dtype=float) / 10.0**own.power if own.power else values
+    return named, np.asarray(values, dtype=float) / 10.0**unit.power if unit.power else values
 
 
 def _parameter(dataset: xarray.Dataset, name: str, axes: Sequence[str]) -> Entry:
     """Describe a parameter that is no axis: fixed, or following from axes, or one of the points."""
-    if dataset[name].dtype.kind not in "fiu":
-        return {
-            "name": name,
-            "symbol": name,
-            "words": SOLVERS,
-            "title": SOLVERS,
-            "unit": "",
-            "axes": [],
-            "values": [str(dataset[name].item())],
-        }
+    if name == SOLVER:
+        return _words(name, SOLVERS, [str(dataset[name].item())]) | {"axes": []}
     own = [axis for axis in axes if axis in dataset[name].dims]
     named, values = _named(dataset.transpose(*own, ...), name)
     values = np.asarray(values, dtype=float).ravel()
@@ -186,8 +157,7 @@ def _parameter(dataset: xarray.Dataset, name: str, axes: Sequence[str]) -> Entry
     if own == [SCENE] and np.unique(values).size > 1:
         order = np.argsort(values, kind="stable")
         placed = _placed(values[order])
-        placed["places"] = placed["places"][np.argsort(order, kind="stable")]
-        entry |= placed
+        entry |= placed | {"places": placed["places"][np.argsort(order, kind="stable")]}
     return entry
 
 
@@ -199,13 +169,12 @@ def _variable(dataset: xarray.Dataset, name: str, units: Mapping[str, Unit]) -> 
     flat = rounded(values.ravel())
     finite = flat[np.isfinite(flat)]
     positive = finite[finite > 0]
-    curve = curve_of(name) or ""
     part = part_of(name)
     return named | {
         "sensitivity": part and {"of": part[0], "to": symbol(part[1]), "plain": part[1] in PLAIN},
         "values": flat,
-        "length": values.shape[-1] if curve else 1,
-        "curve": curve,
+        "length": values.shape[-1] if curve_of(name) else 1,
+        "curve": curve_of(name) or "",
         "doubts": doubts_of(name, dataset),
         "least": float(finite.min()) if finite.size else None,
         "greatest": float(finite.max()) if finite.size else None,

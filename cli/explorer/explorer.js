@@ -1,251 +1,203 @@
 // What the page does: one state, and everything shown drawn from it.
 
-const NARROW = 700; // pixels of a window, below which figures have less beside their frames
-
-const BARE = 16; // pixels to the right of frames on a page without colour bars
-
 const explorer = {
   looks: {},
 
   // Called by Bokeh when all figures are there.
   start(study, variables, parts) {
-    this.study = new Study(study, variables);
-    this.parts = parts;
-    const { axes, solver, kind } = this.study;
-    this.at = axes.map((axis) => (axis.name === "solver" ? 0 : Math.floor((axis.values.length - 1) / 2)));
+    Object.assign(this, { study: new Study(study, variables), parts, held: false, whole: false });
+    const { axes, solver, sizes, kind, parameters } = this.study;
+    this.at = axes.map((axis, i) => (i === solver ? 0 : Math.floor((axis.values.length - 1) / 2)));
     const free = axes.map((_, i) => i).filter((i) => i !== solver);
-    free.sort((one, other) => this.study.sizes[other] - this.study.sizes[one]);
-    [this.x, this.y] = [free[0], free[1]];
-    this.over = this.study.parameters.filter((parameter) => parameter.places);
-    this.held = false;
-    this.whole = false;
-    this.drawn = variables.slice(0, 2).map((variable, i) => this.choiceOf(i));
-    this.complain(address.read(this));
-    this.marked = () => 0;
+    [this.x, this.y] = free.sort((one, other) => sizes[other] - sizes[one]);
+    this.over = parameters.find((parameter) => parameter.places);
+    this.drawn = this.firstShown(variables).map((variable) => this.choiceOf(variable));
+    if (kind === "curves") this.planes = new Planes(this.study, parts.planes);
+    const wrong = address.read(this);
+    if (wrong.length) {
+      const place = document.getElementById("wrong");
+      place.textContent = `This page has nothing, or no such value, for what its address has: ${wrong.join("; ")}.`;
+      place.hidden = false;
+    }
+    const all = () => this.later("everything");
     this.showTable = buildTable(this.study);
-    this.marked = buildLegend(this.study, () => this.later("everything"));
     this.sliders = buildSliders(this.study, this.at, (axis, place) => {
-      this.at[axis] = place;
       this.hold(true);
-      this.later(kind === "maps" && (axis === this.x || axis === this.y) ? "scene" : "everything");
+      this.go(this.at.with(axis, place), kind === "maps" && (axis === this.x || axis === this.y) ? "scene" : "everything");
     });
+    const list = document.getElementById("lines");
     if (kind === "curves") {
-      this.planes = new Planes(this.study, parts.planes);
-      for (const i of this.hidden) this.planes.hidden.add(i);
+      this.planes.legend(list, all);
     } else {
-      this.startFigures();
+      this.marked = buildLegend(this.study, all);
+      this.startFigures(list, all);
     }
     downloads.build(this);
-    const fit = () => {
-      const narrow = window.innerWidth <= NARROW;
-      const size = narrow ? "11px" : "13px";
-      for (const figure of this.figures()) {
-        figure.setv({ min_border_left: narrow ? 78 : LEFT, min_border_right: !parts.maps ? BARE : narrow ? 66 : RIGHT });
-        for (const part of [...figure.below, ...figure.left, ...figure.right]) {
-          if ("axis_label_text_font_size" in part.properties) part.axis_label_text_font_size = size;
-          part.major_label_text_font_size = size;
-        }
-      }
-    };
-    const [{ min_border_left: LEFT, min_border_right: RIGHT }] = this.figures();
-    window.addEventListener("resize", fit);
-    fit();
     this.hold(this.held);
-    theme.follow(() => {
-      for (const figure of this.figures()) theme.dress(figure);
-      const list = document.getElementById("lines");
-      if (kind === "curves") this.planes.legend(list, () => this.later("everything"));
-      else buildSolvers(this.study, list);
-      this.draw("everything");
-    });
+    this.draw("everything");
     window.addEventListener("hashchange", () => {
-      const [now, own] = [location.hash.slice(1), address.own ?? ""].map((words) => new URLSearchParams(words).toString());
-      if (now !== own) location.reload();
+      if (location.hash.slice(1) !== address.own) location.reload();
     });
     document.documentElement.dataset.ready = "true";
   },
 
-  // Say what of the address is wrong.
-  complain(said) {
-    const place = document.getElementById("wrong");
-    place.hidden = !said.length;
-    if (said.length) place.textContent = `The address of this page does not fit it: ${said.join("; ")}.`;
-  },
-
-  // Maps and sections, and the lists that choose what is in them.
-  startFigures() {
+  // Maps and sections, the line of each solver, and the lists that choose what is drawn.
+  startFigures(list, all) {
     const { study, parts } = this;
+    if (study.solver >= 0) {
+      study.axes[study.solver].values.forEach((words, i) => {
+        const [dash, width] = STROKES[i % STROKES.length];
+        list.append(lineEntry(words, LINE_COLOURS[i % LINE_COLOURS.length], dash === "solid" ? "" : dash, width));
+      });
+      list.hidden = false;
+    }
     this.maps = (parts.maps ?? []).map((part) => new ValueMap(study, part, parts.ranges));
     this.sections = parts.sections.map((both) =>
       Object.fromEntries(Object.entries(both).map(([side, part]) => [side, new Section(study, part)])),
     );
-    this.buildChoosers();
-    if (this.maps.length) {
-      this.fitRanges();
-      for (const range of Object.values(parts.ranges)) range.change.connect(() => this.later("maps"));
-      for (const part of parts.maps) {
-        for (const name of ["inner_width", "inner_height"]) {
-          part.figure.properties[name].change.connect(() => this.later("maps"));
-        }
-      }
+    this.buildChoosers(all);
+    if (!this.maps.length) return;
+    this.fitRanges();
+    const again = () => this.later("maps");
+    for (const range of Object.values(parts.ranges)) range.change.connect(again);
+    for (const { figure } of parts.maps) {
+      for (const name of ["inner_width", "inner_height"]) figure.properties[name].change.connect(again);
     }
   },
 
-  // All figures of the page.
   figures() {
     const sections = (this.parts.sections ?? []).flatMap((both) => Object.values(both));
     return [...(this.parts.maps ?? []), ...sections, ...(this.parts.planes ?? [])].map((part) => part.figure);
   },
 
-  // The variable that a map shows at first: force and energy, in units if they have them.
-  choiceOf(i) {
-    const placeOf = (name) => this.study.variables.findIndex((one) => one.name === name);
-    const usual = ["pull_off_force", "dissipated_energy"].map((name) => Math.max(placeOf(name), placeOf(`${name}_si`)));
-    const units = ["pull_off_force_si", "dissipated_energy_si"].map(placeOf);
-    const wanted = units[0] >= 0 ? units : usual;
-    const variable = wanted[0] >= 0 && wanted[i] >= 0 ? wanted[i] : Math.min(i, this.study.variables.length - 1);
-    return this.choiceOfVariable(variable);
-  },
-
-  buildChoosers() {
-    const { study } = this;
-    const place = document.getElementById("axes");
-    const named = study.axes.map((axis, i) => [i, axis.title]);
-    const other = { x: "y", y: "x" };
-    if (study.kind === "maps") {
-      for (const side of ["x", "y"]) {
-        const choose = (axis) => {
-          if (this[other[side]] === axis) this[other[side]] = this[side];
-          this[side] = axis;
-          document.getElementById("along-x").value = this.x;
-          document.getElementById("along-y").value = this.y;
-          this.fitRanges();
-          this.later("everything");
-        };
-        place.append(chooser(`along-${side}`, `${side} axis`, named, this[side], choose));
-      }
-      place.append(
-        chooser("span", "colours", [[0, "range of this map"], [1, "range of all scenes"]], Number(this.whole), (whole) => {
-          this.whole = Boolean(whole);
-          this.later("maps");
-        }),
-      );
-    } else if (this.over.length > 1) {
-      this.overNow ??= 0;
-      const options = this.over.map((parameter, i) => [i, parameter.title]);
-      place.append(chooser("along-x", "plot against", options, this.overNow, (i) => {
-        this.overNow = i;
-        this.later("everything");
-      }));
-    }
-    this.drawn.forEach((choice, i) => {
-      const head = document.getElementById(`head-${i}`);
-      const box = element("input", { type: "checkbox", id: `log-${i}` });
-      const options = study.variables.map((variable, j) => [j, withUnit(variable.title, variable.unit)]);
-      const update = () => {
-        box.disabled = study.variables[choice.variable].leastPositive === null;
-        choice.log = choice.log && !box.disabled;
-        box.checked = choice.log;
-      };
-      box.addEventListener("change", () => {
-        choice.log = box.checked;
-        this.later("everything");
-      });
-      head.append(chooser(`shown-${i}`, "quantity", options, choice.variable, (variable) => {
-        Object.assign(choice, this.choiceOfVariable(variable));
-        update();
-        this.later("everything");
-      }));
-      head.append(element("div", { className: "box" }, box, element("label", { htmlFor: `log-${i}` }, "logarithmic")));
-      head.append(element("output", { className: "now", id: `now-${i}`, title: "in this scene" }));
-      update();
-    });
+  // What is shown at first: force and energy, in units if they have them.
+  firstShown(variables) {
+    const places = (end) => ["pull_off_force", "dissipated_energy"].map((name) => variables.findIndex((one) => one.name === name + end));
+    const wanted = [places("_si"), places("")].find(([force]) => force >= 0) ?? [];
+    return variables.slice(0, 2).map((_, i) => (wanted[0] >= 0 && wanted[i] >= 0 ? wanted[i] : i));
   },
 
   // How a variable is shown at first: in colours that rise by ratios if its values differ much.
-  choiceOfVariable(variable) {
+  choiceOf(variable) {
     const { least, greatest } = this.study.variables[variable];
     return { variable, log: least > 0 && greatest > 8 * least };
+  },
+
+  // Put an axis along a side; the one that was there takes the place of that which is.
+  put(side, axis) {
+    if (axis < 0 || axis === this.study.solver || this.study.kind !== "maps") return;
+    const other = side === "x" ? "y" : "x";
+    if (this[other] === axis) this[other] = this[side];
+    this[side] = axis;
+  },
+
+  buildChoosers(all) {
+    const { study } = this;
+    const place = document.getElementById("axes");
+    if (study.kind === "maps") {
+      for (const side of ["x", "y"]) {
+        const choose = (axis) => {
+          this.put(side, axis);
+          for (const each of ["x", "y"]) document.getElementById(`along-${each}`).value = this[each];
+          this.fitRanges();
+          all();
+        };
+        place.append(chooser(`along-${side}`, `${side} axis`, study.axes.map((axis) => axis.title), this[side], choose));
+      }
+      place.append(chooser("span", "colours", ["range of this map", "range of all scenes"], Number(this.whole), (whole) => {
+        this.whole = Boolean(whole);
+        this.later("maps");
+      }));
+    } else if (this.over) {
+      const known = study.parameters.filter((parameter) => parameter.places);
+      place.append(chooser("along-x", "plot against", known.map((one) => one.title), known.indexOf(this.over), (i) => {
+        this.over = known[i];
+        all();
+      }));
+    }
+    this.drawn.forEach((choice, i) => {
+      const box = element("input", { type: "checkbox", id: `log-${i}` });
+      const update = () => {
+        box.disabled = study.variables[choice.variable].leastPositive === null;
+        box.checked = choice.log = choice.log && !box.disabled;
+        all();
+      };
+      box.addEventListener("change", () => {
+        choice.log = box.checked;
+        all();
+      });
+      const options = study.variables.map((variable) => withUnit(variable.title, variable.unit));
+      document.getElementById(`head-${i}`).append(
+        chooser(`shown-${i}`, "quantity", options, choice.variable, (variable) => {
+          Object.assign(choice, this.choiceOf(variable));
+          update();
+        }),
+        element("div", { className: "box" }, box, element("label", { htmlFor: box.id }, "logarithmic")),
+        element("output", { className: "now", id: `now-${i}`, title: "in this scene" }),
+      );
+      update();
+    });
   },
 
   // Set the ranges of the maps to the whole of both axes.
   fitRanges() {
     for (const side of ["x", "y"]) {
       const { edges } = this.study.axes[this[side]];
-      const [start, end] = [edges[0], edges[edges.length - 1]];
-      this.parts.ranges[side].setv({ start, end, reset_start: start, reset_end: end });
+      setRange(this.parts.ranges[side], edges[0], edges.at(-1));
     }
   },
 
-  // Draw before the next frame, once, whatever asks for it.
+  // Draw before the next frame, once, whatever asks for it: the scene alone, the maps too, or everything.
   later(what) {
     const ranks = ["scene", "maps", "everything"];
-    if (this.waiting !== undefined) {
-      if (ranks.indexOf(what) > ranks.indexOf(this.waiting)) this.waiting = what;
-      return;
+    if (this.waiting === undefined) {
+      requestAnimationFrame(() => {
+        const wanted = this.waiting;
+        this.waiting = undefined;
+        this.draw(wanted);
+      });
     }
-    this.waiting = what;
-    requestAnimationFrame(() => {
-      const wanted = this.waiting;
-      this.waiting = undefined;
-      this.draw(wanted);
-    });
+    this.waiting = ranks[Math.max(ranks.indexOf(what), ranks.indexOf(this.waiting))];
   },
 
-  // Draw the scene alone, the maps too, or everything.
   draw(what) {
-    const { study, at, x, y } = this;
+    const { study, at, x, y, parts } = this;
     const number = study.numberOf(at);
-    this.showTable(at, number);
     const maps = study.kind === "maps";
-    study.axes.forEach((_, i) => this.sliders[i].show(at[i], maps && i === x ? "x axis" : maps && i === y ? "y axis" : ""));
+    this.showTable(at, number);
+    this.sliders.forEach((show, i) => show(at[i], maps && i === x ? "x axis" : maps && i === y ? "y axis" : ""));
     document.documentElement.dataset.scene = number;
     address.write(this);
     if (study.kind === "curves") {
-      if (what !== "everything") return;
       this.planes.draw(number);
-      this.parts.planes.forEach((part, i) => {
-        this.name(part.figure, `plane${i}`, study.labels[part.x], study.labels[part.y]);
-      });
+      parts.planes.forEach((part) => this.name(part.figure, study.labels[part.x], study.labels[part.y]));
       return;
     }
     const marked = this.marked();
+    const words = (entry) => withUnit(entry.symbol, entry.unit);
     this.drawn.forEach((choice, i) => {
       const variable = study.variables[choice.variable];
       document.getElementById(`now-${i}`).textContent = short(variable.values[number]);
       if (maps && what !== "scene") {
         this.looks[`map${i}.bar`] = this.maps[i].paint(variable, { at, x, y, log: choice.log, whole: this.whole, marked });
-        this.name(this.parts.maps[i].figure, "map", this.axisWords(study.axes[x]), this.axisWords(study.axes[y]));
+        this.name(parts.maps[i].figure, words(study.axes[x]), words(study.axes[y]));
         [this.looks["map.x"], this.looks["map.y"]] = [study.axes[x], study.axes[y]];
       }
       if (maps) this.maps[i].point(at, x, y);
       for (const [side, section] of Object.entries(this.sections[i])) {
-        const axis = maps ? this[side] : this.lineAxis();
-        const over = study.kind === "points" ? this.over[this.overNow ?? 0] : undefined;
-        const place = `section${i}${side}`;
-        this.looks[`${place}.x`] = over ?? study.axes[axis];
-        this.looks[`${place}.y`] = section.draw(variable, { at, axis, over, log: choice.log, marked });
-        const title = withUnit(variable.symbol, variable.unit);
-        this.name(section.part.figure, place, this.axisWords(over ?? study.axes[axis]), title);
+        const over = study.kind === "points" ? this.over : undefined;
+        const along = over ?? study.axes[this[side]];
+        this.looks[`section${i}${side}.x`] = along;
+        this.looks[`section${i}${side}.y`] = section.draw(variable, { at, axis: this[side], over, log: choice.log, marked });
+        this.name(section.part.figure, words(along), words(variable));
       }
     });
   },
 
-  // The axis of a page of lines or points.
-  lineAxis() {
-    return this.study.axes.findIndex((axis) => axis.name !== "solver");
-  },
-
-  axisWords(axis) {
-    return withUnit(axis.symbol, axis.unit);
-  },
-
   // Label the axes of a figure.
-  name(figure, place, x, y) {
-    const [below] = figure.below;
-    const [left] = figure.left;
-    if (below.axis_label !== x) below.axis_label = x;
-    if (left.axis_label !== y) left.axis_label = y;
+  name({ below: [below], left: [left] }, x, y) {
+    below.axis_label = x;
+    left.axis_label = y;
   },
 
   // Ticks for Bokeh.
@@ -259,37 +211,28 @@ const explorer = {
 
   // The place along each axis that a pointer is at, null if it is at none.
   placeOf(which, i, event) {
-    const at = [...this.at];
-    if (which === "map") {
-      const [x, y] = [cellAt(this.study.axes[this.x].edges, event.x), cellAt(this.study.axes[this.y].edges, event.y)];
-      if (x < 0 || y < 0) return null;
-      [at[this.x], at[this.y]] = [x, y];
-    } else {
-      const side = which.slice(-1);
-      at[this.study.kind === "maps" ? this[side] : this.lineAxis()] = this.sections[i][side].nearest(event);
-    }
-    return at;
+    if (which !== "map") return this.at.with(this[which], this.sections[i][which].nearest(event));
+    const [x, y] = [cellAt(this.study.axes[this.x].edges, event.x), cellAt(this.study.axes[this.y].edges, event.y)];
+    return x < 0 || y < 0 ? null : this.at.with(this.x, x).with(this.y, y);
   },
 
   hover(which, i, event) {
-    if (this.held || which !== "map" && this.study.kind === "maps") return;
-    this.go(this.placeOf(which, i, event));
+    const at = this.held || (which !== "map" && this.study.kind === "maps") ? null : this.placeOf(which, i, event);
+    if (at) this.go(at);
   },
 
   // A tap holds a cell; one more on the same cell releases it.
   tap(which, i, event) {
     const at = this.placeOf(which, i, event);
     if (!at) return;
-    const same = at.every((place, axis) => place === this.at[axis]);
-    this.hold(!(this.held && same));
+    this.hold(!(this.held && at.join() === this.at.join()));
     this.go(at);
   },
 
-  go(at) {
-    if (!at || at.every((place, axis) => place === this.at[axis])) return;
+  go(at, what = this.study.kind === "maps" ? "scene" : "everything") {
+    if (at.join() === this.at.join()) return;
     this.at = at;
-    const moved = this.study.kind === "maps" ? "scene" : "everything";
-    this.later(moved);
+    this.later(what);
   },
 
   hold(held) {

@@ -1,6 +1,5 @@
 """The lines of a page of curves: which there are, over what, and how they look."""
 
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -12,7 +11,7 @@ from gradhesion.cli.explorer.data import Entry
 from gradhesion.cli.explorer.plain import plain
 from gradhesion.cli.picture.curves import PLANES, wants_si
 from gradhesion.cli.picture.labels import Unit, label, unit_for
-from gradhesion.cli.picture.tracks import JUMP, QUANTITIES, THIN, TRACKS, Dash, Track, faded, tracks_in
+from gradhesion.cli.picture.tracks import JUMP, QUANTITIES, THIN, TRACKS, Dash, Plane, Track, faded, tracks_in
 
 _WIDTH: Final = 1.5
 """Pixels for a point of a picture: lines are seen from farther away."""
@@ -21,27 +20,14 @@ UNLOADING: Final = [9, 6]
 """The dash of unloading, in pixels: what is below it, loading on the same curve, shows in its gaps."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Lines:
-    """The lines of a page."""
-
-    planes: list[tuple[str, str]]
-    """What each plane has along and up."""
-    labels: dict[str, str]
-    """How an axis names each quantity, with its unit."""
-    units: dict[str, Unit]
-    """The unit of each variable: the same for all that share an axis."""
-    tracks: list[Entry]
-
-
-def lines_of(dataset: xarray.Dataset) -> Lines:
+def lines_of(dataset: xarray.Dataset) -> tuple[list[Plane], dict[str, Unit], Entry]:
     """
     List the planes that a dataset of curves fills, and the lines in them, in units if it has them.
 
-    Raises
-    ------
-    DatasetError
-        No curve has two variables that could be drawn over each other.
+    Returns
+    -------
+    The planes, the unit of each variable (the same for all that share an axis), and for the script `tracks`, the lines,
+    and `labels`, how an axis names each quantity.
     """
     names = [str(name) for name in dataset.data_vars]
     there = tracks_in(names, TRACKS, si=wants_si(names, ()))
@@ -58,14 +44,8 @@ def lines_of(dataset: xarray.Dataset) -> Lines:
         unit = unit_for(own[0], np.concatenate([np.empty(0), *values]))
         labels[quantity] = plain(label(own[0], unit))
         units |= dict.fromkeys(own, unit)
-    return Lines(
-        planes=[
-            plane for plane in PLANES if any({track.variables[one] for one in plane} <= {*names} for track in there)
-        ],
-        labels=labels,
-        units=units,
-        tracks=[_line(track) for track in there],
-    )
+    planes = [plane for plane in PLANES if any({track.variables[one] for one in plane} <= {*names} for track in there)]
+    return planes, units, {"tracks": [_line(track) for track in there], "labels": labels}
 
 
 def _line(track: Track) -> Entry:

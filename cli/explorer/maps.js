@@ -1,45 +1,29 @@
 // Maps: every pixel has the colour of its cell, so that uneven axes are drawn as they are.
 
 const HATCH = 8; // pixels from stripe to stripe
-const DARK = 0xff262626; // alpha, blue, green, red
-const LIGHT = 0xffffffff;
-const PALE = 0xffc8c8a0;
-const GAP = 0xffd4d4d4;
-const GAP_STRIPE = 0xff9a9a9a;
+const [DARK, LIGHT, PALE] = [0xff262626, 0xffffffff, 0xffc8c8a0]; // alpha, blue, green, red
 
 // The colour of a pixel where there is no value: grey with crossed stripes.
 function gapColour(x, y, period) {
-  return (x + y) % period < 1 || (x - y + 4096 * period) % period < 1 ? GAP_STRIPE : GAP;
-}
-
-// The colours of a palette as pixels.
-function pixelsOf(palette) {
-  return Uint32Array.from(palette, (text) => {
-    const number = parseInt(text.slice(1), 16);
-    return (0xff000000 | ((number & 0xff) << 16) | (number & 0xff00) | (number >> 16)) >>> 0;
-  });
-}
-
-// The cell under each pixel of a side.
-function cellsAlong(axis, start, end, size) {
-  const cells = new Int32Array(size);
-  for (let i = 0; i < size; i++) cells[i] = cellAt(axis.edges, start + ((i + 0.5) * (end - start)) / size);
-  return cells;
+  return (x + y) % period < 1 || (x - y + 4096 * period) % period < 1 ? 0xff9a9a9a : 0xffd4d4d4;
 }
 
 class ValueMap {
   constructor(study, part, ranges) {
-    Object.assign(this, { study, part, ranges, colours: pixelsOf(study.palette) });
+    Object.assign(this, { study, part, ranges });
     this.Pixels = part.image.data.image[0].constructor;
+    this.colours = Uint32Array.from(study.palette, (text) => {
+      const [red, green, blue] = [1, 3, 5].map((i) => parseInt(text.slice(i, i + 2), 16));
+      return (0xff000000 | (blue << 16) | (green << 8) | red) >>> 0;
+    });
   }
 
-  // The lowest and highest colour: those of all scenes, or of the cells of this map.
-  limits(variable, log, at, x, y, whole) {
-    if (whole) return [log ? variable.leastPositive : variable.least, variable.greatest];
-    let [low, high] = [Infinity, -Infinity];
+  // The lowest and the highest value on the map, or of all scenes, as places along the colours.
+  limits(variable, start, x, y, { log, whole }) {
     const { strides, sizes } = this.study;
-    const start = this.study.numberOf(at) - at[x] * strides[x] - at[y] * strides[y];
-    for (let j = 0; j < sizes[y]; j++) {
+    let [low, high] = [Infinity, -Infinity];
+    if (whole) [low, high] = [log ? variable.leastPositive : variable.least, variable.greatest];
+    for (let j = 0; !whole && j < sizes[y]; j++) {
       for (let i = 0; i < sizes[x]; i++) {
         const value = variable.values[start + j * strides[y] + i * strides[x]];
         if (!(log ? value > 0 : value === value)) continue;
@@ -47,72 +31,62 @@ class ValueMap {
         if (value > high) high = value;
       }
     }
-    return low <= high ? [low, high] : [log ? 1 : 0, 1];
+    if (low === null || !(low <= high)) [low, high] = log ? [1, 1] : [0, 0];
+    if (log) [low, high] = [Math.log10(low), Math.log10(high)];
+    const pad = high - low > 1e-12 * Math.max(Math.abs(low), Math.abs(high)) ? 0 : 0.05 * (Math.abs(high) || 1);
+    return [low - pad, high + pad];
   }
 
-  // Draw a variable over axes x and y, at the places of the others.
+  // Draw a variable over axes x and y, at the places of the others; the bits of `marked` are hatched.
   paint(variable, { at, x, y, log, whole, marked }) {
-    const { study, part, colours } = this;
+    const { study, part, colours, ranges } = this;
+    const { strides, axes } = study;
     const ratio = Math.min(2, window.devicePixelRatio || 1);
-    const width = Math.round(Math.min(2000, Math.max(40, part.figure.inner_width * ratio)));
-    const height = Math.round(Math.min(2000, Math.max(40, part.figure.inner_height * ratio)));
-    const [xs, ys] = [this.ranges.x, this.ranges.y];
-    const columns = cellsAlong(study.axes[x], xs.start, xs.end, width);
-    const rows = cellsAlong(study.axes[y], ys.start, ys.end, height);
-    const place = log ? Math.log10 : (value) => value;
-    let [low, high] = this.limits(variable, log, at, x, y, whole).map(place);
-    if (low === null || !(high - low > 1e-12 * Math.max(Math.abs(low), Math.abs(high)))) {
-      [low, high] = [low - 0.05 * (Math.abs(low) || 1), high + 0.05 * (Math.abs(high) || 1)];
-    }
+    const pixelsOf = (size) => Math.round(Math.min(2000, Math.max(40, size * ratio)));
+    const cellsAlong = (axis, { start, end }, size) =>
+      Int32Array.from({ length: size }, (_, i) => cellAt(axis.edges, start + ((i + 0.5) * (end - start)) / size));
+    const [width, height] = [pixelsOf(part.figure.inner_width), pixelsOf(part.figure.inner_height)];
+    const [columns, rows] = [cellsAlong(axes[x], ranges.x, width), cellsAlong(axes[y], ranges.y, height)];
+    const start = study.numberOf(at) - at[x] * strides[x] - at[y] * strides[y];
+    const [low, high] = this.limits(variable, start, x, y, { log, whole });
+    const shadeOf = (value) => {
+      if (Number.isNaN(value)) return -1;
+      if (log && value <= 0) return -2;
+      return Math.max(0, Math.min(255, Math.floor((((log ? Math.log10(value) : value) - low) / (high - low)) * 256)));
+    };
     const period = Math.round(HATCH * ratio);
-    const start = study.numberOf(at) - at[x] * study.strides[x] - at[y] * study.strides[y];
     const bits = marked & study.bitsOf(variable);
     const pixels = new Uint32Array(width * height);
-    const painted = new Int16Array(study.sizes[x]);
-    let before = -1;
+    let [shades, before] = [[], -1];
     for (let j = 0; j < height; j++) {
       if (rows[j] < 0) continue;
-      const row = start + rows[j] * study.strides[y];
-      if (rows[j] !== before) {
-        before = rows[j];
-        for (let i = 0; i < painted.length; i++) {
-          const value = variable.values[row + i * study.strides[x]];
-          painted[i] = Number.isNaN(value) ? -1 : log && value <= 0 ? -2 : this.shade((place(value) - low) / (high - low));
-        }
-      }
+      const row = start + rows[j] * strides[y];
+      if (rows[j] !== before) shades = Array.from({ length: study.sizes[x] }, (_, i) => shadeOf(variable.values[row + i * strides[x]]));
+      before = rows[j];
       for (let i = 0; i < width; i++) {
         if (columns[i] < 0) continue;
-        const shade = painted[columns[i]];
+        const shade = shades[columns[i]];
         let colour = shade >= 0 ? colours[shade] : shade === -1 ? gapColour(i, j, period) : LIGHT;
-        const flags = study.status[row + columns[i] * study.strides[x]] & bits;
-        if (flags && shade !== -1) {
-          for (let k = 0; flags >> k; k++) {
-            if ((flags >> k) & 1 && MARKS[k](i, j, period)) colour = shade >= 0 && shade < 90 ? LIGHT : DARK;
-          }
+        const flags = shade === -1 ? 0 : study.status[row + columns[i] * strides[x]] & bits;
+        for (let k = 0; flags >> k; k++) {
+          if ((flags >> k) & 1 && MARKS[k](i, j, period)) colour = shade >= 0 && shade < 90 ? LIGHT : DARK;
         }
         pixels[j * width + i] = colour;
       }
     }
     part.mapper.setv({ low, high });
-    part.image.data = {
-      image: [new this.Pixels(pixels, [height, width])],
-      x: [xs.start], y: [ys.start], dw: [xs.end - xs.start], dh: [ys.end - ys.start],
-    };
+    const [xs, ys] = [ranges.x, ranges.y];
+    const image = [new this.Pixels(pixels, [height, width])];
+    part.image.data = { image, x: [xs.start], y: [ys.start], dw: [xs.end - xs.start], dh: [ys.end - ys.start] };
     return lookOf(log);
-  }
-
-  // The number of a colour, from 0 to 1 along the palette.
-  shade(part) {
-    return Math.max(0, Math.min(255, Math.floor(part * 256)));
   }
 
   // Mark the cell of a scene.
   point(at, x, y) {
     const [along, up] = [this.study.axes[x], this.study.axes[y]];
-    this.part.cell.data = {
-      x: [along.places[at[x]]], y: [up.places[at[y]]],
-      left: [along.edges[at[x]]], right: [along.edges[at[x] + 1]],
-      bottom: [up.edges[at[y]]], top: [up.edges[at[y] + 1]],
-    };
+    const [left, right] = along.edges.slice(at[x], at[x] + 2);
+    const [bottom, top] = up.edges.slice(at[y], at[y] + 2);
+    const cell = { x: along.places[at[x]], y: up.places[at[y]], left, right, bottom, top };
+    this.part.cell.data = Object.fromEntries(Object.entries(cell).map(([name, value]) => [name, [value]]));
   }
 }

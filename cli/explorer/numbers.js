@@ -1,23 +1,24 @@
 // Numbers as people read them, and round ticks for an axis.
 
-const DIGITS = 6;
-
-// Write a value to 6 digits, as "0.123456" or "1.5×10⁻⁷".
-function short(value, digits = DIGITS) {
+// Write a value to some digits, as "0.123456" or "1.5×10⁻⁷".
+function short(value, digits = 6) {
   if (typeof value === "string") return value;
   if (Number.isNaN(value)) return "no value";
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
-  if (value === 0) return "0";
-  const [mantissa, power] = value.toExponential(digits - 1).split("e");
-  if (power >= -4 && power < DIGITS) return String(Number(value.toPrecision(digits))).replace("-", "−");
+  const [front, power] = value.toExponential(digits - 1).split("e");
+  if (value === 0 || (power >= -4 && power < 6)) return String(Number(value.toPrecision(digits))).replace("-", "−");
   const tens = "10" + String(Number(power)).replace("-", "⁻").replace(/\d/g, (digit) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[digit]);
-  const factor = String(Number(mantissa)).replace("-", "−");
+  const factor = String(Number(front)).replace("-", "−");
   return factor === "1" ? tens : `${factor}×${tens}`;
 }
 
 // Write a value of an axis or a parameter with its unit, an infinite one by its word.
 function inWords(entry, value) {
   return value === Infinity && entry.infinite ? entry.infinite : [short(value), entry.unit].filter(Boolean).join(" ");
+}
+
+function withUnit(text, unit) {
+  return unit ? `${text} (${unit})` : text;
 }
 
 // Round numbers between two others, `count` or fewer.
@@ -37,10 +38,8 @@ function powerTicks(start, end, count) {
   if (decades < 0.95) return roundNumbers(10 ** start, 10 ** end, count).filter((one) => one > 0).map(Math.log10);
   const factors = decades < 2.4 ? [1, 2, 5] : decades < 4 ? [1, 3] : [1];
   const step = Math.max(1, Math.ceil(decades / count));
-  const found = [];
-  for (let power = Math.floor(start); power <= end; power++) {
-    if (power % step === 0) found.push(...factors.map((one) => power + Math.log10(one)));
-  }
+  const powers = Array.from({ length: Math.ceil(decades) + 2 }, (_, i) => Math.floor(start) + i);
+  const found = powers.filter((power) => power % step === 0).flatMap((power) => factors.map((one) => power + Math.log10(one)));
   return found.filter((one) => one >= start - 1e-9 && one <= end + 1e-9);
 }
 
@@ -56,13 +55,9 @@ function ticksOf(look, start, end, count = 6) {
   const few = Array.from(look.few);
   const long = Math.max(4, ...few.map((one) => tickWords(look, one).length)) / 4; // long numbers need more room
   if (few.length && few.every((one, i) => i === 0 || one - few[i - 1] >= long * apart)) return few.filter(inside);
-  if (look.listed) {
-    const step = Math.max(1, Math.ceil((end - start) / 12));
-    return Array.from(look.places).filter((one) => one % step === 0 && inside(one));
-  }
+  if (look.listed) return Array.from(look.places).filter((one) => inside(one) && one % Math.ceil((end - start) / 12 || 1) === 0);
   const found = (look.log ? powerTicks : roundNumbers)(start, end, count).filter((one) => one <= look.ends[1] + apart / 8);
-  if (look.infinity !== null && inside(look.infinity)) found.push(look.infinity);
-  return found;
+  return look.infinity !== null && inside(look.infinity) ? [...found, look.infinity] : found;
 }
 
 // The words at a tick.
@@ -75,23 +70,14 @@ function tickWords(look, place) {
 
 // The edges of cells about their places: half-way between them.
 function edgesOf(places) {
-  const size = places.length;
-  if (size === 1) return [places[0] - 0.5, places[0] + 0.5];
-  const edges = [1.5 * places[0] - 0.5 * places[1]];
-  for (let i = 1; i < size; i++) edges.push(0.5 * (places[i - 1] + places[i]));
-  edges.push(1.5 * places[size - 1] - 0.5 * places[size - 2]);
-  return edges;
+  if (places.length === 1) return [places[0] - 0.5, places[0] + 0.5];
+  const [first, last] = [2 * places[0] - places[1], 2 * places.at(-1) - places.at(-2)];
+  const wide = [first, ...places, last];
+  return wide.slice(1).map((place, i) => 0.5 * (place + wide[i]));
 }
 
 // The cell that a place is in, -1 if it is in none.
 function cellAt(edges, place) {
-  let low = 0;
-  let high = edges.length - 1;
-  if (!(place >= edges[low] && place <= edges[high])) return -1;
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (edges[middle] <= place) low = middle;
-    else high = middle;
-  }
-  return low;
+  if (!(place >= edges[0] && place <= edges.at(-1))) return -1;
+  return Math.max(0, Math.min(edges.length - 2, edges.findLastIndex((edge) => edge <= place)));
 }

@@ -9,9 +9,7 @@ function plainArray(values) {
 
 class Study {
   constructor(study, variables) {
-    Object.assign(this, study);
-    this.variables = variables;
-    this.status = plainArray(this.status);
+    Object.assign(this, study, { variables, status: plainArray(study.status) });
     for (const entry of [...this.axes, ...this.parameters, ...variables]) {
       for (const name of ["values", "places", "few"]) entry[name] = plainArray(entry[name]);
     }
@@ -28,9 +26,7 @@ class Study {
 
   // The value of a parameter that is no axis; one that follows from axes varies along these alone.
   parameterAt(parameter, at) {
-    let number = 0;
-    for (const axis of parameter.axes) number = number * this.sizes[axis] + at[axis];
-    return parameter.values[number];
+    return parameter.values[parameter.axes.reduce((number, axis) => number * this.sizes[axis] + at[axis], 0)];
   }
 
   // The bits of the status that are of interest to a variable.
@@ -45,25 +41,25 @@ class Study {
   }
 }
 
-// A label of a value, with its unit if it has one.
-function withUnit(text, unit) {
-  return unit ? `${text} (${unit})` : text;
-}
-
-// How each flag is marked in a map, by its number: whether a pixel belongs to the mark.
+// How each flag is marked in a map, by its number: whether a pixel belongs to the mark, of which p is the period.
+const rising = (x, y, p) => (x + y) % p < p / 5;
+const falling = (x, y, p) => (x - y + 4096 * p) % p < p / 5;
+const level = (x, y, p) => y % p < p / 5;
+const upright = (x, y, p) => x % p < p / 5;
+const crossed = (...pixel) => rising(...pixel) || falling(...pixel);
 const MARKS = [
-  (x, y, p) => (x + y) % p < p / 5,
-  (x, y, p) => (x - y + 4096 * p) % p < p / 5,
+  rising,
+  falling,
   (x, y, p) => x % p < p / 3.5 && y % p < p / 3.5,
-  (x, y, p) => y % p < p / 5,
-  (x, y, p) => x % p < p / 5,
-  (x, y, p) => (x + y) % p < p / 5 || (x - y + 4096 * p) % p < p / 5,
-  (x, y, p) => (x + y) % p < p / 5 || (x - y + 4096 * p) % p < p / 5,
-  (x, y, p) => x % p < p / 5 || y % p < p / 5,
+  level,
+  upright,
+  crossed,
+  crossed,
+  (...pixel) => level(...pixel) || upright(...pixel),
   (x, y, p) => y % p < p / 2.5,
   (x, y, p) => x % p < p / 2.5,
 ];
 
-// And in a section: its open marker, and the letter that is like it.
+// And in a section: its open marker, and the letter that is like it; the last is that of no value.
 const POINTS = ["circle", "square", "diamond", "triangle", "inverted_triangle", "hex", "x", "star", "plus", "square_pin"];
 const LETTERS = "○□◇△▽⬡×☆＋▣×";

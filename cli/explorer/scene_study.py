@@ -1,9 +1,8 @@
-"""What a page needs to write the study, and the call in Python, of any one of its scenes."""
+"""What a page needs to write the study of any one of its scenes."""
 
-import json
 import tomllib
 from contextlib import suppress
-from typing import Any, Final
+from typing import Any
 
 import xarray
 
@@ -14,53 +13,31 @@ from gradhesion.cli.picture.labels import given
 from gradhesion.cli.study.text.written import toml_of
 from gradhesion.core.problem.inputs import INPUTS
 
-OF_AXES: Final = ("parameters", "physical")
-"""The tables whose keys are those of the scene."""
-
-
-def _stored(dataset: xarray.Dataset) -> dict[str, Any]:
-    """Read the study that a dataset holds; nothing where it is missing or changed."""
-    with suppress(tomllib.TOMLDecodeError, RecursionError):
-        return tomllib.loads(str(dataset.attrs.get("study", "")))
-    return {}
-
 
 def scene_study(dataset: xarray.Dataset) -> Entry:
     """
-    Describe the study of one scene, but for the values of its parameters.
+    Describe the study of one scene but for the values of its parameters, as the study that the dataset holds has it.
 
     Returns
     -------
     given
         The keys that give the scene, each with its table.
     head, tables
-        The keys above the tables, and the other tables, as TOML.
-    outputs, keywords
-        The outputs, and what else a call in Python takes, as Python.
+        The keys above the tables, and what other tables hold, as TOML.
     """
-    stored = _stored(dataset)
-    own = [str(name) for name in dataset.data_vars if name != "status" and not str(name).endswith(SI)]
-    outputs = stored.get("outputs", own)
+    stored: dict[str, Any] = {}
+    with suppress(tomllib.TOMLDecodeError, RecursionError):
+        stored = tomllib.loads(str(dataset.attrs.get("study", "")))
     keys = {name: INPUTS[name].table for name in given(dataset.coords)}
-    title = f"A scene of: {dataset.attrs.get('title', 'a dataset')}"
-    head = {"title": title} | ({"kind": "curve"} if has_curves(dataset) else {}) | {"outputs": outputs}
-    tables = {
-        name: {key: value for key, value in table.items() if key not in keys}
-        for name, table in stored.items()
-        if isinstance(table, dict) and name not in OF_AXES
-    }
-    tables = {name: table for name, table in tables.items() if table}
-    keywords = [f"profile={tables['profile']!r}"] if "profile" in tables else []
-    if control := tables.get("loading", {}).get("control"):
-        keywords.append(f"control={control!r}")
-    if states := tables.get("states"):
-        keywords += [f"{key}={value!r}" for key, value in states.items()]
-    if not has_curves(dataset):
-        keywords += [f"{key}={value!r}" for key, value in tables.get("method", {}).items()]
+    own = [str(name) for name in dataset.data_vars if name != "status" and not str(name).endswith(SI)]
+    head = {"title": f"A scene of: {dataset.attrs.get('title', 'a dataset')}", "outputs": stored.get("outputs", own)}
+    tables: dict[str, str] = {}
+    for name, table in stored.items():
+        if isinstance(table, dict) and name not in ("parameters", "physical"):
+            others = {key: value for key, value in table.items() if key not in keys}
+            tables |= {name: toml_of({name: others}).partition("]\n")[2].strip()} if others else {}
     return {
         "given": keys,
-        "head": toml_of(head),
-        "tables": {name: toml_of({name: table}).partition("]\n")[2].strip() for name, table in tables.items()},
-        "outputs": json.dumps(outputs),
-        "keywords": keywords,
+        "head": toml_of(head | ({"kind": "curve"} if has_curves(dataset) else {})),
+        "tables": tables,
     }

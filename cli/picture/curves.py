@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import xarray
@@ -21,36 +21,31 @@ from gradhesion.cli.names.outputs import SI
 from gradhesion.cli.names.scenes import SCENE
 from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.picture.doubts import CROSS, DOUBTS, Doubt, doubts_in, entries
-from gradhesion.cli.picture.inset import add_inset, fit_heights
-from gradhesion.cli.picture.labels import effective, equation, given
-from gradhesion.cli.picture.looks import PLAIN, Looks
+from gradhesion.cli.picture.labels import equations, fixed, given
+from gradhesion.cli.picture.looks import Looks
 from gradhesion.cli.picture.measured import Points, read_points
-from gradhesion.cli.picture.pictured import finish, styled
-from gradhesion.cli.picture.scales import suit
+from gradhesion.cli.picture.pictured import MARKERS, finish, stacked, styled
+from gradhesion.cli.picture.scales import add_inset, fit_heights, suit
 from gradhesion.cli.picture.states import draw_states
 from gradhesion.cli.picture.tracks import (
     JUMP,
-    MARKED,
-    MARKERS,
     QUANTITIES,
     THIN,
     TRACKS,
     TRACKS_OF_MANY,
     Colour,
     Dash,
+    Plane,
     Track,
     Values,
     draw_arrows,
-    draw_doubts,
     draw_marks,
     draw_track,
     faded,
-    points_of,
     tracks_in,
+    unloads,
 )
 from gradhesion.cli.terminal.wording import did_you_mean
-
-Plane = tuple[str, str]
 
 PLANES: Final[tuple[Plane, ...]] = (
     ("indentation", "load"),
@@ -59,11 +54,12 @@ PLANES: Final[tuple[Plane, ...]] = (
 )
 """What each panel has along and up, unless that is chosen."""
 
-NARROW: Final = 1.7
-"""The width of a panel, in inches, below which panels stand below each other if a width is given."""
-
 SCENES: Final = 5
 """Scenes in one picture: more could not be distinguished."""
+
+APART: Final = 0.12
+MARKED: Final = 0.22
+"""How far apart the marks of doubts and of scenes stand along a line, in diagonals of the panel."""
 
 INK: Final = to_rgb("0.25")
 """The colour of lines in a legend where colours distinguish scenes."""
@@ -79,23 +75,18 @@ class Scene:
     values: xarray.Dataset
     doubts: Sequence[Doubt]
     """What makes its path doubtful."""
-    item: int = 0
+    item: int
     """Which of the scenes it is."""
-
-    def colour_of(self, track: Track) -> Colour:
-        """Give the colour of one of its lines."""
-        return self.colour or track.colour
 
 
 def drawn_curves(
     dataset: xarray.Dataset,
     requested: Sequence[str],
-    *,
-    x: str | None = None,
-    y: str | None = None,
-    looks: Looks = PLAIN,
-    data: Path | None = None,
-    notes: Callable[[str], None] = lambda _: None,
+    x: str | None,
+    y: str | None,
+    looks: Looks,
+    data: Path | None,
+    notes: Callable[[str], None],
 ) -> Figure:
     """
     Draw curves of a dataset into three panels, in units if it has them; without any asked for, all of them.
@@ -103,56 +94,48 @@ def drawn_curves(
     With x or y, the contact radius, indentation or load, those panels alone are drawn that have it there. Curves of
     states, over the distance from the axis, are drawn where they alone are asked for or there. Measured points come
     from a file, `data`; what is left out of it goes to `notes`.
-
-    Raises
-    ------
-    DatasetError
-        A curve is not there, has no value, or lacks two variables to draw over each other.
     """
-    if looks.kind == "map" or looks.levels is not None:
-        option = "--map" if looks.kind == "map" else "--levels"
-        raise DatasetError(f"{option}: curves are drawn as lines; leave it out")
-    looks.refuse(["band"], "curves have no spread")
-    planes = _planes(x, y)
-    chosen = _chosen(dataset, requested)
-    if of_states := [curve for curve in chosen if curve in STATE_CURVES]:
-        others = [curve for curve in chosen if curve not in of_states]
-        if requested and others:
-            raise DatasetError(
-                f"--variable {of_states[0]} is drawn over the distance from the axis, and {others[0]} is not: they "
-                "have no axis in common; draw one after the other"
-            )
-        if not others:
-            for option, value in (("data", data), ("x", x), ("y", y)):
-                if value:
-                    what = "over the distance from the axis; leave it out, or draw another curve with --variable"
-                    raise DatasetError(f"--{option} {value}: this picture has curves of states, {what}")
-            return draw_states(dataset, chosen, looks)
-        chosen = others
+    if looks.kind == "map":
+        raise DatasetError("--map: curves are drawn as lines; leave it out")
+    looks.refuse(["levels", "band"], "curves are drawn as lines, without a spread")
+    planes, chosen = _planes(x, y), _chosen(dataset, requested)
+    of_states = [curve for curve in chosen if curve in STATE_CURVES]
+    chosen = [curve for curve in chosen if curve not in of_states]
+    if requested and of_states and chosen:
+        raise DatasetError(
+            f"--variable {of_states[0]} has no axis in common with {chosen[0]}; draw one after the other"
+        )
+    if not chosen:
+        for option, value in (("data", data), ("x", x), ("y", y)):
+            if value:
+                raise DatasetError(
+                    f"--{option} {value}: curves of states lie over the distance from the axis; leave it out"
+                )
+        return draw_states(dataset, of_states, looks)
     scenes, caption = _scenes_of(dataset, looks)
     si = wants_si(map(str, dataset.data_vars), requested)
     own = [track for track in (TRACKS_OF_MANY if len(scenes) > 1 else TRACKS) if track.curve in chosen]
     known = tracks_in(dataset, own, si=si, colours=looks.colours)
-    there = {
-        plane: [track for track in known if all(track.variables[one] in dataset for one in plane)] for plane in planes
-    }
+    there = {plane: [one for one in known if {one.variables[side] for side in plane} <= {*dataset}] for plane in planes}
     panels = [(plane, tracks) for plane, tracks in there.items() if tracks]
     if not panels:
         wanted = " ".join(f"--{side} {name}" for side, name in (("x", x), ("y", y)) if name) or "a picture"
         raise DatasetError(
-            f"{wanted}: {', '.join(chosen)} of this dataset lacks two of contact radius, indentation and load to draw "
-            f'over each other; name whole curves in the outputs of the study, as in outputs = ["{chosen[0]}"]'
+            f"{wanted}: {', '.join(chosen)} lacks two of contact radius, indentation and load; name whole curves in "
+            f'the outputs of the study, as in outputs = ["{chosen[0]}"]'
         )
-    rows = [points_of(track, scene.values, plane) for plane, tracks in panels for track in tracks for scene in scenes]
+    rows = [track.points(scene.values, plane) for plane, tracks in panels for track in tracks for scene in scenes]
     if not any(np.isfinite(row).all(axis=0).any() for row in rows):
         raise DatasetError("no value in any scene drawn; `gradhesion info` reports why")
-    points = None if data is None else read_points(data, [plane for plane, _ in panels], si=si)
+    kept = [plane for plane, _ in panels]
+    for choice, sides in (("xlim", {along for along, _ in kept}), ("ylim", {up for _, up in kept}), ("inset", kept)):
+        looks.refuse([choice] if len(sides) > 1 else [], "the panels differ; choose one with --x indentation --y load")
+    points = None if data is None else read_points(data, kept, si=si)
     for note in points.notes if points else ():
         notes(note)
-    _check(looks, [plane for plane, _ in panels])
+    width = looks.width or max(4.0, 2.5 * len(panels))
+    below = stacked(len(panels), 1.7, looks)
     with styled(looks):
-        width = looks.width or max(4.0, 2.5 * len(panels))
-        below = len(panels) if width < NARROW * len(panels) else 1
         figure = Figure(figsize=(width, looks.height or 2.4 * below + 1.1), layout="constrained")
         grid = figure.subplots(below, len(panels) // below, squeeze=False).ravel()
         for axes, (plane, tracks) in zip(grid, panels, strict=True):
@@ -161,7 +144,7 @@ def drawn_curves(
             arrows: list[Values] = []
             for track in (one for one in tracks if one.curve == "path"):
                 for scene in scenes:
-                    draw_arrows(axes, track, scene.values, plane, scene.colour_of(track), arrows)
+                    draw_arrows(axes, track, scene.values, plane, scene.colour or track.colour, arrows)
         used = [track for track in known if any(track in tracks for _, tracks in panels)]
         handles = [*_handles(scenes, used), *([Line2D([], [], **points.looks)] if points else [])]
         size = width, 2.4 * below + 0.6
@@ -177,19 +160,11 @@ def wants_si(there: Iterable[str], requested: Sequence[str]) -> bool:
 
     >>> wants_si(["path_load", "path_load_si"], ["path"]), wants_si(["path_load", "path_load_si"], ["path_load"])
     (True, False)
-
-    Raises
-    ------
-    DatasetError
-        Some variables with a unit and some without are asked for: they have no axis in common.
     """
     plain = [name for name in requested if name in UNITS]
     units = [name for name in requested if name.endswith(SI)]
     if plain and units:
-        raise DatasetError(
-            f"--variable {plain[0]} has no unit and {units[0]} has one: they have no axis in common; "
-            f"ask for {plain[0]}{SI} instead"
-        )
+        raise DatasetError(f"--variable {plain[0]}: has no unit, and {units[0]} has one; ask for {plain[0]}{SI}")
     return not plain and any(name.endswith(SI) for name in there)
 
 
@@ -197,10 +172,7 @@ def _planes(x: str | None, y: str | None) -> Sequence[Plane]:
     """List the planes that have a quantity along and one up, as they are chosen."""
     for side, name in (("x", x), ("y", y)):
         if name and name not in QUANTITIES:
-            raise DatasetError(
-                f"--{side} {name}: curves are drawn over contact_radius, indentation or load; "
-                f"{did_you_mean(name, QUANTITIES)}"
-            )
+            raise DatasetError(f"--{side} {name}: not what curves are drawn over; {did_you_mean(name, QUANTITIES)}")
     if x and x == y:
         raise DatasetError(f"--x {x} --y {y}: one quantity cannot be both sides; choose another for one of them")
     if x and y:
@@ -224,54 +196,29 @@ def _chosen(dataset: xarray.Dataset, requested: Sequence[str]) -> list[str]:
     return [curve for curve, own in there.items() if not requested or {curve, *own} & {*requested}]
 
 
-def _check(looks: Looks, planes: Sequence[Plane]) -> None:
-    """Refuse limits that panels do not share, and an inset that has several to choose from."""
-    for span, several in (
-        (looks.xlim, len({along for along, _ in planes}) > 1),
-        (looks.ylim, len({up for _, up in planes}) > 1),
-        (looks.inset, len(planes) > 1),
-    ):
-        if span and several:
-            raise DatasetError(f"{span}: the panels have different axes; choose one with --x indentation --y load")
-
-
 def _scenes_of(dataset: xarray.Dataset, looks: Looks) -> tuple[list[Scene], list[str]]:
     """Choose the scenes to draw, along the last axis with more than one value, and write what they have in common."""
-    axes = [str(axis) for axis, size in dataset["status"].sizes.items() if size > 1]
-    last = axes[-1] if axes else None
-    first = dataset.isel({axis: 0 for axis in dataset["status"].dims if axis != last})
-    caption = []
-    for name in effective(dataset):
-        values = np.unique(dataset[name].values)
-        if values.size == 1:
-            caption.append(equation(name, values[0].item()))
-        elif name in axes[:-1]:
-            caption.append(f"{equation(name, dataset[name].values[0].item())} (first of {values.size})")
-    if last is None:
-        caption += slope_warnings(dataset)
-        return [_scene(first, "", None)], caption
-    size = dataset.sizes[last]
-    items = np.unique(np.linspace(0, size - 1, min(size, SCENES)).round().astype(int)).tolist()
-    varying = [last]
+    dims = [str(axis) for axis in dataset["status"].dims]
+    last = next((axis for axis in reversed(dims) if dataset.sizes[axis] > 1), None)
+    some = dataset.isel({axis: 0 for axis in dims if axis != last})
+    varying = [last] if last else []
     if last == SCENE:
-        varying = [name for name in given(dataset.coords) if np.unique(dataset[name].values).size > 1]
+        varying = [name for name in given(some.coords) if np.unique(some[name].values).size > 1]
+    caption = fixed(dataset.drop_vars(varying, errors="ignore"))
+    size = dataset.sizes[last] if last else 1
+    items = np.unique(np.linspace(0, size - 1, min(size, SCENES)).round().astype(int)).tolist()
     scenes = []
     for place, item in enumerate(items):
-        scene = first.isel({last: item})
-        label = ", ".join(equation(name, scene[name].item()) for name in varying[:2]) or f"scene {item}"
-        scenes.append(_scene(scene, label, to_rgb(looks.colours(0.75 * place / (len(items) - 1))), place))
+        scene = (some.isel({last: item}) if last else some).load()
+        colour = to_rgb(looks.colours(0.75 * place / (len(items) - 1))) if last else None
+        label = ", ".join(equations(name, scene[name].item())[0] for name in varying[:2]) or f"scene {item}"
+        names = [name + end for track in TRACKS for name in track.variables.values() for end in ("", SI)]
+        if not any(np.isfinite(scene[name].values).any() for name in names if name in scene):
+            label, colour = f"{label} (no value)", to_rgb(CROSS)
+        doubts = doubts_in(scene["status"].values, "path", scene)
+        scenes.append(Scene(label=label, colour=colour, values=scene, doubts=doubts, item=place))
     caption += [f"{SCENES} of {size} scenes"] if size > SCENES else []
     return scenes, [*caption, *slope_warnings(dataset)]
-
-
-def _scene(scene: xarray.Dataset, label: str, colour: Colour | None, item: int = 0) -> Scene:
-    """Make a scene; one that has no value is grey and says so."""
-    names = [name + end for track in TRACKS for name in track.variables.values() for end in ("", SI)]
-    if label and not any(np.isfinite(scene[name].values).any() for name in names if name in scene):
-        label, colour = f"{label} (no value)", to_rgb(CROSS)
-    scene = scene.load()
-    doubts = doubts_in(scene["status"].values, "path", scene)
-    return Scene(label=label, colour=colour, values=scene, doubts=doubts, item=item)
 
 
 def _draw_panel(
@@ -280,15 +227,15 @@ def _draw_panel(
     """Draw the lines of all scenes into a panel, measured points below them, and mark where depth and load are zero."""
     for track in tracks:
         for scene in scenes:
-            colour = scene.colour_of(track)
+            colour, own = scene.colour or track.colour, track.points(scene.values, plane)
             draw_track(axes, track, scene.values, plane, colour)
             if scene.colour:
                 start = MARKED * (0.15 + scene.item / len(MARKERS))  # beside those of the scene before
-                marker = MARKERS[scene.item % len(MARKERS)]
-                own = points_of(track, scene.values, plane)
-                draw_marks(axes, own, (start, MARKED), marker=marker, ms=3.2, color=colour, mew=0.0)
+                draw_marks(axes, own, start, MARKED, color=colour, **_marker(scene))
             if track.curve == "path" and not track.unloading:
-                draw_doubts(axes, track, scene.values, plane, scene.doubts, colour)
+                loading = own[:, ~unloads(scene.values, own.shape[1])]
+                for doubt in reversed(scene.doubts):  # the larger ones below
+                    draw_marks(axes, loading, 0.5 * APART, APART, mew=0.8, **doubt.marker(colour))
     if points is not None and {*plane} <= points.values.keys():
         axes.plot(*(points.values[quantity] for quantity in plane), **points.looks)
     along, up = plane
@@ -303,21 +250,21 @@ def _draw_panel(
     suit(axes, "y", tracks[0].variables[up], looks.ylim)
 
 
+def _marker(scene: Scene) -> dict[str, Any]:
+    """Give what distinguishes a scene in a grey print."""
+    return {"marker": MARKERS[scene.item % len(MARKERS)], "ms": 3.2, "mew": 0.0}
+
+
 def _handles(scenes: Sequence[Scene], tracks: Sequence[Track]) -> list[Artist]:
     """Make the entries of the legend."""
 
-    def entry(label: str, colour: Colour, dash: Dash = "-", width: float = 1.6) -> Line2D:
-        return Line2D([], [], color=colour, ls=dash, lw=width, label=label)
+    def entry(label: str, colour: Colour, dash: Dash = "-", width: float = 1.6, **looks: Any) -> Line2D:
+        return Line2D([], [], color=colour, ls=dash, lw=width, label=label, **looks)
 
-    made: list[Artist] = []
-    for scene in scenes:
-        if scene.colour:
-            line = entry(scene.label, scene.colour)
-            line.set(marker=MARKERS[scene.item % len(MARKERS)], ms=3.2, mew=0.0)
-            made.append(line)
-    inked = bool(made)
+    coloured = [scene for scene in scenes if scene.colour]
+    made: list[Artist] = [entry(scene.label, scene.colour or INK, **_marker(scene)) for scene in coloured]
     for track in tracks:
-        colour = INK if inked else track.colour
+        colour = INK if coloured else track.colour
         made.append(entry(track.label, colour, track.dash, track.width))
         if any(track.falls(scene.values).any() for scene in scenes):
             words = track.label.replace(", stable", "") + ", unstable"
@@ -325,6 +272,5 @@ def _handles(scenes: Sequence[Scene], tracks: Sequence[Track]) -> list[Artist]:
     if any(track.jumps(scene.values).any() for track in tracks for scene in scenes):
         made.append(entry("jump", INK, JUMP, THIN))
     if any(track.curve == "path" for track in tracks):
-        found = [doubt for doubt in DOUBTS if any(doubt in scene.doubts for scene in scenes)]
-        made += entries(found, in_map=False, gaps=False)
+        made += entries([doubt for doubt in DOUBTS if any(doubt in scene.doubts for scene in scenes)])
     return made

@@ -1,4 +1,4 @@
-"""Scenes whose value is there and may not hold, and how a picture shows them."""
+"""Scenes whose value is there and may not hold, and how a picture shows them: by hatches in maps, by open markers."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -23,11 +23,8 @@ GREY: Final = "0.8"
 CROSS: Final = "0.6"
 """The colours of scenes that have no value, in a map and as crosses."""
 
-GAP: Final = "no finite value"
-"""What a legend says of scenes without a value."""
 
-
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Doubt:
     """What makes a value doubtful, with its looks."""
 
@@ -41,29 +38,35 @@ class Doubt:
     bit: int = 0
     """Its flag, if it is one."""
 
+    def marker(self, colour: Any) -> dict[str, Any]:
+        """Give the looks of its open marker."""
+        return {"ls": "", "marker": self.mark, "ms": self.size, "mfc": "white", "mec": colour}
 
-_LOOKS: Final = (("////", "o", 3.5), ("\\\\\\\\", "s", 5.5), ("xxxx", "D", 7.0), ("----", "v", 8.0), ("||||", "p", 8.0))
+
+_OF_FLAGS: Final = (
+    ("////", "o", 3.5),
+    ("\\\\\\\\", "s", 5.5),
+    ("xxxx", "D", 7.0),
+    ("----", "v", 8.0),
+    ("||||", "p", 8.0),
+)
+_OF_LIMITS: Final = (("oo", "P", 6.0), ("OO", "X", 6.0), ("++", "*", 6.0), ("..", "h", 6.0), ("**", "8", 6.0))
+_FLAGS: Final = {name: bit for name, bit in FLAGS.items() if bit & doubtful.DOUBTS}
 
 DOUBTS: Final = tuple(
-    Doubt(words=FLAG_WORDS[name], hatch=hatch, mark=mark, size=size, bit=FLAGS[name])
-    for name, (hatch, mark, size) in zip(
-        (name for name, bit in FLAGS.items() if bit & doubtful.DOUBTS), _LOOKS, strict=True
-    )
+    Doubt(FLAG_WORDS[name], *look, bit) for (name, bit), look in zip(_FLAGS.items(), _OF_FLAGS, strict=True)
 )
 """Every flag that makes values doubtful."""
 
 BEYOND: Final = {
-    name: Doubt(words=limit.words, hatch=hatch, mark=mark, size=6.0)
-    for (name, limit), (hatch, mark) in zip(
-        LIMITS.items(), (("oo", "P"), ("OO", "X"), ("++", "*"), ("..", "h"), ("**", "8")), strict=True
-    )
+    name: Doubt(limit.words, *look) for (name, limit), look in zip(LIMITS.items(), _OF_LIMITS, strict=True)
 }
 """How scenes are shown that leave the range of the model, by the validity number that says so."""
 
-BOUND: Final = Doubt(words="optimum at a bound of its range", hatch="//..", mark=">", size=6.0)
+BOUND: Final = Doubt("optimum at a bound of its range", "//..", ">", 6.0)
 """How an optimum is shown that would be better beyond a bound of what was searched, perhaps."""
 
-END: Final = Doubt(words="extreme at an end of its axis: it may lie beyond", hatch="....", mark="^", size=4.5)
+END: Final = Doubt("extreme at an end of its axis: it may lie beyond", "....", "^", 4.5)
 """How the place of an extreme is shown that is no extreme of a wider axis, perhaps."""
 
 Marks = list[tuple[Doubt, xarray.DataArray]]
@@ -84,11 +87,12 @@ def marks_of(dataset: xarray.Dataset, values: xarray.DataArray, status: xarray.D
     value is not.
     """
     there = doubts_in(status.where(values.notnull(), 0).values, name, dataset)
-    found: list[tuple[Doubt, xarray.DataArray | None]] = [(doubt, (status & doubt.bit) != 0) for doubt in there]
-    numbers = [number for number in BEYOND if name not in BEYOND or number == name]
-    found += [(BEYOND[number], beyond_by(number, dataset)) for number in numbers]
-    found += [(BOUND, at_bound(dataset, name))]
-    return [(doubt, own) for doubt, flags in found if flags is not None and bool((own := among(flags, values)).any())]
+    found = [(doubt, (status & doubt.bit) != 0) for doubt in there]
+    limits = {number: beyond_by(number, dataset) for number in BEYOND if name not in BEYOND or number == name}
+    found += [(BEYOND[number], flags) for number, flags in limits.items() if flags is not None]
+    if ON_BOUND in dataset and name.startswith(BEST):
+        found.append((BOUND, _at_bound(dataset[ON_BOUND], name)))
+    return [(doubt, own) for doubt, flags in found if bool((own := among(flags, values)).any())]
 
 
 def among(flags: xarray.DataArray, values: xarray.DataArray) -> xarray.DataArray:
@@ -97,30 +101,24 @@ def among(flags: xarray.DataArray, values: xarray.DataArray) -> xarray.DataArray
     return (flags.drop_vars([*flags.coords]) & values.notnull()).transpose(*values.dims)
 
 
-def at_bound(dataset: xarray.Dataset, name: str) -> xarray.DataArray | None:
-    """
-    Report which scenes have an optimum at a bound: of a parameter that was searched at its own, else at any.
-
-    None where the dataset has no optima, or the variable is not of them.
-    """
-    if ON_BOUND not in dataset or not name.startswith(BEST):
-        return None
-    flags = dataset[ON_BOUND]
+def _at_bound(flags: xarray.DataArray, name: str) -> xarray.DataArray:
+    """Report which scenes have an optimum at a bound: of a parameter that was searched at its own, else at any."""
     meanings = str(flags.attrs["flag_meanings"]).split()
     own = [one for one in meanings if one.startswith(f"{name.removeprefix(BEST)}_at_its_")] or meanings
     return (flags.astype(int) & sum(1 << meanings.index(one) for one in own)) != 0
 
 
-def entries(doubts: Sequence[Doubt], *, in_map: bool, gaps: bool) -> list[Patch | Line2D]:
+def entries(doubts: Sequence[Doubt], *, in_map: bool = False, gaps: bool = False) -> list[Patch | Line2D]:
     """Make the entries of a legend: the doubts, and scenes without a value if there are such gaps."""
-    made: list[Patch | Line2D] = []
-    for doubt in doubts:
-        if in_map:
-            made.append(Patch(facecolor="none", edgecolor=INK, lw=0.0, hatch=doubt.hatch, label=doubt.words))
-        else:
-            looks: dict[str, Any] = {"marker": doubt.mark, "ms": doubt.size, "mfc": "white", "mec": INK}
-            made.append(Line2D([], [], ls="", **looks, label=doubt.words))
+    hatched: dict[str, Any] = {"facecolor": "none", "edgecolor": INK, "lw": 0.0}
+    made: list[Patch | Line2D] = [
+        Patch(hatch=doubt.hatch, label=doubt.words, **hatched)
+        if in_map
+        else Line2D([], [], label=doubt.words, **doubt.marker(INK))
+        for doubt in doubts
+    ]
     if gaps:
-        cross = Line2D([], [], ls="", marker="x", ms=4, mec=CROSS, label=GAP)
-        made.append(Patch(facecolor=GREY, label=GAP) if in_map else cross)
+        words = "no finite value"
+        cross = Line2D([], [], ls="", marker="x", ms=4, mec=CROSS, label=words)
+        made.append(Patch(facecolor=GREY, label=words) if in_map else cross)
     return made

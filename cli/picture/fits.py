@@ -35,20 +35,18 @@ DOTS: Final[dict[str, Any]] = {"ls": "", "marker": ".", "ms": 2.5, "mew": 0.0, "
 ALONG, UP = "path_indentation_si", "path_load_si"
 """The curves that have the units of depth and load."""
 
-DIGITS: Final = 8
-"""Decimals of a value that has no power of ten."""
+OFFSETS: Final = {
+    "indentation_offset": ("offset of the depth", ALONG),
+    "load_offset": ("offset of the load", UP),
+    "load_slope": ("tilt of the load", "spring_constant"),
+}
+"""What is fitted beside parameters: its words, and what has its unit."""
 
 FEW: Final = 24
 """Loops that are drawn one by one, with their intervals; of more a histogram is."""
 
 LISTED: Final = 12
 """Loops that have room for the names of their files."""
-
-ACROSS: Final = 3
-"""Panels beside each other."""
-
-WIDE: Final = 20.0
-"""Greatest over least value from which on an axis is logarithmic."""
 
 
 def drawn_fits(
@@ -57,21 +55,8 @@ def drawn_fits(
     """
     Draw a fit, or of several loops a panel for each parameter: values with intervals, or a histogram of many.
 
-    Parameters
-    ----------
-    dataset
-        That of a fit, or of fits of several loops.
-    looks
-        Sizes, style, words and, of one loop, limits; all else is for maps.
-    choices
-        What else was chosen of axes and variables, by the names of the options.
-    at
-        Which one of several loops is drawn alone: `loop=FILE` or `loop=NUMBER`.
-
-    Raises
-    ------
-    DatasetError
-        Something was chosen that fits do not have, or there is no such loop.
+    `choices` are the options that were chosen of axes and variables, which fits do not have; `at` takes one of several
+    loops, `loop=FILE` or `loop=NUMBER`.
     """
     several = LOOP in dataset.dims
     why = f"fits are drawn as a whole, or one with --at {LOOP}=0" if several else "a fit is drawn as a whole"
@@ -86,15 +71,14 @@ def drawn_fits(
 
 def _draw_fit(dataset: xarray.Dataset, looks: Looks) -> Figure:
     """Draw load over depth with the path through the points, and below it the residuals over depth."""
-    depth, load = (dataset[f"measured_{name}"].values for name in ("indentation", "load"))
-    along, up = (dataset[f"fitted_{name}"].values for name in ("indentation", "load"))
-    back, ways = dataset["measured_unloading"].values > 0, dataset["fitted_unloading"].values > 0
-    turn = int(np.count_nonzero(~ways))
+    depth, load, back = (dataset[f"measured_{name}"].values for name in ("indentation", "load", "unloading"))
+    along, up, ways = (dataset[f"fitted_{name}"].values for name in ("indentation", "load", "unloading"))
+    turn = int(np.count_nonzero(ways <= 0))
     with styled(looks):
         figure = Figure(layout="constrained")
         top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=[3, 1])
         for way, words in enumerate(("loading", "unloading")):
-            own, part = back == bool(way), slice(0, turn) if way == 0 else slice(turn - 1, None)
+            own, part = (back > 0) == bool(way), slice(turn - 1, None) if way else slice(0, turn)
             top.plot(along[part], up[part], color=COLOURS[way], lw=0.7, zorder=1.9, label=f"fit, {words}")
             if own.any():
                 top.plot(depth[own], load[own], color=COLOURS[way], **DOTS, label=f"measured, {words}")
@@ -103,27 +87,20 @@ def _draw_fit(dataset: xarray.Dataset, looks: Looks) -> Figure:
         top.set_xlim(float(depth.min()) - margin, float(depth.max()) + margin)
         suit(top, "x", ALONG, looks.xlim)
         suit(top, "y", UP, looks.ylim)
-        machine = dataset.attrs.get("control") == "machine"
-        bottom.set_xlabel(
-            top.get_xlabel().replace(r"depth $\delta$", "displacement of the machine" if machine else "depth")
-        )
+        words = "displacement of the machine" if dataset.attrs.get("control") == "machine" else "depth"
+        bottom.set(xlabel=top.get_xlabel().replace(r"depth $\delta$", words), ylabel="residual (sd)")
         top.set(xlabel="", ylabel=top.get_ylabel().replace(" $P$", ""))
         top.legend()
         bottom.axhline(0.0, color="0.3", lw=0.6)
-        bottom.set_ylabel("residual (sd)")
-        caption = _found(dataset)
-        finish(figure, looks, dataset=dataset, caption=caption, entries=[], size=(4.8, 4.4), panels=[top, bottom])
+        finish(figure, looks, dataset=dataset, caption=_found(dataset), size=(4.8, 4.4), panels=[top, bottom])
     return figure
 
 
 def _found(dataset: xarray.Dataset) -> list[str]:
     """Write the values with their intervals, in units that suit them."""
-    columns = [dataset[name].values for name in ("value", "low", "high")]
-    written = [
-        in_words(str(name), *map(float, row)) for name, *row in zip(dataset[PARAMETER].values, *columns, strict=True)
-    ]
+    rows = zip(*(dataset[name].values.tolist() for name in (PARAMETER, "value", "low", "high")), strict=True)
     reduced = float(dataset["chi_square"]) / int(dataset["degrees_of_freedom"])
-    return [*written, "in brackets 95 % intervals", rf"reduced $\chi^2$ = {reduced:.3g}"]
+    return [*(in_words(*row) for row in rows), "in brackets 95 % intervals", rf"reduced $\chi^2$ = {reduced:.3g}"]
 
 
 def named(name: str, values: Any) -> tuple[str, Unit]:
@@ -133,11 +110,7 @@ def named(name: str, values: Any) -> tuple[str, Unit]:
     >>> named("load_slope", [2e-3]), named("exponent", [0.5])
     (('tilt of the load', Unit(symbol='mN/m', power=-3)), ('exponent', Unit(symbol='', power=0)))
     """
-    words, quantity = {
-        "indentation_offset": ("offset of the depth", ALONG),
-        "load_offset": ("offset of the load", UP),
-        "load_slope": ("tilt of the load", "spring_constant"),
-    }.get(name, (SYMBOLS.get(name, name), name))
+    words, quantity = OFFSETS.get(name, (SYMBOLS.get(name, name), name))
     return words, unit_for(quantity, values)
 
 
@@ -153,8 +126,8 @@ def in_words(name: str, value: float, low: float, high: float) -> str:
     words, unit = named(name, value)
     value, low, high = (one / 10.0**unit.power for one in (value, low, high))
     half = 0.5 * (high - low)
-    decimals = 1 - math.floor(math.log10(half)) if 1e-9 * abs(value) < half < math.inf else DIGITS + 1
-    ends = [number(one) if decimals > DIGITS else f"{one:.{max(0, decimals)}f}" for one in (value, low, high)]
+    decimals = 1 - math.floor(math.log10(half)) if 1e-9 * abs(value) < half < math.inf else 9
+    ends = [number(one) if decimals > 8 else f"{one:.{max(0, decimals)}f}" for one in (value, low, high)]
     written = "{} ({} to {})".format(*ends).replace("-", "\N{MINUS SIGN}")
     return f"{words} = {written} {unit.symbol}".strip()
 
@@ -162,40 +135,45 @@ def in_words(name: str, value: float, low: float, high: float) -> str:
 def _draw_loops(dataset: xarray.Dataset, looks: Looks) -> Figure:
     """Draw a panel for each parameter."""
     names = list(map(str, dataset[PARAMETER].values))
+    files = list(map(str, dataset["file"].values))
     sound = np.flatnonzero(dataset["value"].notnull().all(PARAMETER).values)
-    across = 2 if len(names) == 4 else min(ACROSS, len(names))
-    down = math.ceil(len(names) / across)
-    few = dataset.sizes[LOOP] <= FEW
+    few = len(files) <= FEW
     doubts = doubtful(dataset)[sound]
+    across = 2 if len(names) == 4 else min(3, len(names))
+    down = math.ceil(len(names) / across)
     with styled(looks):
         figure = Figure(layout="constrained")
         grid = figure.subplots(down, across, squeeze=False, sharey=few)
-        for place, (axes, name) in enumerate(zip(grid.flat, names, strict=False)):
-            value, low, high = (dataset[one].values[sound, place] for one in ("value", "low", "high"))
-            words, unit = named(name, value)
-            value, low, high = (one / 10.0**unit.power for one in (value, low, high))
+        panels = grid.flat[: len(names)]
+        for place, (axes, name) in enumerate(zip(panels, names, strict=True)):
+            words, unit = named(name, dataset["value"].values[sound, place])
+            value, low, high = (
+                dataset[one].values[sound, place] / 10.0**unit.power for one in ("value", "low", "high")
+            )
             axes.set_xlabel(f"{words} ({unit.symbol})" if unit.symbol else words)
-            if value.min() > 0.0 and value.max() > WIDE * value.min():
+            if value.min() > 0.0 and value.max() > 20.0 * value.min():
                 axes.set_xscale("log")
             if few:
-                _draw_each(axes, sound, value, np.maximum([value - low, high - value], 0.0), doubts)
+                ends = np.maximum([value - low, high - value], 0.0)
+                for which, colour in ((~doubts, COLOURS[0]), (doubts, COLOURS[1])):
+                    own: dict[str, Any] = {"ls": "", "marker": "o", "ms": 3.0, "lw": 0.9, "color": colour}
+                    axes.errorbar(value[which], sound[which], xerr=ends[:, which], **own)
             else:
                 _draw_many(axes, value, doubts)
         for axes in grid.flat[len(names) :]:
             axes.remove()
-        files = list(map(str, dataset["file"].values))
         for axes in grid[:, 0]:
             axes.set_ylabel("loops" if not few else "loop" if len(files) > LISTED else "")
             if few and len(files) <= LISTED:
                 axes.set_yticks(range(len(files)), files, fontsize="x-small")
         if few:
             grid[0, 0].set_ylim(len(files) - 0.5, -0.5)  # the first on top
-        missing, poor = dataset.sizes[LOOP] - sound.size, int(doubts.sum())
+        missing, poor = len(files) - sound.size, int(doubts.sum())
         caption = [counted(sound.size, "loop"), "bars: 95 % intervals" if few else "dashed: median"]
         caption += [f"red: {counted(poor, 'fit')} in doubt"] if poor else []
         caption += [f"{counted(missing, 'loop')} without a fit"] if missing else []
         size = (2.6 * across + 1.0, 2.2 * down)
-        finish(figure, looks, dataset=dataset, caption=caption, entries=[], size=size, panels=grid.flat[: len(names)])
+        finish(figure, looks, dataset=dataset, caption=caption, size=size, panels=panels)
     return figure
 
 
@@ -203,13 +181,6 @@ def doubtful(dataset: xarray.Dataset) -> NDArray[np.bool_]:
     """Say of each loop whether its fit is not to be trusted."""
     flagged = (dataset["status"].values & (POOR_FIT | ANOTHER_MINIMUM)) != 0
     return np.asarray(flagged | (dataset["on_bound"].values > 0).any(axis=1) | (dataset["converged"].values == 0))
-
-
-def _draw_each(axes: Axes, loops: NDArray[np.intp], value: Values, ends: Values, doubts: NDArray[np.bool_]) -> None:
-    """Draw each value with its interval."""
-    for which, colour in ((~doubts, COLOURS[0]), (doubts, COLOURS[1])):
-        looks: dict[str, Any] = {"ls": "", "marker": "o", "ms": 3.0, "lw": 0.9, "color": colour}
-        axes.errorbar(value[which], loops[which], xerr=ends[:, which], **looks)
 
 
 def _draw_many(axes: Axes, value: Values, doubts: NDArray[np.bool_]) -> None:
@@ -223,7 +194,6 @@ def _draw_many(axes: Axes, value: Values, doubts: NDArray[np.bool_]) -> None:
 
 def drawn_profile(fit: FittedProfile, name: str) -> Figure:
     """Draw a fitted profile over the distance from the centre: heights, what the power leaves of them, the residual."""
-    measured, fitted = "0.55", "C3"
 
     def power(distance: Values) -> Any:
         return distance**fit.exponent / (fit.exponent * fit.radius ** (fit.exponent - 1.0))
@@ -234,13 +204,13 @@ def drawn_profile(fit: FittedProfile, name: str) -> Figure:
     with styled():
         figure = Figure(figsize=(4.6, 5.2), layout="constrained")
         top, middle, bottom = figure.subplots(3, 1, sharex=True, height_ratios=[2, 2, 1])
-        dots = DOTS | {"color": measured}
+        dots, line = DOTS | {"color": "0.55"}, {"color": "C3", "lw": 0.9}
         top.plot(1e6 * rho, 1e6 * heights, **dots, label="measured")
-        top.plot(1e6 * fine, 1e6 * model, color=fitted, lw=0.9, label="fit")
+        top.plot(1e6 * fine, 1e6 * model, **line, label="fit")
         middle.plot(1e6 * rho, 1e9 * (heights - power(rho)), **dots)
-        middle.plot(1e6 * fine, 1e9 * (model - power(fine)), color=fitted, lw=0.9)
+        middle.plot(1e6 * fine, 1e9 * (model - power(fine)), **line)
         bottom.plot(1e6 * rho, 1e9 * fit.residual, **dots)
-        bottom.axhline(0.0, color=fitted, lw=0.6)
+        bottom.axhline(0.0, **line)
         top.set_ylabel("height (µm)")
         top.legend()
         middle.set_ylabel("without the power (nm)")

@@ -13,12 +13,6 @@ from gradhesion.cli.names.symbols import CURVE_SYMBOLS, SYMBOLS
 from gradhesion.cli.names.units import unit_of
 from gradhesion.core.problem.inputs import INPUTS
 
-MOST: Final = 15
-"""Digits of a number: all that a double has."""
-
-SHORT: Final = 1e-9
-"""A value this short of a power of ten, in decades, counts as the power: 10^-6 m is 1 µm."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class Unit:
@@ -44,9 +38,13 @@ class Unit:
         different = np.unique(listed[np.isfinite(listed)])
         near = 0.005 * float(np.min(np.diff(different), initial=np.inf))
         digits = 4
-        while digits < MOST and any(abs(float(f"{value:.{digits}g}") - value) > near for value in different):
+        while digits < 15 and any(abs(float(f"{value:.{digits}g}") - value) > near for value in different):
             digits += 1
         return [self.number(value, digits) for value in listed]
+
+
+PLAIN: Final = Unit()
+"""That of a number."""
 
 
 def unit_for(name: str, values: Any, *, log: bool = False) -> Unit:
@@ -62,7 +60,7 @@ def unit_for(name: str, values: Any, *, log: bool = False) -> Unit:
     if not symbol or not sizes.size:
         return Unit(symbol=symbol)
     least, most = np.log10([sizes.min(), sizes.max()])
-    power = 3 * math.floor((most + SHORT) / 3)
+    power = 3 * math.floor((most + 1e-9) / 3)  # a value this short of a power counts as it: 10^-6 m is 1 µm
     if log:
         power = min(range(power, power - 9, -3), key=lambda one: max(0.0, one - least) + max(0.0, most - one - 3))
     prefixes = EngFormatter.ENG_PREFIXES
@@ -98,18 +96,13 @@ def equations(name: str, values: Any) -> list[str]:
     >>> equations("A", [0.02, 0.020001]), equations("c0", [1e-8]), equations("solver", ["exact"])
     (['$A$ = 0.02', '$A$ = 0.020001'], ['$c_0$ = 10 nm'], ['exact'])
     """
-    listed = np.asarray(values)
+    listed = np.atleast_1d(values)
     if listed.dtype.kind not in "fiub":
         return [str(value) for value in listed]
     unit = unit_for(name, listed, log=True)
     symbol = f" {unit.symbol}" if unit.symbol else ""
     written = zip(unit.numbers(listed), listed, strict=True)
     return [f"{SYMBOLS[name]} = {one}{symbol if np.isfinite(value) else ''}" for one, value in written]
-
-
-def equation(name: str, value: Any) -> str:
-    """Say which value a parameter has."""
-    return equations(name, [value])[0]
 
 
 def label(name: str, unit: Unit | None = None) -> str:
@@ -123,11 +116,6 @@ def label(name: str, unit: Unit | None = None) -> str:
     return (SYMBOLS.get(name) or CURVE_SYMBOLS[name]) + (f" ({symbol})" if symbol else "")
 
 
-def effective(dataset: Any) -> list[str]:
-    """List the parameters that give the scenes of a dataset, without those that have no effect, as c0 where k = 0."""
-    return [name for name in given(dataset.coords) if IDLE not in str(dataset[name].attrs.get("comment", ""))]
-
-
 def given(names: Any) -> list[str]:
     """
     List the keys among some names that give parameters; not the parameters that follow from others.
@@ -138,3 +126,18 @@ def given(names: Any) -> list[str]:
     known = [key for name, key in INPUTS.items() if name in names]
     follow = {key.gives for key in known if not key.is_parameter}
     return [key.name for key in known if key.name not in follow]
+
+
+def effective(dataset: Any) -> list[str]:
+    """List the parameters that give the scenes of a dataset, without those that have no effect, as c0 where k = 0."""
+    return [name for name in given(dataset.coords) if IDLE not in str(dataset[name].attrs.get("comment", ""))]
+
+
+def fixed(dataset: Any) -> list[str]:
+    """Write the parameters that have one value in all scenes of a dataset; of others that of the first scene."""
+    written = []
+    for name in effective(dataset):
+        values = np.unique(dataset[name].values)
+        first = equations(name, np.ravel(dataset[name].values)[:1])[0]
+        written.append(first if values.size == 1 else f"{first} (first of {values.size})")
+    return written

@@ -1,10 +1,11 @@
-"""How a picture looks, where a user chooses: its size, its colours, its levels, and what is written on it."""
+"""What a user chooses of a picture: its size, colours, levels, limits, and what is written on it."""
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
-from pathlib import Path
+from decimal import Decimal
 from typing import Any, Final, Literal
 
 import matplotlib.style
@@ -12,11 +13,15 @@ from matplotlib import colormaps
 from matplotlib.colors import Colormap
 
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.picture.spans import ALL, Span, span_of
+from gradhesion.cli.names.units import unit_of
+from gradhesion.cli.study.text.quantities import factor_between
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
 
 VIRIDIS: Final = "viridis"
 """The usual colour map: perceptual, and rising in lightness, so that it survives a grey print."""
+
+STYLE: Final = "gradhesion.style"
+"""The style of the project, as matplotlib knows it: `plt.style.use("gradhesion.style")`."""
 
 WIDTHS: Final = {"column": 90 / 25.4, "page": 190 / 25.4}
 """The widths of a column and of a page of a journal, in inches: 90 mm and 190 mm."""
@@ -25,20 +30,63 @@ LEAST: Final = 1.0
 MOST: Final = 100.0
 """Sides of a picture, in inches: a smaller one has no room for its labels, a larger one no paper."""
 
-UNITS: Final = {"": 1.0, "in": 1.0, "cm": 1 / 2.54, "mm": 1 / 25.4}
-"""Inches in each unit that a side may have."""
-
 FINEST: Final = 100
 """Contour levels: more would be one colour."""
 
-STYLE: Final = "gradhesion.style"
-"""The style of the project, as matplotlib knows it: `plt.style.use("gradhesion.style")`."""
-
-BANDS: Final = ("quantiles", "std", "none")
-"""What a band of uncertain values may be: from the 5 % to the 95 % quantile, or a standard deviation on each side."""
+_QUANTITY: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\D.*)")
 
 Kind = Literal["lines", "map"]
 Band = Literal["quantiles", "std", "none"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Span:
+    """A part of an axis, as a user writes it: numbers in SI or with units; None is as far as there are values."""
+
+    option: str = ""
+    """The option that gives it."""
+    low: str | None = None
+    high: str | None = None
+
+    def __bool__(self) -> bool:
+        """Report whether one of the ends is given."""
+        return self.low is not None or self.high is not None
+
+    def __str__(self) -> str:
+        """Write it as an option."""
+        return f"--{self.option} {self.low or ''}:{self.high or ''}"
+
+    def limits(
+        self, name: str, least: float = -math.inf, greatest: float = math.inf, *, log: bool = False
+    ) -> tuple[float, float]:
+        """
+        Give the ends in SI, -inf and inf where there is none, on the axis of a variable with values between two others.
+
+        >>> Span(option="xlim", low="50 nm", high="2e-6").limits("R")
+        (5e-08, 2e-06)
+        """
+        unit = unit_of(name).replace("1", "")
+        ends = []
+        for end, usual in ((self.low, -math.inf), (self.high, math.inf)):
+            ends.append(usual if end is None else _in_unit(end, unit))
+            if math.isnan(ends[-1]):
+                wanted = f"is in {unit}; write a number or a quantity" if unit else "has no unit; write a number"
+                raise DatasetError(f'{self}: "{end}" is not a value of {name}, which {wanted}')
+        low, high = ends
+        if low >= high:
+            raise DatasetError(
+                f"{self}: the lower limit comes first and is below the upper one; exchange or change them"
+            )
+        if log and (high <= 0.0 or -math.inf < low <= 0.0):
+            raise DatasetError(f"{self}: the axis is logarithmic; choose limits above 0")
+        if low >= greatest or high <= least:
+            written = f"{least:.4g} to {greatest:.4g} {unit}".strip()
+            raise DatasetError(f"{self}: outside what is drawn, which is {written}; choose limits that meet it")
+        return low, high
+
+
+ALL: Final = Span()
+"""All of an axis."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -71,16 +119,12 @@ class Looks:
     inset: Span = ALL
     """The part of the horizontal axis that is drawn once more, enlarged."""
     band: Band | None = None
-    """What is drawn around uncertain values."""
+    """What is drawn around uncertain values: quantiles, a standard deviation on each side, or nothing."""
 
     @property
     def colours(self) -> Colormap:
         """The colour map."""
         return colormaps[self.colour_map]
-
-    def styles(self) -> list[Any]:
-        """List the styles that apply, the later ones on top."""
-        return [STYLE, self.style] if self.style else [STYLE]
 
     def refuse(self, options: Sequence[str], why: str) -> None:
         """Refuse those of some choices, by the names of their fields, that a picture has no place for."""
@@ -94,111 +138,116 @@ PLAIN: Final = Looks()
 """Nothing is chosen."""
 
 
-def looks_of(
-    *,
-    kind: Any = None,
-    width: float | str | None = None,
-    height: float | str | None = None,
-    colour_map: str | None = None,
-    levels: Any = None,
-    style: str | Path | None = None,
-    title: str | bool | None = None,
-    xlim: Any = None,
-    ylim: Any = None,
-    inset: Any = None,
-    band: Any = None,
-    **words: Any,
-) -> Looks:
+def looks_of(**chosen: Any) -> Looks:
     """
-    Check what a user has chosen; `words` are the fields of `Looks` that may be anything.
-
-    Raises
-    ------
-    DatasetError
-        A size, a colour map, a style, levels, limits or a band that do not exist; the message names the nearest.
+    Check what a user has chosen, by the fields of `Looks`; None is no choice.
 
     >>> looks_of(width="column").width, looks_of(levels="0.5, 1, 2").levels, looks_of(levels="8").levels
     (3.5433070866141736, (0.5, 1.0, 2.0), 8)
     """
-    if kind not in (None, "lines", "map"):
-        raise DatasetError(f'kind = "{kind}": not a kind of picture; {did_you_mean(str(kind), ["lines", "map"])}')
-    if band not in (None, *BANDS):
-        raise DatasetError(f"--band {band}: not a band; {did_you_mean(str(band), list(BANDS))}")
-    name = VIRIDIS if colour_map is None else str(colour_map)
-    if name not in colormaps:
-        raise DatasetError(f"--colour-map {name}: not a colour map of matplotlib; {_near(name, [*colormaps], VIRIDIS)}")
-    return Looks(
-        kind=kind,
-        width=_side("width", width),
-        height=_side("height", height),
-        colour_map=name,
-        levels=_levels(levels),
-        style=_style(style),
-        title={True: None, False: ""}[title] if isinstance(title, bool) else title,
-        xlim=span_of("xlim", xlim),
-        ylim=span_of("ylim", ylim),
-        inset=span_of("inset", inset),
-        band=band,
-        **words,
-    )
+    there = {name: value for name, value in chosen.items() if value is not None}
+    return Looks(**{name: _READ[name](name, one) if name in _READ else one for name, one in there.items()})
 
 
-def _side(name: str, value: float | str | None) -> float | None:
-    """Read a side of a picture: a number of inches, a length in cm or mm, or a width by its name."""
-    if value is None:
-        return None
-    words = WIDTHS if name == "width" else {}
+def _in_unit(text: str, unit: str) -> float:
+    """Read a number, or a quantity as so many of a unit; NaN where it is neither."""
+    with suppress(ValueError):
+        return float(text)
+    parts = _QUANTITY.fullmatch(text)
+    factor = factor_between(parts[2], unit or "1") if parts else None
+    return float(Decimal(parts[1]) * factor) if parts and factor else math.nan
+
+
+def _one_of(*known: str) -> Callable[[str, Any], str]:
+    """Make a reader of one of a few words."""
+
+    def read(option: str, value: Any) -> str:
+        if value not in known:
+            raise DatasetError(f"--{option} {value}: not a {option} of pictures; {did_you_mean(str(value), known)}")
+        return str(value)
+
+    return read
+
+
+def _side(option: str, value: float | str) -> float:
+    """Read a side of a picture: a number of inches, a length with its unit, or a width by its name."""
     text = str(value).strip().lower()
-    if text in words:
-        return words[text]
-    parts = re.fullmatch(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*([a-z]*)", text)
-    if not parts or parts[2] not in UNITS:
-        near = nearest(text, list(words))
-        meant = f'did you mean "{near}"?' if near else f'write for example 3.5, "9 cm"{" or column" if words else ""}'
-        raise DatasetError(f"--{name} {value}: not a size; {meant}")
-    inches = float(parts[1]) * UNITS[parts[2]]
+    if option == "width" and text in WIDTHS:
+        return WIDTHS[text]
+    inches = _in_unit(text, "inch")
     if not LEAST <= inches <= MOST:
+        words = ", column or page" if option == "width" else ""
         raise DatasetError(
-            f"--{name} {value}: a picture of {inches:.3g} inches; choose one of {LEAST:g} to {MOST:g} inches"
+            f"--{option} {value}: not a size of {LEAST:g} to {MOST:g} inches; write for example 3.5, or 9 cm{words}"
         )
     return inches
 
 
-def _levels(value: Any) -> int | tuple[float, ...] | None:
+def _levels(option: str, value: Any) -> int | tuple[float, ...]:
     """Read contour levels: about how many, or a list of them."""
-    if value is None:
-        return None
     words = value.replace(",", " ").split() if isinstance(value, str) else value
     words = [words] if isinstance(words, int | float) else [*words]
     written = value if isinstance(value, str) else ", ".join(map(str, words))
-    try:
+    with suppress(TypeError, ValueError):
         numbers = sorted({float(word) for word in words})
-    except (TypeError, ValueError):
-        numbers = []
-    if not numbers or not all(map(math.isfinite, numbers)):
-        raise DatasetError(f"--levels {written}: neither a number of levels nor a list of levels; write 8 or 0.5,1,2")
-    if len(words) > 1 or "." in str(words[0]):
-        return tuple(numbers)
-    if not 1 <= numbers[0] <= FINEST:
-        raise DatasetError(
-            f"--levels {written}: choose 1 to {FINEST} levels; a single level is written with its point, as {written}.0"
-        )
-    return int(numbers[0])
+        if all(map(math.isfinite, numbers)) and (len(numbers) > 1 or (numbers and "." in str(words[0]))):
+            return tuple(numbers)
+        if len(numbers) == 1 and 1 <= numbers[0] <= FINEST:
+            return int(numbers[0])
+    raise DatasetError(
+        f"--{option} {written}: neither a number of levels, 1 to {FINEST}, nor a list of them; write 8, or 0.5,1,2"
+    )
 
 
-def _style(value: str | Path | None) -> str | None:
+def _colour_map(option: str, value: Any) -> str:
+    """Find a colour map."""
+    if str(value) not in colormaps:
+        raise DatasetError(f"--{option.replace('_', '-')} {value}: not known to matplotlib; {_near(value, colormaps)}")
+    return str(value)
+
+
+def _style(option: str, value: Any) -> str:
     """Find a style."""
-    if value is None:
-        return None
     try:
         with matplotlib.style.context(str(value)):
             return str(value)
     except OSError:
-        near = _near(str(value), [*matplotlib.style.available], "grayscale")
-        raise DatasetError(f"--style {value}: neither a style of matplotlib nor the file of a style; {near}") from None
+        near = _near(value, matplotlib.style.available)
+        raise DatasetError(f"--{option} {value}: neither a style of matplotlib nor the file of one; {near}") from None
 
 
-def _near(word: str, known: list[str], usual: str) -> str:
-    """Suggest the nearest of many words, or one that suits most."""
-    near = nearest(word, known)
-    return f'did you mean "{near}"?' if near else f'choose one of its own, as "{usual}"'
+def _near(value: Any, known: Any) -> str:
+    """Suggest the nearest of many words."""
+    near = nearest(str(value), [*known])
+    return f'did you mean "{near}"?' if near else f'choose one of its own, as "{next(iter(known))}"'
+
+
+def _span(option: str, value: Any) -> Span:
+    """
+    Read what a user writes: "LOW:HIGH", or two ends in a sequence.
+
+    >>> [(span.low, span.high) for span in (_span("xlim", "0.1:1 um"), _span("xlim", (0.1, None)))]
+    [('0.1', '1 um'), ('0.1', None)]
+    """
+    ends = value.split(":") if isinstance(value, str) else value
+    if isinstance(ends, Sequence) and len(ends) == 2:
+        low, high = (str(end).strip() or None if end is not None else None for end in ends)
+        if span := Span(option=option, low=low, high=high):
+            return span
+    raise DatasetError(f"--{option} {value}: not two ends with a colon between them; write --{option} 0.1:0.5")
+
+
+_READ: Final[dict[str, Callable[[str, Any], Any]]] = {
+    "kind": _one_of("lines", "map"),
+    "band": _one_of("quantiles", "std", "none"),
+    "width": _side,
+    "height": _side,
+    "colour_map": _colour_map,
+    "levels": _levels,
+    "style": _style,
+    "title": lambda _, value: {True: None, False: ""}[value] if isinstance(value, bool) else value,
+    "xlim": _span,
+    "ylim": _span,
+    "inset": _span,
+}
+"""What reads each choice that may be wrong."""

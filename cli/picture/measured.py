@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.study.text.quantities import si_value
+from gradhesion.cli.study.text.quantities import factor_of_column, scaled
 from gradhesion.cli.tables.columns import Columns, ColumnsError
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.amounts import counted
@@ -24,8 +24,8 @@ NAMES: Final = {
 }
 """What a column of each quantity may be called."""
 
-UNITS: Final = {"contact_radius": ("c0", "nm"), "indentation": ("indentation", "nm"), "load": ("load", "nN")}
-"""For each quantity a key of its dimension, and a unit to name."""
+KEYS: Final = {"contact_radius": "c0", "indentation": "indentation", "load": "load"}
+"""For each quantity a key of its dimension."""
 
 FEW: Final = 60
 """Points that are circles on top of the lines; more are grey dots below them, which would hide the lines."""
@@ -57,27 +57,19 @@ def read_points(file: Path, planes: Sequence[tuple[str, str]], *, si: bool) -> P
     It has two or more of the columns indentation, load (positive presses) and contact_radius; other columns are left
     aside, and so are rows without a number. The header has units if the picture has; else the columns are delta/R,
     P/(1.5 pi R dgamma) and a/R.
-
-    Raises
-    ------
-    DatasetError
-        The file cannot be read, or has other columns or units, or no plane has points.
     """
-    words = [word for own in NAMES.values() for word in own]
     try:
-        found = read_columns(file, only=words)
+        found = read_columns(file, only=[word for own in NAMES.values() for word in own])
+        there = {quantity: word for quantity, own in NAMES.items() for word in reversed(own) if word in found.values}
+        values = {quantity: _scaled(found, quantity, word, si=si) for quantity, word in there.items()}
     except ColumnsError as error:
         raise DatasetError(f"--data {file}: {error}") from None
-    there = {quantity: word for quantity, own in NAMES.items() for word in reversed(own) if word in found.values}
+    sound = np.isfinite([*values.values()]).all(axis=0)
     if len(there) < 2:
         raise DatasetError(f"--data {file}: {_missing(found, [*there.values()])}")
     if not any({*plane} <= there.keys() for plane in planes):
-        raise DatasetError(
-            f"--data {file}: has {' and '.join(there)}, which no panel of this picture has along and up; choose other "
-            "axes with --x and --y"
-        )
-    values = {quantity: _scaled(found, quantity, word, file, si=si) for quantity, word in there.items()}
-    sound = np.all([np.isfinite(row) for row in values.values()], axis=0)
+        has = " and ".join(there)
+        raise DatasetError(f"--data {file}: has {has}, which no panel has along and up; choose others with --x and --y")
     if not sound.any():
         raise DatasetError(f"--data {file}: no row has numbers in all of {', '.join(there.values())}; add some")
     left_out = int(np.count_nonzero(~sound))
@@ -94,21 +86,11 @@ def _missing(found: Columns, there: Sequence[str]) -> str:
     return f"two of the columns indentation, load and contact_radius are drawn, and the file {has}{meant}"
 
 
-def _scaled(found: Columns, quantity: str, word: str, file: Path, *, si: bool) -> Values:
+def _scaled(found: Columns, quantity: str, word: str, *, si: bool) -> Values:
     """Give a column in the units of the dataset."""
-    unit, (key, example) = found.units.get(word, ""), UNITS[quantity]
-    if not si:
-        if not unit:
-            return found.values[word]
-        raise DatasetError(
-            f"--data {file}: {word} [{unit}] has a unit, and the curves have none; give the study its units, with "
-            "[physical], or write the ratio without a unit"
-        )
-    try:
-        return found.values[word] * si_value(f"1 {unit}", key)
-    except ValueError:
-        what = "force" if quantity == "load" else "length"
-        raise DatasetError(
-            f"--data {file}: the unit of {word}{f' [{unit}]' if unit else ''} is no {what}, and the curves have units; "
-            f"write it after the name in brackets, as {word} [{example}]"
-        ) from None
+    if si:
+        return scaled(found.values[word], factor_of_column(found, word, KEYS[quantity]))
+    if unit := found.units.get(word):
+        remedy = "give the study its units, or write the ratio without one"
+        raise ColumnsError(f"{word} [{unit}] has a unit, and the curves have none; {remedy}")
+    return found.values[word]

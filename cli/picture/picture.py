@@ -10,10 +10,11 @@ from gradhesion.cli.dataset.read.reader import has_curves
 from gradhesion.cli.dataset.read.selection import nearest_values, selection_of
 from gradhesion.cli.dataset.read.soundness import is_fit
 from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.names.outputs import PARETO_POINT
 from gradhesion.cli.picture.curves import drawn_curves
 from gradhesion.cli.picture.fits import drawn_fits
 from gradhesion.cli.picture.looks import Looks
-from gradhesion.cli.picture.values import drawn
+from gradhesion.cli.picture.values import draw_fronts, drawn
 
 
 def picture_of(
@@ -33,11 +34,6 @@ def picture_of(
     Draw a dataset of any kind, as `gradhesion plot` and `gr.plot` do.
 
     Axes are fixed or reduced by `at` and `over`, as options write them; `notes` takes what is to be known of that.
-
-    Raises
-    ------
-    DatasetError
-        Something is chosen that the dataset does not have.
     """
     if is_fit(dataset):
         choices = {"--over": over, "--variable": variables, "--x": x, "--y": y, "--data": data}
@@ -48,7 +44,8 @@ def picture_of(
     if not has_curves(dataset):
         if data is not None:
             raise DatasetError(f"--data {data}: measured points go on curves, and this is a map; leave it out")
-        return drawn(dataset, variables, selection, x=x, y=y, looks=looks)
+        draw = draw_fronts if PARETO_POINT in dataset.dims else drawn
+        return draw(dataset, variables, selection, x, y, looks)
     if of_maps := [word for word, on in (("--over", over), ("--interpolate", interpolate)) if on]:
         raise DatasetError(f"{of_maps[0]}: curves are drawn as they are; choose scenes with --at")
-    return drawn_curves(selection.narrowed(dataset), variables, x=x, y=y, looks=looks, data=data, notes=notes)
+    return drawn_curves(selection.narrowed(dataset), variables, x, y, looks, data, notes)

@@ -18,25 +18,18 @@ from matplotlib.mathtext import MathTextParser
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.picture.looks import PLAIN, Looks
+from gradhesion.cli.picture.looks import PLAIN, STYLE, Looks
 from gradhesion.cli.study.shape_words import shape_in_words
 from gradhesion.cli.terminal.printable import printable
 from gradhesion.core import Profile
 
-ENTRY: Final = 0.7
-LETTER: Final = 0.05
-"""The width of an entry of a legend without its words, and of a letter of them, in inches."""
-
-LINE: Final = 0.17
-"""The height of a line of words above or below the panels, in inches."""
-
-LONGEST: Final = 110
-"""Letters of a profile that a heading has room for."""
+MARKERS: Final = ("o", "s", "D", "P", "X")
+"""What distinguishes scenes where colours do not print."""
 
 
 def styled(looks: Looks = PLAIN) -> AbstractContextManager[None]:
     """Draw in the style of the project, whatever the user's own is: the same dataset gives the same picture."""
-    return matplotlib.style.context(looks.styles(), after_reset=True)
+    return matplotlib.style.context([STYLE, looks.style] if looks.style else [STYLE], after_reset=True)
 
 
 def save(figure: Figure, file: Path, form: str, looks: Looks = PLAIN) -> None:
@@ -53,15 +46,20 @@ def finite(values: ArrayLike) -> NDArray[np.float64]:
     return np.where(np.isfinite(numbers), numbers, np.nan)
 
 
+def stacked(count: int, narrow: float, looks: Looks) -> int:
+    """Report how many rows panels stand in: below each other where a chosen width leaves each less than `narrow`."""
+    return count if looks.width and looks.width < narrow * count else 1
+
+
 def finish(
     figure: Figure,
     looks: Looks,
     *,
     dataset: xarray.Dataset,
     caption: Iterable[str],
-    entries: Sequence[Artist],
-    size: tuple[float, float],
     panels: Iterable[Axes],
+    size: tuple[float, float],
+    entries: Sequence[Artist] = (),
     laid_out: bool = False,
 ) -> None:
     """
@@ -69,11 +67,6 @@ def finish(
 
     The size in inches is that which suits its panels; words and sides that are chosen come first. Numbers on contours
     and an inset need it `laid_out`, with everything in its place.
-
-    Raises
-    ------
-    DatasetError
-        The panels have several axes and one label is chosen, or the sides that are chosen leave no room for them.
     """
     for side, words in (("x", looks.xlabel), ("y", looks.ylabel)):
         named = [axis for axes in panels if (axis := getattr(axes, f"{side}axis")).get_label_text()]
@@ -83,17 +76,16 @@ def finish(
             axis.set_label_text(_drawable(str(words)))
     width = looks.width or size[0]
     longest = max((len(re.sub(r"[$\\{}]", "", str(entry.get_label()))) for entry in entries), default=0)
-    columns = max(1, min(len(entries), int(width / (ENTRY + LETTER * longest))))
+    columns = max(1, min(len(entries), int(width / (0.7 + 0.05 * longest))))
     if entries:
         figure.legend(handles=entries, loc="outside lower center", ncols=columns)
-    words_above = [heading(dataset)] if looks.title is None else [_drawable(looks.title)] * bool(looks.title)
-    words_above += [", ".join(map(_unbroken, caption))] if looks.caption else []
-    above = "\n".join(filter(None, words_above))
-    if above:
-        figure.suptitle(above, fontsize="medium", wrap=True)
-    shrunk = min(1.0, width / size[0])
-    lines = math.ceil(len(entries) / columns) + (above.count("\n") + 2 if above else 0)
-    figure.set_size_inches(width, looks.height or size[1] * shrunk + LINE * lines)
+    above = [heading(dataset) if looks.title is None else _drawable(looks.title)]
+    above += [", ".join(map(_unbroken, caption))] if looks.caption else []
+    words = "\n".join(filter(None, above))
+    if words:
+        figure.suptitle(words, fontsize="medium", wrap=True)
+    lines = math.ceil(len(entries) / columns) + (words.count("\n") + 2 if words else 0)
+    figure.set_size_inches(width, looks.height or size[1] * min(1.0, width / size[0]) + 0.17 * lines)
     if not (laid_out or looks.width or looks.height or looks.inset):
         return
     with warnings.catch_warnings():
@@ -114,7 +106,7 @@ def heading(dataset: xarray.Dataset) -> str:
     written = [str(dataset.attrs["title"])]
     profile = str(dataset.attrs.get("profile", ""))
     if profile not in ("", shape_in_words(Profile())):
-        written.append(f"profile {profile if len(profile) <= LONGEST else profile[:LONGEST] + ' ...'}")
+        written.append(f"profile {profile if len(profile) <= 110 else profile[:110] + ' ...'}")
     control = str(dataset.attrs.get("control", "displacement"))
     if control != "displacement":
         written.append({"load": "under controlled load", "machine": "through a machine of finite stiffness"}[control])

@@ -1,19 +1,19 @@
-"""Which axis of a dataset of values goes where in its picture, and which of its values are drawn."""
+"""Which axis of a dataset of values goes where in its picture, which of them are drawn, and what is said of others."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
 import xarray
-from numpy.typing import NDArray
 
+from gradhesion.cli.dataset.read.model_range import slope_warnings
 from gradhesion.cli.dataset.read.selection import Selection, axes_of, check_axis, is_log
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names.scenes import SCENE, SOLVER
-from gradhesion.cli.picture.labels import effective
-from gradhesion.cli.picture.looks import Kind
-from gradhesion.cli.picture.spans import Span
+from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
+from gradhesion.cli.names.symbols import SYMBOLS
+from gradhesion.cli.picture.labels import effective, equations
+from gradhesion.cli.picture.looks import Kind, Looks, Span
 from gradhesion.core.problem.inputs import INPUTS
 
 PANELS: Final = 3
@@ -55,11 +55,31 @@ class Plan:
         return [axis for axis in (self.x, self.second, self.columns, self.rows) if axis]
 
 
-def plan_of(
-    sizes: Mapping[str, int], x: str | None = None, y: str | None = None, kind: Kind | None = None
-) -> Plan | None:
+def planned(
+    dataset: xarray.Dataset, selection: Selection, looks: Looks, x: str | None, y: str | None
+) -> tuple[xarray.Dataset, Plan]:
+    """Choose which axis of a narrowed dataset goes where; a parameter that is asked for takes the place of its axis."""
+    dataset = _placed(dataset, selection, x, y)
+    if SCENE not in dataset.dims:
+        gone = {*selection.over, *(one.axis for one in selection.between)}
+        sizes = {str(axis): size for axis, size in dataset["status"].sizes.items() if axis not in gone}
+        return dataset, plan_of(sizes, x, y, looks.kind)
+    if looks.kind:
+        raise DatasetError(f"--{looks.kind}: points are drawn as points; leave it out")
+    values = {key: np.unique(dataset[key].values).size for key in effective(dataset)}
+    along = x or max(values, key=lambda key: values[key], default="")
+    if values.get(along, 0) < 2:
+        raise DatasetError("no parameter varies, so there is nothing to draw over; `gradhesion info` shows the values")
+    solvers = SOLVER if dataset.sizes.get(SOLVER, 1) > 1 else None
+    count = dataset["status"].size
+    dense = count > DENSE
+    plan = Plan(x=along, points=count, second=None if dense else solvers, columns=solvers if dense else None)
+    return dataset.swap_dims({SCENE: along}), plan
+
+
+def plan_of(sizes: Mapping[str, int], x: str | None = None, y: str | None = None, kind: Kind | None = None) -> Plan:
     """
-    Give the finest axes to the panels, the next two to columns and rows; None if nothing varies.
+    Give the finest axes to the panels, the next two to columns and rows.
 
     Solvers are the lines of a panel if nothing else is, and columns otherwise. What is asked for comes first.
 
@@ -70,104 +90,102 @@ def plan_of(
     """
     varying = sorted((name for name, size in sizes.items() if size > 1), key=lambda name: -sizes[name])
     others = [name for name in varying if name not in (SOLVER, x, y)]
-    free = [x or others.pop(0)] if x or others else []
-    if not free:
-        return None
-    free += [y] if y else []
-    free += others
+    if not (x or others):
+        raise DatasetError("nothing varies, so there is nothing to draw over; fix fewer axes, or see `gradhesion info`")
+    free = [x or others.pop(0), *([y] if y else []), *others]
     if SOLVER in varying:
         free.insert(2, SOLVER)
     first, second, columns, rows, *_ = [*free, None, None, None]
-    if kind == "map" and second in (None, SOLVER):
+    has_sides = second not in (None, SOLVER)
+    if kind == "map" and not has_sides:
         raise DatasetError(f"--map: a map needs two axes that vary, and here {first} alone does; use --lines")
-    is_map = second not in (None, SOLVER) and (kind or ("map" if y or sizes[second] > LINES else "lines")) == "map"
+    is_map = has_sides and (kind or ("map" if y or sizes[str(second)] > LINES else "lines")) == "map"
     return Plan(x=str(first), second=second, columns=columns, rows=rows, middle=tuple(free[4:]), is_map=is_map)
 
 
-def plan_of_points(dataset: xarray.Dataset, name: str, x: str | None) -> Plan:
-    """Put points over a parameter, that with the most values if none is asked for; solvers are told apart."""
-    values = {key: np.unique(dataset[key].values).size for key in effective(dataset)}
-    varying = [key for key, size in values.items() if size > 1]
-    if not varying:
-        raise DatasetError(
-            f"{name}: no parameter varies, so there is nothing to draw over; `gradhesion info` shows its value"
-        )
-    solvers = SOLVER if dataset.sizes.get(SOLVER, 1) > 1 else None
-    count = dataset["status"].size
-    along = x or max(varying, key=lambda key: values[key])
-    if count > DENSE:
-        return Plan(x=along, points=count, columns=solvers)
-    return Plan(x=along, points=count, second=solvers)
-
-
-def placed(dataset: xarray.Dataset, selection: Selection, x: str | None, y: str | None) -> xarray.Dataset:
+def _placed(dataset: xarray.Dataset, selection: Selection, x: str | None, y: str | None) -> xarray.Dataset:
     """Check the axes that are asked for; a parameter that follows from one axis alone takes its place."""
     if y and SCENE in dataset.dims:
         raise DatasetError(f"--y {y}: points are drawn over one parameter; choose it with --x")
     if x and x == y:
         raise DatasetError(f"--x {x} --y {y}: one axis cannot be both sides; choose another for one of them")
-    for option, name in (("--x", x), ("--y", y)):
+    taken = {*selection.fixed, *selection.over, *(one.axis for one in selection.between)}
+    for option, name in {f"--x {x}": x, f"--y {y}": y}.items():
         if name is None:
             continue
-        requested = f"{option} {name}"
-        if name in {*selection.fixed, *selection.over, *(one.axis for one in selection.between)}:
-            raise DatasetError(f"{requested}: {name} is fixed or reduced by --at or --over; remove one of the two")
+        if name in taken:
+            raise DatasetError(f"{option}: {name} is fixed or reduced by --at or --over; remove one of the two")
         if name == SOLVER:
-            raise DatasetError(f"{requested}: solvers are always lines or panels; choose a parameter")
+            raise DatasetError(f"{option}: solvers are always lines or panels; choose a parameter")
         own = dataset[name].dims if name in dataset.coords else ()
         if len(own) == 1 and own[0] not in (name, SCENE) and own[0] not in selection.over:
             if not np.isfinite(dataset[name].values).all():
-                raise DatasetError(f"{requested}: it has no finite value in some scenes; choose {own[0]}")
+                raise DatasetError(f"{option}: it has no finite value in some scenes; choose {own[0]}")
             dataset = dataset.swap_dims({own[0]: name})
         elif name not in axes_of(dataset) or np.unique(dataset[name].values).size < 2:
-            check_axis(dataset, requested, name)
-            raise DatasetError(f"{requested}: it has one value only; choose an axis that varies")
+            check_axis(dataset, option, name)
+            raise DatasetError(f"{option}: it has one value only; choose an axis that varies")
     return dataset
 
 
-def in_order(dataset: xarray.Dataset, plan: Plan) -> xarray.Dataset:
-    """Put the values along the sides of a panel into rising order; points lie along the parameter they are over."""
-    if SCENE in dataset.dims:
-        dataset = dataset.swap_dims({SCENE: plan.x})
-    rising = {}
-    for axis in (plan.x, plan.second):
-        if axis and axis != SOLVER and (np.diff(dataset[axis].values) < 0.0).any():
-            rising[axis] = np.argsort(dataset[axis].values, kind="stable")
-    return dataset.isel(rising)
+def within(dataset: xarray.Dataset, plan: Plan, looks: Looks) -> xarray.Dataset:
+    """Put values into rising order along the sides of a panel, and keep those between the limits."""
+    for axis, span in ((plan.x, looks.xlim), (plan.second, looks.ylim)):
+        if axis and axis != SOLVER:
+            dataset = dataset.isel({axis: np.argsort(dataset[axis].values, kind="stable")})
+            dataset = _seen(dataset, axis, span) if axis == plan.x or plan.is_map else dataset
+    return dataset
 
 
-def items_of(dataset: xarray.Dataset, plan: Plan) -> dict[str, Any]:
+def some_of(dataset: xarray.Dataset, plan: Plan) -> xarray.Dataset:
     """
     Choose what is drawn of each axis: some values in panels, the middle where there is no place, else nearly all.
 
     Panels that are some of many leave the value out at which a side of theirs has no effect, as that of smooth punches.
     """
     items: dict[str, Any] = {axis: dataset.sizes[axis] // 2 for axis in plan.middle}
-    most = {
-        plan.x: plan.points or MOST,
-        plan.second: MOST if plan.is_map else LINES,
-        plan.columns: PANELS,
-        plan.rows: PANELS,
-    }
+    most = dict.fromkeys((plan.columns, plan.rows), PANELS)
+    most |= {plan.x: plan.points or MOST, plan.second: MOST if plan.is_map else LINES}
     idle = {INPUTS[INPUTS[side].gives].idle_without for side in (plan.x, plan.second) if side in INPUTS}
     for axis, number in most.items():
         if axis is None or dataset.sizes[axis] <= number:
             continue
         known = np.arange(dataset.sizes[axis])
-        if axis in (plan.columns, plan.rows) and axis in INPUTS and INPUTS[axis].gives in idle:
+        if number == PANELS and axis in INPUTS and INPUTS[axis].gives in idle:
             known = known[dataset[axis].values != 0.0]
         items[axis] = np.unique(known[np.linspace(0, known.size - 1, number).round().astype(int)])
-    return items
+    return dataset.isel(items)
 
 
-def seen(dataset: xarray.Dataset, axis: str, span: Span) -> xarray.Dataset:
+def _seen(dataset: xarray.Dataset, axis: str, span: Span) -> xarray.Dataset:
     """Keep what is between the limits of an axis, and one value beyond each, so that lines run to the frame."""
     values = np.asarray(dataset[axis].values, dtype=float)
-    finite: NDArray[np.float64] = np.unique(values[np.isfinite(values)])
+    finite = np.unique(values[np.isfinite(values)])
     if not span or not finite.size:
         return dataset
     low, high = span.limits(axis, finite[0], finite[-1], log=is_log(finite))
     first = finite[max(0, int(np.searchsorted(finite, low, side="right")) - 1)]
-    last = finite[min(finite.size - 1, int(np.searchsorted(finite, high)))]
-    kept = (values >= first) & (values <= (last if np.isfinite(high) else np.inf))
-    return dataset.isel({dataset[axis].dims[0]: kept})
+    last = finite[min(finite.size - 1, int(np.searchsorted(finite, high)))] if np.isfinite(high) else np.inf
+    return dataset.isel({axis: (values >= first) & (values <= last)})
+
+
+def caption_of(part: xarray.Dataset, whole: xarray.Dataset, plan: Plan, selection: Selection) -> Iterator[str]:
+    """Write the parameters that are not drawn, and what stands for the axes that are fixed, reduced or cut."""
+    between = {one.axis: one.value for one in selection.between}
+    others = []
+    for name in (SOLVER, REALISATION, *effective(part)):
+        if name in between:
+            yield f"{equations(name, between[name])[0]} (interpolated)"
+        elif name in part.coords and name not in (*plan.places, *selection.over):
+            values = np.unique(part[name].values)
+            if values.size == 1:
+                yield equations(name, values)[0] + (f" (one of {whole.sizes[name]})" if name in plan.middle else "")
+            elif plan.points:
+                others.append(SYMBOLS[name])
+    if others:
+        yield "varying too: " + ", ".join(others)
+    yield from (f"{how} over {SYMBOLS[axis]}" for axis, how in selection.over.items())
+    for axis in (plan.x, plan.second):
+        if axis and part.sizes[axis] < whole.sizes[axis]:
+            yield f"{part.sizes[axis]:,} of {whole.sizes[axis]:,} values of {SYMBOLS[axis]}"
+    yield from slope_warnings(part)

@@ -13,64 +13,40 @@ from gradhesion.cli.dataset.read.model_range import slope_warnings
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.curves import STATE
 from gradhesion.cli.names.outputs import SI
-from gradhesion.cli.picture.labels import effective, equation, number
-from gradhesion.cli.picture.looks import PLAIN, Looks
-from gradhesion.cli.picture.pictured import finish, finite, styled
+from gradhesion.cli.picture.labels import fixed, number
+from gradhesion.cli.picture.looks import Looks
+from gradhesion.cli.picture.pictured import finish, finite, stacked, styled
 from gradhesion.cli.picture.scales import suit
 
-PANELS: Final = (("pressure", "pressure_radius", "pressure"), ("surface", "surface_radius", "surface_displacement"))
-"""The curve of each panel, and what it has along and up."""
+PANELS: Final = {"pressure": ("pressure_radius", "pressure"), "surface": ("surface_radius", "surface_displacement")}
+"""What each curve has along and up."""
 
 DASHES: Final = ("-", (0, (5, 1.5)), (0, (2, 1)), (0, (6, 1.5, 1, 1.5)))
 """What distinguishes states where colours do not print."""
 
-SHOWN: Final = 0.95
-"""The share of a contact up to which the pressure sets the limits of its panel: it has no bound at the edge."""
 
-NARROW: Final = 2.4
-"""The width of a panel, in inches, below which panels stand below each other if a width is given."""
-
-
-def draw_states(dataset: xarray.Dataset, chosen: Sequence[str], looks: Looks = PLAIN) -> Figure:
-    """
-    Draw pressure and surface of the states of one scene, the first of a dataset of several; in units if it has them.
-
-    Raises
-    ------
-    DatasetError
-        A radius is missing that the curve is drawn over, or no state has a value.
-    """
+def draw_states(dataset: xarray.Dataset, chosen: Sequence[str], looks: Looks) -> Figure:
+    """Draw pressure and surface of the states of a scene, the first of several; in units if the dataset has them."""
     looks.refuse(["xlim", "ylim", "inset"], "curves of states are drawn whole")
     scene = dataset.isel(dict.fromkeys(dataset["status"].dims, 0)).load()
-    panels = [(x, y) for curve, x, y in PANELS if curve in chosen and x in scene and y in scene]
+    panels = [names for curve, names in PANELS.items() if curve in chosen and {*names} <= {*scene}]
     if not panels:
         raise DatasetError(
-            f"{chosen[0]}: this dataset lacks the radius or the value of a state; name whole curves in the outputs of "
-            f'its study, as in outputs = ["{chosen[0]}"]'
+            f"{chosen[0]}: lacks the radius or the value of a state; run a study with this curve as a whole"
         )
     if not any((scene[x].notnull() & scene[y].notnull()).any() for x, y in panels):
         raise DatasetError("no value in any state drawn; `gradhesion info` reports why")
     with styled(looks):
-        width = looks.width or 4.0 * len(panels)
-        below = len(panels) if width < NARROW * len(panels) else 1
+        below = stacked(len(panels), 2.4, looks)
         figure = Figure(layout="constrained")
         grid = figure.subplots(below, len(panels) // below, squeeze=False).ravel()
         for axes, (x, y) in zip(grid, panels, strict=True):
             si = SI if x + SI in scene and y + SI in scene else ""
             _draw(axes, scene, x + si, y + si, "surface_gap" + si, looks)
-        caption = []
-        for name in effective(dataset):
-            first = equation(name, np.ravel(dataset[name].values)[0].item())
-            caption.append(first if dataset[name].size == 1 else f"{first} (first of {dataset[name].size})")
-        finish(
-            figure,
-            looks,
-            dataset=dataset,
-            caption=[*caption, *slope_warnings(dataset)],
-            entries=grid[-1].get_legend_handles_labels()[0],
-            size=(width, 2.5 * below + 0.2),
-            panels=grid,
-        )
+        caption = [*fixed(dataset), *slope_warnings(dataset)]
+        entries = grid[-1].get_legend_handles_labels()[0]
+        size = looks.width or 4.0 * len(panels), 2.5 * below + 0.2
+        finish(figure, looks, dataset=dataset, caption=caption, entries=entries, size=size, panels=grid)
     return figure
 
 
@@ -87,7 +63,7 @@ def _draw(axes: Axes, scene: xarray.Dataset, x: str, y: str, gap: str, looks: Lo
         axes.plot(along[i], up[i], color=colour, ls=dash, lw=1.2, label=words if there.any() else f"{words} (absent)")
         punch = np.where(gaps[i] > 0.0, up[i] - gaps[i], np.nan)
         axes.plot(along[i], punch, color=colour, lw=0.6, ls=(0, (1, 1.5)))
-        seen.append(up[i][there & (along[i] <= SHOWN * np.max(along[i][there], initial=0.0))])
+        seen.append(up[i][there & (along[i] <= 0.95 * np.max(along[i][there], initial=0.0))])
     axes.axhline(0.0, color="0.85", lw=0.6, zorder=0)
     axes.set_xlim(left=0.0)
     inner = np.concatenate(seen)

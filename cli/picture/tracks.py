@@ -1,6 +1,6 @@
 """The lines of a dataset of curves: which there are, how each looks, and how it is drawn into a panel."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
@@ -11,7 +11,6 @@ from matplotlib.colors import Colormap, to_rgb
 from numpy.typing import NDArray
 
 from gradhesion.cli.names.outputs import SI
-from gradhesion.cli.picture.doubts import Doubt
 from gradhesion.cli.picture.looks import PLAIN
 from gradhesion.cli.picture.pictured import finite
 
@@ -19,6 +18,7 @@ Values = NDArray[np.float64]
 Steps = NDArray[np.bool_]
 Colour = tuple[float, float, float]
 Dash = str | tuple[float, tuple[float, ...]]
+Plane = tuple[str, str]
 
 QUANTITIES: Final = ("contact_radius", "indentation", "load")
 """What a panel may have along or up."""
@@ -30,16 +30,6 @@ THIN: Final = 0.8
 ARROW: Final = 0.06
 FEWEST: Final = 0.1
 """The length of an arrow on a line, and of the part of a line that has room for one, over the side of a panel."""
-
-APART: Final = 0.12
-MARKED: Final = 0.22
-"""How far apart the marks of doubts and of scenes stand along a line, in diagonals of the panel."""
-
-MARKERS: Final = ("o", "s", "D", "P", "X")
-"""What distinguishes scenes where colours do not print."""
-
-LIGHT: Final = 0.6
-"""How far unstable parts are faded to white."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,6 +48,10 @@ class Track:
     """Where that is among the colours of a colour map; None: it is grey in all."""
     unloading: bool | None = None
     """Whether it is the loading or the unloading part of its curve, if it is a part."""
+
+    def points(self, scene: xarray.Dataset, plane: Plane) -> Values:
+        """Give its points in a plane, along and up; NaN where there is none."""
+        return np.stack([finite(scene[self.variables[quantity]].values) for quantity in plane])
 
     def falls(self, scene: xarray.Dataset) -> Steps:
         """Report which steps from point to point are unstable: the depth of an equilibrium falls."""
@@ -111,7 +105,9 @@ TRACKS_OF_MANY: Final = tuple(
 """Every line where there are several scenes: finer, and the path in one."""
 
 
-def tracks_in(names: Any, tracks: Sequence[Track], *, si: bool, colours: Colormap | None = None) -> list[Track]:
+def tracks_in(
+    names: Container[Any], tracks: Sequence[Track], *, si: bool, colours: Colormap | None = None
+) -> list[Track]:
     """List the lines of which two variables are among some names, in SI units or without, in the colours of a map."""
     found = []
     for track in tracks:
@@ -124,80 +120,59 @@ def tracks_in(names: Any, tracks: Sequence[Track], *, si: bool, colours: Colorma
 
 def faded(colour: Colour) -> Colour:
     """Fade a colour to white."""
-    red, green, blue = (LIGHT + (1.0 - LIGHT) * one for one in colour)
+    red, green, blue = (0.6 + 0.4 * one for one in colour)
     return red, green, blue
 
 
-def points_of(track: Track, scene: xarray.Dataset, plane: tuple[str, str]) -> tuple[Values, Values]:
-    """Give the points of a line in a plane; NaN where there is none."""
-    along, up = (finite(scene[track.variables[quantity]].values) for quantity in plane)
-    return along, up
+def unloads(scene: xarray.Dataset, count: int) -> Steps:
+    """Report which of the points of a path are on unloading; none if the dataset does not know."""
+    return scene["path_unloading"].values == 1 if "path_unloading" in scene else np.zeros(count, bool)
 
 
-def draw_track(axes: Axes, track: Track, scene: xarray.Dataset, plane: tuple[str, str], colour: Colour) -> None:
+def draw_track(axes: Axes, track: Track, scene: xarray.Dataset, plane: Plane, colour: Colour) -> None:
     """Draw one line of a scene; its jumps are thin and dashed, its unstable parts light."""
-    points = points_of(track, scene, plane)
+    points = track.points(scene, plane)
     jumps, falls = track.jumps(scene), track.falls(scene)
-    own = np.ones(points[0].size - 1, bool)
+    own = np.ones(points.shape[1] - 1, bool)
     if track.unloading is not None and "path_unloading" in scene:
-        own = (scene["path_unloading"].values[1:] == 1) == track.unloading
-    looks = (
+        own = unloads(scene, 0)[1:] == track.unloading
+    for steps, dash, width, shown in (
         (own & jumps, JUMP, THIN, colour),
         (own & falls & ~jumps, track.dash, track.width, faded(colour)),
         (own & ~falls & ~jumps, track.dash, track.width, colour),
-    )
-    for steps, dash, width, shown in looks:
+    ):
         if steps.any():
-            kept = [np.insert(row, np.flatnonzero(~steps) + 1, np.nan) for row in points]  # gaps for the others
+            kept = np.insert(points, np.flatnonzero(~steps) + 1, np.nan, axis=1)  # gaps for the others
             axes.plot(*kept, ls=dash, lw=width, color=shown, solid_capstyle="butt")
 
 
-def draw_marks(axes: Axes, points: tuple[Values, Values], apart: tuple[float, float], **looks: Any) -> None:
+def draw_marks(axes: Axes, points: Values, start: float, apart: float, **looks: Any) -> None:
     """Put markers along a line, evenly in the panel: from where on, and how far apart, in its diagonals."""
     if np.isfinite(points).all(axis=0).any():  # matplotlib fails to mark a line without a point
-        axes.plot(*points, ls="", markevery=apart, **looks)
-
-
-def draw_doubts(
-    axes: Axes, track: Track, scene: xarray.Dataset, plane: tuple[str, str], doubts: Sequence[Doubt], colour: Colour
-) -> None:
-    """Put the open markers of doubts along the loading part of a path."""
-    points = points_of(track, scene, plane)
-    loading = scene["path_unloading"].values == 0 if "path_unloading" in scene else np.ones(points[0].size, bool)
-    for doubt in reversed(doubts):  # the larger ones below
-        looks: dict[str, Any] = {"marker": doubt.mark, "ms": doubt.size, "mfc": "white", "mec": colour, "mew": 0.8}
-        draw_marks(axes, (points[0][loading], points[1][loading]), (0.5 * APART, APART), **looks)
+        axes.plot(*points, **({"markevery": (start, apart), "ls": ""} | looks))
 
 
 def draw_arrows(
-    axes: Axes, track: Track, scene: xarray.Dataset, plane: tuple[str, str], colour: Colour, taken: list[Values]
+    axes: Axes, track: Track, scene: xarray.Dataset, plane: Plane, colour: Colour, taken: list[Values]
 ) -> None:
     """
     Put an arrow on each jump of a path, and on each part between two of them, where it has room.
 
     The limits of the panel must stand. An arrow gives way to those of `taken`, the places in the panel of others.
     """
-    places = (axes.transData - axes.transAxes).transform(np.column_stack(points_of(track, scene, plane)))
-    ways = scene["path_unloading"].values[1:] if "path_unloading" in scene else np.zeros(len(places) - 1)
+    places = (axes.transData - axes.transAxes).transform(track.points(scene, plane).T)
+    ways = unloads(scene, len(places))[1:]
     jumps = np.broadcast_to(track.jumps(scene), ways.shape)
-    for run in np.split(np.arange(ways.size), np.flatnonzero((np.diff(ways) != 0) | jumps[1:] | jumps[:-1]) + 1):
+    looks: dict[str, Any] = {"arrowstyle": "-|>", "color": colour, "lw": 0.0, "shrinkA": 0.0, "shrinkB": 0.0}
+    for run in np.split(np.arange(ways.size), np.flatnonzero(np.diff(ways) | jumps[1:] | jumps[:-1]) + 1):
         line = places[run[0] : run[-1] + 2]
         lengths = np.append(0.0, np.cumsum(np.hypot(*np.diff(line, axis=0).T)))
-        if not lengths[-1] > FEWEST or track.unloading not in (None, ways[run[0]] == 1):
+        if not lengths[-1] > FEWEST or track.unloading not in (None, bool(ways[run[0]])):
             continue
-        middle = 0.5 * lengths[-1]
-        tail, head = (
-            [np.interp(middle + step, lengths, row) for row in line.T] for step in (-0.5 * ARROW, 0.5 * ARROW)
-        )
+        ends = 0.5 * lengths[-1] + np.array([-0.5, 0.5]) * ARROW
+        tail, head = np.stack([np.interp(ends, lengths, row) for row in line.T], axis=1)
         inside = min(*tail, *head) >= 0.0 and max(*tail, *head) <= 1.0
-        if inside and all(np.hypot(*np.subtract(head, other)) > ARROW for other in taken):
-            taken.append(np.array(head))
-            looks = {
-                "arrowstyle": "-|>",
-                "color": colour,
-                "lw": 0.0,
-                "shrinkA": 0.0,
-                "shrinkB": 0.0,
-                "mutation_scale": 8.0,
-            }
-            axes.annotate("", tuple(head), tuple(tail), "axes fraction", "axes fraction", arrowprops=looks)
+        if inside and all(np.hypot(*(head - other)) > ARROW for other in taken):
+            taken.append(head)
+            arrow = looks | {"mutation_scale": 8.0}
+            axes.annotate("", tuple(head), tuple(tail), "axes fraction", "axes fraction", arrowprops=arrow)

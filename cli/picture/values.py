@@ -1,13 +1,14 @@
-"""The picture of a dataset of values: variables side by side, each in panels of lines, points or maps."""
+"""The picture of a dataset of values: variables in panels of lines, points or maps; or fronts of two goals."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import partial
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 import xarray
 from matplotlib.artist import Artist
 from matplotlib.colors import LogNorm
+from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -18,94 +19,64 @@ from gradhesion.cli.dataset.read.selection import Selection
 from gradhesion.cli.dataset.read.sensitivities import parts_of, spread, with_influence
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import BEST, ON_BOUND, PARETO_POINT, SI
-from gradhesion.cli.names.scenes import SCENE, SOLVER
-from gradhesion.cli.names.symbols import SYMBOLS
 from gradhesion.cli.picture.doubts import INK, entries
-from gradhesion.cli.picture.fronts import draw_fronts
-from gradhesion.cli.picture.inset import add_inset
-from gradhesion.cli.picture.labels import Unit, effective, equation, equations, label
-from gradhesion.cli.picture.looks import PLAIN, Looks
-from gradhesion.cli.picture.panels import FEW, LIGHT, draw_density, draw_lines, draw_map, number_contours
-from gradhesion.cli.picture.pictured import finish, styled
-from gradhesion.cli.picture.plan import Plan, in_order, items_of, placed, plan_of, plan_of_points, seen
-from gradhesion.cli.picture.scales import Numbers, locator, scale
+from gradhesion.cli.picture.labels import PLAIN, effective, equations
+from gradhesion.cli.picture.looks import Looks
+from gradhesion.cli.picture.panels import FEW, LIGHT, MARKS, draw_density, draw_lines, draw_map, number_contours
+from gradhesion.cli.picture.pictured import MARKERS, finish, stacked, styled
+from gradhesion.cli.picture.plan import Plan, caption_of, planned, some_of, within
+from gradhesion.cli.picture.scales import Numbers, Scale, add_inset, locator, scale, suit
 from gradhesion.cli.picture.shown import Shown, shown_of
 from gradhesion.cli.terminal.wording import did_you_mean
-
-NARROW: Final = 2.4
-"""The width of a variable, in inches, below which variables stand below each other if a width is given."""
-
-BESIDE: Final = 3
-"""Variables that stand in one line."""
-
-APART: Final = 0.17
-"""The least distance of numbers at a colour bar, in inches."""
-
-WHOLE: Final = Selection()
-"""All of a dataset."""
+from gradhesion.core.problem.inputs import INPUTS
 
 
 def drawn(
-    dataset: xarray.Dataset,
-    requested: Sequence[str],
-    selection: Selection = WHOLE,
-    *,
-    x: str | None = None,
-    y: str | None = None,
-    looks: Looks = PLAIN,
+    dataset: xarray.Dataset, requested: Sequence[str], selection: Selection, x: str | None, y: str | None, looks: Looks
 ) -> Figure:
-    """
-    Draw variables of a grid of scenes, or of points, side by side; without any asked for, the force and the energy.
-
-    Raises
-    ------
-    DatasetError
-        A variable is not there or has no value, or nothing varies that it could be drawn over.
-    """
-    if PARETO_POINT in dataset.dims:
-        return draw_fronts(dataset, requested, selection, x, y, looks)
+    """Draw variables of a grid of scenes, or of points, side by side; of none asked for the force and the energy."""
     dataset, names = _chosen(dataset, requested)
-    narrow = placed(selection.narrowed(dataset), selection, x, y)
-    plan = _planned(narrow, names, selection, x, y, looks)
+    narrow, plan = planned(selection.narrowed(dataset), selection, looks, x, y)
     _check(looks, names, plan)
-    narrow = seen(in_order(narrow, plan), plan.x, looks.xlim)
-    narrow = seen(narrow, plan.second, looks.ylim) if plan.is_map and plan.second else narrow
-    items = items_of(narrow, plan)
-    part = narrow.isel(items)
+    narrow = within(narrow, plan, looks)
+    part = some_of(narrow, plan)
     shown = [shown_of(part, name, plan, selection, looks) for name in names]
+    along = scale(part[plan.x].values, plan.x, looks.xlim)
+    up = scale(part[plan.second].values, plan.second, looks.ylim) if plan.is_map and plan.second else None
     rows, columns = (part.sizes[axis] if axis else 1 for axis in (plan.rows, plan.columns))
     beside = _beside(len(names), columns, looks)
     below = -(-len(names) // beside)
     width, height = (2.1, 1.8) if columns > 1 else (3.6, 2.9)
     room = 2.2 if any(one.names for one in shown) else 1.2
+    size = beside * (width * columns + room), below * (height * rows + 0.6)
+    share = (looks.height or size[1]) / size[1]
     with styled(looks):
         figure = Figure(layout="constrained")
         grid = figure.subplots(rows * below, columns * beside, squeeze=False)
         parts = [half for band in np.split(grid, below) for half in np.split(band, beside, axis=1)]
         for axes in [axes for empty in parts[len(names) :] for axes in empty.flat]:
             axes.remove()
-        size = beside * (width * columns + room), below * (height * rows + 0.6)
-        share = (looks.height or size[1]) / size[1]
-        contours = []
+        numbered = []
         for one, panels in zip(shown, parts, strict=False):
-            contours += _draw(figure, panels, one, plan, looks, share * height * rows)
+            drawn_lines = _draw(figure, panels, one, along, up, plan, looks, share * height * rows)
+            numbered += [(lines, one) for lines in drawn_lines if looks.labels]
+        words = [*caption_of(part, narrow, plan, selection), *(words for one in shown for words in one.caption)]
         finish(
             figure,
             looks,
             dataset=dataset,
-            caption=dict.fromkeys(
-                [*_caption(part, narrow, plan, selection, items), *(w for one in shown for w in one.caption)]
-            ),
-            entries=_entries(shown, grid[0, 0].get_legend_handles_labels()[0], plan, part.sizes[plan.x]),
+            caption=dict.fromkeys(words),
+            entries=_entries(shown, grid[0, 0].get_legend_handles_labels()[0], plan, along.positions.size),
             size=size,
             panels=[axes for panels in parts[: len(names)] for axes in panels.flat],
-            laid_out=bool(contours) and looks.labels,
+            laid_out=bool(numbered),
         )
-        for lines, one in contours if looks.labels else ():
+        for lines, one in numbered:
             number_contours(lines, one)
         if looks.inset:
-            again = partial(draw_lines, shown=shown[0], plan=plan, looks=looks)
-            add_inset(grid[0, 0], again, looks.inset, plan.x)
+            add_inset(
+                grid[0, 0], partial(draw_lines, shown=shown[0], x=along, plan=plan, looks=looks), looks.inset, plan.x
+            )
     return figure
 
 
@@ -130,76 +101,54 @@ def _chosen(dataset: xarray.Dataset, requested: Sequence[str]) -> tuple[xarray.D
     return dataset, [*dict.fromkeys(chosen)]
 
 
-def _planned(
-    narrow: xarray.Dataset, names: Sequence[str], selection: Selection, x: str | None, y: str | None, looks: Looks
-) -> Plan:
-    """Choose which axis goes where."""
-    if SCENE in narrow.dims:
-        if looks.kind:
-            raise DatasetError(f"--{looks.kind}: points are drawn as points; leave it out")
-        return plan_of_points(narrow, names[0], x)
-    gone = {*selection.over, *(one.axis for one in selection.between)}
-    sizes = {str(axis): size for axis, size in narrow["status"].sizes.items() if axis not in gone}
-    plan = plan_of(sizes, x, y, looks.kind)
-    if plan is None:
-        remedy = "fix or reduce fewer axes" if gone or selection.fixed else "`gradhesion info` shows its value"
-        raise DatasetError(f"{names[0]}: nothing varies, so there is nothing to draw it over; {remedy}")
-    return plan
-
-
 def _check(looks: Looks, names: Sequence[str], plan: Plan) -> None:
     """Refuse what a picture of these variables has no place for."""
-    listed = isinstance(looks.levels, tuple)
-    if looks.levels is not None and not plan.is_map:
-        raise DatasetError("--levels: contour levels are for a map, and this picture has none; leave them out")
     if plan.is_map:
         looks.refuse(["band", "inset"], "this picture is a map, and has no lines")
+    else:
+        looks.refuse(["levels"], "contour levels are for a map, and this picture has none")
     if plan.is_dense:
         looks.refuse(["band"], f"{plan.points:,} points are drawn as their density, which has no bars")
-    if len(names) > 1 and ((looks.ylim and not plan.is_map) or listed):
-        words = "--levels" if listed else looks.ylim
-        what = "levels" if listed else "an axis"
-        raise DatasetError(f"{words}: {' and '.join(names[:2])} have {what} each; choose one of them with --variable")
-    if looks.inset and (len(names) > 1 or plan.columns or plan.rows or plan.points):
-        raise DatasetError(
-            f"{looks.inset}: an inset goes into a single panel of lines; choose one variable with --variable, and fix "
-            "axes with --at"
-        )
+    if len(names) > 1:
+        why = f"{names[0]} and {names[1]} have values of their own; choose one of them with --variable"
+        looks.refuse([] if plan.is_map else ["ylim"], why)
+        looks.refuse(["levels"] if isinstance(looks.levels, tuple) else [], why)
+    if len(names) > 1 or plan.columns or plan.rows or plan.points:
+        why = "an inset goes into a single panel of lines; choose one variable with --variable, fix axes with --at"
+        looks.refuse(["inset"], why)
 
 
 def _beside(count: int, columns: int, looks: Looks) -> int:
     """Choose how many variables stand in one line: those with several columns of panels do on a flat page alone."""
-    page = looks.width or np.inf
-    is_flat = looks.height is not None and page > 2.0 * looks.height
-    below_each_other = page < NARROW * count or (columns > 1 and not is_flat)
-    return 1 if below_each_other else min(count, BESIDE)
+    is_flat = looks.height is not None and (looks.width or np.inf) > 2.0 * looks.height
+    below_each_other = stacked(count, 2.4, looks) > 1 or (columns > 1 and not is_flat)
+    return 1 if below_each_other else min(count, 3)
 
 
-def _draw(figure: Figure, panels: Any, shown: Shown, plan: Plan, looks: Looks, height: float) -> list[Any]:
+def _draw(
+    figure: Figure, panels: Any, shown: Shown, x: Scale, y: Scale | None, plan: Plan, looks: Looks, height: float
+) -> list[QuadContourSet]:
     """Draw a variable into its panels, with a bar of its colours; the contours are returned, for numbers on them."""
     coloured, contours = [], []
     titles = {axis: equations(axis, shown.values[axis].values) for axis in (plan.columns, plan.rows) if axis}
-    along = label(plan.x, scale(shown.values[plan.x].values, plan.x, looks.xlim).unit)
     up = shown.label.replace(" $", "\n$", 1) if len(panels) > 1 else shown.label  # a row may be lower than it is long
-    if plan.is_map and plan.second:
-        up = label(plan.second, scale(shown.values[plan.second].values, plan.second, looks.ylim).unit)
     for (i, j), axes in np.ndenumerate(panels):
         if axes is not panels[0, 0]:
             axes.sharex(panels[0, 0])
             axes.sharey(panels[0, 0])
         one = shown.at({axis: item for axis, item in ((plan.rows, i), (plan.columns, j)) if axis})
-        if plan.is_map:
-            filled, lines = draw_map(axes, one, plan, looks)
+        if y:
+            filled, lines = draw_map(axes, one, x, y, looks)
             coloured += [filled] if filled else []
-            contours += [(lines, shown)] if lines else []
+            contours += [lines] if lines else []
         elif plan.is_dense and not shown.names:
-            coloured.append(draw_density(axes, one, plan, looks))
+            coloured.append(draw_density(axes, one, x, looks))
         else:
-            draw_lines(axes, one, plan, looks)
+            draw_lines(axes, one, x, plan, looks)
         last, first = i == len(panels) - 1, j == 0
-        axes.set_xlabel(along if last else "")
-        middle = first and (plan.is_map or i == (len(panels) - 1) // 2)  # words are longer than a row is high
-        axes.set_ylabel(up if middle and not (shown.names and not plan.is_map) else "")
+        axes.set_xlabel(x.label if last else "")
+        middle = first and (y or i == (len(panels) - 1) // 2)  # words are longer than a row is high
+        axes.set_ylabel((y.label if y else "" if shown.names else up) if middle else "")
         axes.tick_params(labelbottom=last, labelleft=first)
         if plan.columns and i == 0:
             axes.set_title(titles[plan.columns][j])
@@ -223,10 +172,10 @@ def _add_bar(figure: Figure, panels: Any, coloured: Sequence[Any], shown: Shown,
             cells.set_norm(LogNorm(1.0, most))
         bar.set_label("scenes in a cell")
         bar.locator = locator(1.0, most, log=True)
-        bar.formatter = Numbers(Unit())
+        bar.formatter = Numbers(PLAIN)
     else:
         levels = coloured[0].levels
-        step = -(-levels.size // max(2, int(height / APART)))
+        step = -(-levels.size // max(2, int(height / 0.17)))
         some = [*levels[: levels.size - step : step], levels[-1]]
         bar.set_label(shown.label)
         bar.ax.set_yticks(some, shown.unit.numbers(some))
@@ -246,28 +195,58 @@ def _entries(shown: Sequence[Shown], lines: Sequence[Artist], plan: Plan, size: 
     return [*{str(entry.get_label()): entry for entry in made}.values()]
 
 
-def _caption(
-    part: xarray.Dataset, whole: xarray.Dataset, plan: Plan, selection: Selection, items: Mapping[str, Any]
-) -> list[str]:
-    """Write the parameters that are not drawn, and what stands for the axes that are fixed or reduced."""
-    written = []
-    between = {one.axis: one.value for one in selection.between}
-    others = []
-    for name in (SOLVER, *effective(part)):
-        values = np.unique(part[name].values) if name in part.coords else np.empty(0)
-        if name in between:
-            written.append(f"{equation(name, between[name])} (interpolated)")
-        elif name in plan.middle:
-            written.append(f"{equation(name, part[name].item())} (one of {whole.sizes[name]})")
-        elif name in (*plan.places, *selection.over):
-            continue
-        elif values.size == 1:
-            written.append(equation(name, values[0].item()))
-        elif plan.points and values.size:
-            others.append(SYMBOLS[name])
-    written += ["varying too: " + ", ".join(others)] if others else []
-    written += [f"{how} over {SYMBOLS[axis]}" for axis, how in selection.over.items()]
-    for axis in (plan.x, plan.second):
-        if axis and axis in items:
-            written.append(f"{len(items[axis]):,} of {whole.sizes[axis]:,} values of {SYMBOLS[axis]}")
-    return [*written, *slope_warnings(part)]
+def draw_fronts(
+    dataset: xarray.Dataset, requested: Sequence[str], selection: Selection, x: str | None, y: str | None, looks: Looks
+) -> Figure:
+    """Draw the Pareto fronts of two goals, or of two variables asked for: the one along, the other up."""
+    if selection.over or selection.between or looks.kind:
+        raise DatasetError("Pareto fronts are drawn as they are; choose scenes with --at")
+    looks.refuse(["inset", "band"], "Pareto fronts are drawn as they are")
+    narrow = selection.narrowed(dataset)
+    along, up = _sides(narrow, requested, x, y)
+    scenes = [str(axis) for axis in narrow["status"].dims if narrow.sizes[axis] > 1]
+    narrow = narrow.squeeze([axis for axis in narrow["status"].dims if axis not in scenes])
+    flat = narrow.stack(line=scenes) if scenes else narrow.expand_dims("line")
+    lines = flat.sizes["line"]
+    if lines > 10:
+        raise DatasetError(f"{lines} scenes are too many lines for one picture; choose some with --at")
+    words = [equations(name, flat[name].values) for name in scenes]
+    with styled(looks):
+        figure = Figure(layout="constrained")
+        axes = figure.subplots()
+        for i in range(lines):
+            first, second = (flat[name].isel(line=i).values for name in (along, up))
+            there = np.isfinite(first) & np.isfinite(second)
+            axes.plot(
+                first[there],
+                second[there],
+                ls="",  # there is nothing in a gap
+                color=looks.colours(0.85 * i / max(1, lines - 1)),
+                marker=MARKERS[i % len(MARKERS)],
+                ms=3.5 if there.sum() <= MARKS else 2.0,
+                mew=0.0,
+                label=", ".join(own[i] for own in words),
+            )
+        suit(axes, "x", along, looks.xlim)
+        suit(axes, "y", up, looks.ylim)
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_label_text(axis.get_label_text().removeprefix("best "))
+        axes.grid(color="0.9", lw=0.5)
+        if scenes:
+            axes.legend(markerscale=1.5)
+        caption = [equations(name, narrow[name].item())[0] for name in effective(narrow) if narrow[name].size == 1]
+        caption += slope_warnings(narrow)
+        finish(figure, looks, dataset=dataset, caption=caption, size=(4.2, 3.0), panels=[axes])
+    return figure
+
+
+def _sides(dataset: xarray.Dataset, requested: Sequence[str], x: str | None, y: str | None) -> tuple[str, str]:
+    """Choose the two variables: the goals, in SI units if they have them."""
+    known = [str(name) for name in dataset.data_vars if PARETO_POINT in dataset[name].dims]
+    for name in (*requested, *filter(None, (x, y))):
+        if name not in known:
+            raise DatasetError(f"--variable {name}: not a variable of the Pareto front; {did_you_mean(name, known)}")
+    goals = [name for name in known if not name.endswith(SI) and name.removeprefix(BEST) not in INPUTS]
+    goals = [name + SI if name + SI in known else name for name in goals[:2]]
+    first, second = [*requested, *goals[len(requested) :]][:2]
+    return x or first, y or second

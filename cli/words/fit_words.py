@@ -14,6 +14,7 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.fits import LOOP, MINIMUM, PARAMETER_UNITS
 from gradhesion.cli.names.outputs import PARAMETER
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
+from gradhesion.cli.words.curve_words import unit_behind
 from gradhesion.cli.words.words import origin_lines
 from gradhesion.core.answers.flags import FLAG_WORDS
 from gradhesion.core.loops.fitted import poor_from
@@ -24,6 +25,7 @@ TOGETHER: Final = 0.9
 """Correlations from which on two values are said to go together."""
 WIDENED: Final = 1.1
 """The widening of intervals from which on it is said."""
+NOISE: Final = ("noise_of_indentation", "noise_of_load")
 _SAME: Final = {
     "measured_unloading": "other points (rows or branch)",
     "measured_indentation": "other depths",
@@ -45,54 +47,38 @@ def fits_described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
     yield f"{file}: {what}, {bytes_in_words(file.stat().st_size)}"
     yield ""
     yield from _of_data(dataset)
-    yield ""
     yield from _of_loops(dataset) if several else _of_one(dataset)
     yield from (f"outside the range of the model: {line}" for line in slope_warnings(dataset))
     if fixed := [name for name in INPUTS if name in dataset.coords]:
         yield ""
         yield "given"
-        yield from (f"  {name:<20} {dataset[name].item():g}{_unit(dataset[name].attrs.get('units'))}" for name in fixed)
+        yield from (f"  {name:<20} {dataset[name].item():g}{unit_behind(dataset[name])}" for name in fixed)
     yield from origin_lines(dataset)
-
-
-def _unit(unit: object) -> str:
-    """Write a unit behind a number."""
-    return f" {unit}" if unit not in (None, "1", "") else ""
 
 
 def _of_data(dataset: xarray.Dataset) -> Iterator[str]:
     """Report the punch, the data and their noise."""
-    attributes = dataset.attrs
+    attributes, one = dataset.attrs, LOOP not in dataset.dims
     yield f"profile: {attributes.get('profile', '')}"
     yield from (f"{law}: {attributes[law]}" for law in ("toughness", "rate") if law in attributes)
-    words = {"data_rows_left_out": "without a number", "data_rows_of_pauses": "of pauses"}
-    counts = {what: int(attributes.get(name, 0)) for name, what in words.items()}
-    out = [f"{counted(count, 'row')} {what} left out" for what, count in counts.items() if count]
+    out = []
+    for name, what in (("data_rows_left_out", "without a number"), ("data_rows_of_pauses", "of pauses")):
+        if count := int(attributes.get(name, 0)):
+            out.append(f"{counted(count, 'row')} {what} left out")
     if "raw_points" in dataset and (raw := int(dataset["raw_points"].sum())) > int(dataset["kept_points"].sum()):
         out.append(f"{counted(raw, 'point')} averaged along the path")
     yield "; ".join([f"data: {attributes.get('data_file', 'a file')}", *out])
-    depth, load = (1e9 * noise[0] if noise.size == 1 else np.nan for noise in _noise(dataset))
-    numbers = f"{depth:.3g} nm and {load:.3g} nN, " if LOOP not in dataset.dims else ""
-    yield f"noise: {numbers}{attributes.get('noise_is', '')}"
-    if "contact_depth" in dataset and LOOP not in dataset.dims:
+    noise = [np.ravel(dataset.get(name, attributes.get(name, np.nan))) for name in NOISE]  # version 0.2: attributes
+    depth, load = (1e9 * each[0] if each.size == 1 else np.nan for each in noise)
+    yield f"noise: {f'{depth:.3g} nm and {load:.3g} nN, ' if one else ''}{attributes.get('noise_is', '')}"
+    if "contact_depth" in dataset and one:
         at, deviation = (1e9 * float(dataset[name]) for name in ("contact_depth", "contact_depth_deviation"))
         how = attributes.get("contact_point", "")
         yield f"contact point: {at:.6g} +- {deviation:.2g} nm, found before the fit ({how})"
-
-
-def _noise(dataset: xarray.Dataset) -> list[np.ndarray[tuple[int], np.dtype[np.float64]]]:
-    """Give the standard deviations of depth and load; version 0.2 wrote them as attributes."""
-    names = ("noise_of_indentation", "noise_of_load")
-    return [np.ravel(dataset[name] if name in dataset else dataset.attrs.get(name, np.nan)) for name in names]
-
-
-def _intervals(dataset: xarray.Dataset) -> str:
-    """Say where the intervals come from, and by how much those of one fit are widened."""
-    source = str(dataset.attrs.get("intervals", ""))
-    if LOOP in dataset.dims or "interval_widening" not in dataset:
-        return source
-    factor = float(dataset["interval_widening"])
-    return f"{source}, widened by {factor:.3g} for residuals above the noise" if factor > WIDENED else source
+    factor = float(dataset["interval_widening"]) if one and "interval_widening" in dataset else 1.0
+    widened = f", widened by {factor:.3g} for residuals above the noise" if factor > WIDENED else ""
+    yield ""
+    yield f"fitted, with 95 % intervals ({attributes.get('intervals', '')}{widened})"
 
 
 def _of_one(dataset: xarray.Dataset) -> Iterator[str]:
@@ -100,16 +86,14 @@ def _of_one(dataset: xarray.Dataset) -> Iterator[str]:
     names, units = _names(dataset)
     width = max(20, *map(len, names))
     through_a_machine = dataset.attrs.get("control") == "machine"
-    yield f"fitted, with 95 % intervals ({_intervals(dataset)})"
     for i, name in enumerate(names):
         value, low, high = (float(dataset[column].values[i]) for column in ("value", "low", "high"))
         remark = "  of the machine's displacement" if through_a_machine and name == "indentation_offset" else ""
         if dataset["on_bound"].values[i]:
             remark += "  at an end of its range"
             if "low_searched" in dataset:
-                ends = (float(dataset[column].values[i]) for column in ("low_searched", "high_searched"))
-                remark += ", {:.6g} to {:.6g}".format(*ends)
-        written = f"{value:.6g}{_unit(units[i])}"
+                remark += f", {dataset['low_searched'].values[i]:.6g} to {dataset['high_searched'].values[i]:.6g}"
+        written = f"{value:.6g} {units[i]}" if units[i] != "1" else f"{value:.6g}"
         yield f"  {name:<{width}} {written:<22} {low:.6g} to {high:.6g}{remark}"
     yield ""
     chi_square, degrees, status = (dataset[name].item() for name in ("chi_square", "degrees_of_freedom", "status"))
@@ -162,7 +146,6 @@ def _of_loops(dataset: xarray.Dataset) -> Iterator[str]:
         ]
     table["reduced chi square"] = ["-" if np.isnan(one) else f"{one:.3g}" for one in reduced]
     table["flags"] = [" ".join(flags_of(dataset, i)) or "-" for i in range(len(files))]
-    yield f"fitted, with 95 % intervals ({_intervals(dataset)})"
     yield from (line.rstrip() for line in table.to_string(index=False, justify="left").splitlines())
     doubtful = dataset["status"].values & (FAILED | POOR_FIT | ANOTHER_MINIMUM) != 0
     sound = value[~doubtful & ~np.isnan(value).any(axis=1)]
@@ -191,14 +174,7 @@ def flags_of(dataset: xarray.Dataset, loop: int) -> list[str]:
 
 
 def fits_compared(datasets: Sequence[xarray.Dataset], files: Sequence[Path]) -> Iterator[str]:
-    """
-    Compare fits of the same data by Akaike's criterion, chi square + 2 p: differences to the least, and weights.
-
-    Raises
-    ------
-    DatasetError
-        One is no fit, or they differ in data, noise, branch or averaging, so that their misfits cannot be compared.
-    """
+    """Compare fits of the same data by Akaike's criterion, chi square + 2 p: differences to the least, and weights."""
     first = datasets[0]
     for dataset, file in zip(datasets, files, strict=True):
         if not is_fit(dataset):

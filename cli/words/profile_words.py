@@ -7,12 +7,8 @@ from gradhesion.cli.study.shape_words import profile_table
 from gradhesion.core.answers.profile_fit import FittedProfile
 
 
-def tables_of(fit: FittedProfile, file: Path, terms: int, exponent: float | str) -> str:
-    """Write the tables that give the fitted punch, and how well it fits."""
-    return "\n".join(_lines(fit, file, terms, exponent))
-
-
-def _lines(fit: FittedProfile, file: Path, terms: int, exponent: float | str) -> Iterator[str]:
+def tables_of(fit: FittedProfile, file: Path, terms: int, exponent: float | str) -> Iterator[str]:
+    """Write the tables that give the fitted punch, and how well it fits, line by line."""
     yield f"# {file.name} up to {1e6 * fit.up_to:.6g} um of its centre: {fit.distance.size:,} points"
     yield f"# residual {1e9 * fit.residual_rms:.3g} nm rms, {1e9 * fit.residual_max:.3g} nm at most"
     if fit.errors["centre"]:

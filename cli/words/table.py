@@ -39,11 +39,6 @@ def tabled(dataset: xarray.Dataset, file: Path, chosen: Sequence[str]) -> Iterat
     Write maps or curves, some lines at a time: first the names, then parameters, variables and status.
 
     Numbers have all their digits. `chosen` are variables, or curves, of a dataset that has several curves one.
-
-    Raises
-    ------
-    DatasetError
-        A variable is not there, or the chosen ones have no lines in common.
     """
     parts = {name: parts_of(dataset, str(name)) for name in dataset.data_vars}
     chosen = [one for name in chosen for one in (parts.get(name) or [name])]

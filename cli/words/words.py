@@ -20,7 +20,7 @@ from gradhesion.cli.names.outputs import ON_BOUND, PARETO_POINT, SI, labels_of
 from gradhesion.cli.names.scenes import IDLE, REALISATION, SCENE, SOLVER
 from gradhesion.cli.study.shape_words import control_in_words
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted, percent
-from gradhesion.cli.words.curve_words import curve_lines, jump_lines, number_range
+from gradhesion.cli.words.curve_words import about, curve_lines, jump_lines, number_range, told, unit_behind
 from gradhesion.cli.words.table import columns_of
 from gradhesion.core import FAILED
 from gradhesion.core.answers.flags import FLAG_WORDS
@@ -40,14 +40,18 @@ WIDTH: Final = 100
 
 def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
     """Report what a dataset holds, line by line."""
-    yield dataset.attrs["title"]
+    attributes = dataset.attrs
+    yield attributes["title"]
     yield f"{file}: {counted(dataset['status'].size, 'scene')}, {bytes_in_words(file.stat().st_size)}"
-    if "profile" in dataset.attrs:
+    if "profile" in attributes:
         yield ""
-        yield f"profile: {dataset.attrs['profile']}"
-        yield from _fitted_profile(dataset)
-        yield f"control: {control_in_words(Loading(control=dataset.attrs.get('control', 'displacement')))}"
-        yield from (f"{law}: {dataset.attrs[law]}" for law in ("toughness", "rate") if law in dataset.attrs)
+        yield f"profile: {attributes['profile']}"
+        if "profile_residual_rms" in attributes:
+            rms, most = (1e9 * float(attributes[f"profile_residual_{name}"]) for name in ("rms", "max"))
+            source = attributes.get("profile_file", "a file")
+            yield f"  fitted to {source}: residual {rms:.3g} nm rms, {most:.3g} nm at most"
+        yield f"control: {control_in_words(Loading(control=attributes.get('control', 'displacement')))}"
+        yield from (f"{law}: {attributes[law]}" for law in ("toughness", "rate") if law in attributes)
     yield from _parameters(dataset)
     yield from _uncertain_inputs(dataset)
     if has_curves(dataset):
@@ -55,20 +59,13 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
         yield from jump_lines(dataset)
     else:
         yield from _outputs(dataset)
-    yield from _status(dataset)
+    status, scenes = dataset["status"], dataset["status"].size
+    failed = sum(int(np.count_nonzero(status[block].values.astype(np.int16) & FAILED)) for block in tiling_of(status))
+    written = f"{scenes - failed:,} of {counted(scenes, 'scene')} ({(scenes - failed) / scenes:.1%})"
+    yield from ("", f"status: {written} have values", *_flag_counts(status))
     if beyond := list(_beyond_the_model(dataset)):
-        yield ""
-        yield "outside the range of the model"
-        yield from beyond
+        yield from ("", "outside the range of the model", *beyond)
     yield from origin_lines(dataset)
-
-
-def _fitted_profile(dataset: xarray.Dataset) -> Iterator[str]:
-    """Tell which file a profile was fitted to, and how well."""
-    if "profile_residual_rms" in dataset.attrs:
-        rms, most = (1e9 * float(dataset.attrs[f"profile_residual_{name}"]) for name in ("rms", "max"))
-        file = dataset.attrs.get("profile_file", "a file")
-        yield f"  fitted to {file}: residual {rms:.3g} nm rms, {most:.3g} nm at most"
 
 
 def _coordinates(dataset: xarray.Dataset | xarray.DataArray) -> list[str]:
@@ -78,9 +75,8 @@ def _coordinates(dataset: xarray.Dataset | xarray.DataArray) -> list[str]:
 
 def _varying(dataset: xarray.Dataset | xarray.DataArray) -> list[str]:
     """List those that differ from scene to scene, without what follows from axes."""
-    return [
-        name for name in _coordinates(dataset) if dataset[name].ndim and (name in dataset.dims or SCENE in dataset.dims)
-    ]
+    points = SCENE in dataset.dims
+    return [name for name in _coordinates(dataset) if dataset[name].ndim and (points or name in dataset.dims)]
 
 
 def _parameters(dataset: xarray.Dataset) -> Iterator[str]:
@@ -88,83 +84,60 @@ def _parameters(dataset: xarray.Dataset) -> Iterator[str]:
     points = SCENE in dataset.dims
     known = [name for name in _coordinates(dataset) if name != SOLVER]
     varying = [name for name in _varying(dataset) if name != SOLVER]
+    fixed = [name for name in known if dataset[name].ndim == 0]
+    following = [name for name in known if name not in (*varying, *fixed)]
     if SOLVER in dataset.dims:
-        yield ""
-        yield "solvers, each for all scenes: " + ", ".join(dataset[SOLVER].values)
-    yield ""
-    yield "points: one scene for each item of" if points else "axes"
+        yield from ("", "solvers, each for all scenes: " + ", ".join(dataset[SOLVER].values))
+    yield from ("", "points: one scene for each item of" if points else "axes")
     for name in varying:
-        values = dataset[name].values
-        unit = _unit(dataset[name])
+        values, unit = dataset[name].values, unit_behind(dataset[name])
         if values.size <= FEW:
             written = ", ".join(f"{value:g}" for value in values) + unit
         else:
             written = f"{values.size:,} values from {np.nanmin(values):g} to {np.nanmax(values):g}{unit}"
             written += "" if points else f", {_spacing(values)}"
-        yield f"  {name:<17} {written}"
+        yield told(name, written, width=17)
     if not varying:
         yield "  none: a single scene"
-    fixed = [name for name in known if dataset[name].ndim == 0]
-    if fixed:
-        yield ""
-        yield "fixed"
-        for name in fixed:
-            yield f"  {name:<17} {dataset[name].item():g}{_unit(dataset[name])}{_remark(dataset[name])}"
-    following = [name for name in known if name not in (*varying, *fixed)]
-    if following:
-        yield ""
-        yield "following from these"
+    yield from ("", "fixed") if fixed else ()
+    for name in fixed:
+        comment = str(dataset[name].attrs.get("comment", "")).partition(";")[0]
+        remark = f"  ({comment})" if comment.startswith(IDLE) else ""
+        yield told(name, f"{dataset[name].item():g}{unit_behind(dataset[name])}{remark}", width=17)
+    yield from ("", "following from these") if following else ()
     for name in following:
         extremes = [f"{value:g}" for value, _ in _extremes(dataset[name])]
-        yield f"  {name:<17} {' to '.join(extremes) or 'no finite value in any scene'}"
-
-
-def _unit(variable: xarray.DataArray, before: str = " ") -> str:
-    """Give the unit of a variable, nothing if it has none."""
-    unit = str(variable.attrs.get("units", "1"))
-    return "" if unit == "1" else before + unit
-
-
-def _remark(variable: xarray.DataArray) -> str:
-    """Say of a parameter that is there for completeness that it has no effect."""
-    comment = str(variable.attrs.get("comment", "")).partition(";")[0]
-    return f"  ({comment})" if comment.startswith(IDLE) else ""
+        yield told(name, " to ".join(extremes) or "no finite value in any scene", width=17)
 
 
 def _spacing(values: NDArray[np.float64]) -> str:
     """
     Report how the values of an axis are spaced, inf apart.
 
-    >>> _spacing(np.array([0.01, 0.1, 1.0, np.inf]))
-    'log-spaced'
-    >>> _spacing(np.array([0.0, 0.1, 0.2]))
-    'evenly spaced'
+    >>> _spacing(np.array([0.01, 0.1, 1.0, np.inf])), _spacing(np.array([0.0, 0.1, 0.2]))
+    ('log-spaced', 'evenly spaced')
     """
     finite = np.sort(values[np.isfinite(values)])
-    if finite.size < 3:
-        return "listed"
-    steps = np.diff(finite)
-    if np.ptp(steps) <= 1e-6 * np.max(steps):
-        return "evenly spaced"
-    if finite[0] > 0 and np.ptp(np.diff(np.log(finite))) <= 1e-6 * np.log(finite[-1] / finite[0]):
-        return "log-spaced"
-    return "listed"
+    ways = {"evenly spaced": finite, "log-spaced": np.log(finite) if finite[:1] > 0 else np.empty(0)}
+    even = (how for how, own in ways.items() if own.size > 2 and np.ptp(np.diff(own)) <= 1e-6 * np.ptp(own))
+    return next(even, "listed")
 
 
 def _uncertain_inputs(dataset: xarray.Dataset) -> Iterator[str]:
     """Say which inputs are uncertain, and by how much, as the study has it."""
-    table: object = None
+    table: Any = None
     with suppress(ValueError, RecursionError):
         table = tomllib.loads(str(dataset.attrs.get("study", ""))).get("uncertainty")
-    if not isinstance(table, Mapping):
-        return
-    yield ""
-    yield "uncertain inputs" + (f", {table['samples']:,} samples" if table.get("samples") else "")
-    for name, value in table.items():
-        if isinstance(value, Mapping):
-            yield f"  {name:<17} uniform from {value.get('low')} to {value.get('high')}"
-        elif name not in ("samples", "seed"):
-            yield f"  {name:<17} standard deviation {value}" + (" of the value" if str(value).endswith("%") else "")
+    if isinstance(table, Mapping):
+        samples = f", {table['samples']:,} samples" if table.get("samples") else ""
+        yield from ("", f"uncertain inputs{samples}")
+        for name in [name for name in table if name not in ("samples", "seed")]:
+            value = table[name]
+            if isinstance(value, Mapping):
+                yield told(name, f"uniform from {value.get('low')} to {value.get('high')}", width=17)
+            else:
+                share = " of the value" if str(value).endswith("%") else ""
+                yield told(name, f"standard deviation {value}{share}", width=17)
 
 
 def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
@@ -179,7 +152,7 @@ def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
     listed = listed if status.size <= MOST else []
     for name in [name for name in names if name not in listed]:
         yield ""
-        yield _heading(dataset[name])
+        yield f"{name}: {about(dataset[name])}"
         if name == ON_BOUND:
             yield from _flag_counts(dataset[name]) or ["  no optimum is at a bound"]
         elif parts_of(dataset, name):
@@ -189,7 +162,9 @@ def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
             if not extremes:
                 yield "  no value in any scene"
             for word, (extreme, place) in zip(("min", "max"), extremes, strict=False):
-                where = ", ".join(f"{key} = {_number(value)}" for key, value in place.items())
+                where = ", ".join(
+                    f"{key} = {one if isinstance(one, str) else f'{one:g}'}" for key, one in place.items()
+                )
                 yield f"  {word:<9} {extreme:<12.7g}" + (f" at {where}" if where else "")
     if listed:
         yield ""
@@ -197,14 +172,9 @@ def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
         yield from _of_one_scene(dataset, listed) if status.size == 1 else _of_few_scenes(dataset, listed)
 
 
-def _heading(variable: xarray.DataArray) -> str:
-    """Say what a variable is, and in which unit."""
-    return f"{variable.name}: {variable.attrs.get('long_name', 'without a name')}{_unit(variable, ', in ')}"
-
-
 def _of_one_scene(dataset: xarray.Dataset, names: Sequence[str]) -> Iterator[str]:
     """Give each output of a single scene a line: its name, its value with its unit, what it is."""
-    values = [f"{dataset[name].values.item():.7g}{_unit(dataset[name])}" for name in names]
+    values = [f"{dataset[name].values.item():.7g}{unit_behind(dataset[name])}" for name in names]
     wide = [max(map(len, each)) for each in (names, values)]
     for name, value in zip(names, values, strict=True):
         yield f"  {name:<{wide[0]}}  {value:<{wide[1]}}  {dataset[name].attrs.get('long_name', 'without a name')}"
@@ -213,7 +183,7 @@ def _of_one_scene(dataset: xarray.Dataset, names: Sequence[str]) -> Iterator[str
 def _of_few_scenes(dataset: xarray.Dataset, names: Sequence[str]) -> Iterator[str]:
     """Give each scene a line of what distinguishes it and of its outputs, in several tables if they are many."""
     status = dataset["status"]
-    yield from (f"  {_heading(dataset[name])}" for name in names)
+    yield from (f"  {name}: {about(dataset[name])}" for name in names)
     yield ""
     varying = [name for name in _varying(dataset) if len({*np.ravel(dataset[name].values)}) > 1]
     flags = ["status"] if status.values.any() else []
@@ -221,11 +191,6 @@ def _of_few_scenes(dataset: xarray.Dataset, names: Sequence[str]) -> Iterator[st
     numbers = {name: f"{{:{'g' if name in varying else '.7g'}}}".format for name in table if name != SOLVER}
     text = table.to_string(index=False, formatters=numbers, line_width=WIDTH - 2)
     yield from (f"  {line.rstrip()}" for line in text.replace("\\\n", "\n").splitlines())
-
-
-def _number(value: float | str) -> str:
-    """Write a value of a coordinate."""
-    return value if isinstance(value, str) else f"{value:g}"
 
 
 def _extremes(variable: xarray.DataArray) -> list[tuple[float, dict[str, float | str]]]:
@@ -240,14 +205,9 @@ def _extremes(variable: xarray.DataArray) -> list[tuple[float, dict[str, float |
             index = np.unravel_index(position, values.shape)
             value = float(values[index])
             if len(found) < 2 or better(value, found[i][0]):
-                found[i : i + 1] = [(value, _place(part, index))]
+                cell = part[index]
+                found[i : i + 1] = [(value, {name: cell[name].item() for name in _varying(part)})]
     return found
-
-
-def _place(part: xarray.DataArray, index: tuple[Any, ...]) -> dict[str, float | str]:
-    """Report the solver and the varying parameters of a cell."""
-    cell = part[index]
-    return {name: cell[name].item() for name in _varying(part)}
 
 
 def _sensitivities(variable: xarray.DataArray, name: str) -> Iterator[str]:
@@ -279,19 +239,13 @@ def _flag_counts(variable: xarray.DataArray) -> list[str]:
     lines = []
     for name, count in zip(str(variable.attrs["flag_meanings"]).split(), counts, strict=True):
         if count:
-            share = f"{count:,} of {counted(variable.size, 'scene')} ({percent(count, variable.size)})"
-            lines.append(f"  {name:<30} {share:<26} {FLAG_WORDS.get(name, '')}".rstrip())
+            lines.append(told(name, _share(count, variable.size), FLAG_WORDS.get(name, "")))
     return lines
 
 
-def _status(dataset: xarray.Dataset) -> Iterator[str]:
-    """Report how many scenes have failed, and what the others report."""
-    status = dataset["status"]
-    failed = sum(int(np.count_nonzero(status[block].values.astype(np.int16) & FAILED)) for block in tiling_of(status))
-    scenes = status.size
-    yield ""
-    yield f"status: {scenes - failed:,} of {counted(scenes, 'scene')} ({(scenes - failed) / scenes:.1%}) have values"
-    yield from _flag_counts(status)
+def _share(count: int, scenes: int) -> str:
+    """Write how many of some scenes."""
+    return f"{count:,} of {counted(scenes, 'scene')} ({percent(count, scenes)})"
 
 
 def _beyond_the_model(dataset: xarray.Dataset) -> Iterator[str]:
@@ -306,8 +260,7 @@ def _beyond_the_model(dataset: xarray.Dataset) -> Iterator[str]:
         if name == CONTACT_SLOPE and is_cone(dataset):
             count, condition = scenes, "1 at every radius: slopes of a cone are not small"
         if count:
-            share = f"{count:,} of {counted(scenes, 'scene')} ({percent(count, scenes)})"
-            yield f"  {name:<30} {share:<26} {condition}"
+            yield told(name, _share(count, scenes), condition)
 
 
 def origin_lines(dataset: xarray.Dataset) -> Iterator[str]:

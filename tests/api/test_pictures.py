@@ -44,7 +44,7 @@ def test_axes_are_reduced_and_given_their_places(grid: xarray.Dataset) -> None:
     assert [inset.get_xlim() for inset in part.child_axes] == [pytest.approx((0.2, 0.3), rel=1e-12)]
 
 
-@pytest.mark.parametrize(("arguments", "said"), [({"kind": "maps"}, 'kind = "maps": '), ({"levels": []}, "levels : "), ({"interpolate": True}, "interpolate: ")])  # fmt: skip
+@pytest.mark.parametrize(("arguments", "said"), [({"kind": "maps"}, "kind maps: "), ({"levels": []}, "levels : "), ({"interpolate": True}, "interpolate: ")])  # fmt: skip
 def test_wishes_that_cannot_be_met(arguments: dict[str, Any], said: str, grid: xarray.Dataset) -> None:
     with pytest.raises(gr.DatasetError) as refused:
         gr.plot(grid, **arguments)
@@ -95,3 +95,11 @@ def test_a_picture_is_saved_in_its_size_and_style(grid: xarray.Dataset, tmp_path
     panels.savefig(tmp_path / "map.png")
     width, height = np.frombuffer((tmp_path / "map.png").read_bytes()[16:24], ">u4")
     assert (width, height) == (int(300 * 190 / 25.4), 1200), "300 dots per inch are those of the style"
+
+
+def test_realisations_are_reduced_as_the_command_does_it() -> None:
+    rough = gr.solve(PUNCH, k=0.1, lambda_over_R=[0.1, 0.2], profile={"spectrum": {"hurst": 0.8, "first": 1, "last": 4, "realisations": 5, "seed": 1}})  # fmt: skip
+    (panel, _) = gr.plot(rough, over={"realisation": "p95"})
+    upper = rough["pull_off_force"].quantile(0.95, "realisation")
+    assert panel.get_lines()[0].get_ydata() == pytest.approx(upper.values, rel=1e-14)
+    assert len(gr.plot(rough)) == 2

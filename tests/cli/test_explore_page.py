@@ -96,9 +96,7 @@ class Opened:
         self.complaints: list[str] = []
         self.page.on("request", lambda request: self.requests.append(request.url))
         self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
-        self.page.on(
-            "console", lambda told: self.complaints.append(told.text) if told.type in {"warning", "error"} else None
-        )
+        self.page.on("console", lambda told: self.complaints.append(f"{told.type}: {told.text}"))
         with xarray.open_dataset(file.with_suffix(".nc")) as dataset:
             self.dataset = dataset.load()
         self.page.goto(file.as_uri() + address)
@@ -110,11 +108,9 @@ class Opened:
         self.js("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
     def js(self, expression: str) -> Any:
-        """Evaluate an expression of the page."""
         return self.page.evaluate(f"() => {expression}")
 
     def text(self, element: str) -> str:
-        """Read an element."""
         self.settle()
         return self.page.inner_text(f"#{element}")
 
@@ -126,12 +122,10 @@ class Opened:
         self.settle()
 
     def choose(self, element: str, label: str) -> None:
-        """Choose from a list."""
         self.page.select_option(f"#{element}", label=label)
         self.settle()
 
     def check(self, element: str, *, on: bool) -> None:
-        """Set or clear a mark."""
         self.page.set_checked(f"#{element}", on)
         self.settle()
 
@@ -139,24 +133,27 @@ class Opened:
         """Find the point in the window at a place in a figure."""
         self.page.evaluate(f"window.view = Bokeh.index.find_one({part}.figure); null")
         self.page.evaluate("view.el.scrollIntoView({block: 'center'})")
-        left, top = self.page.evaluate(
-            "(([x, y]) => { const box = view.canvas_view.el.getBoundingClientRect();"
-            "return [box.left + view.frame.x_scale.compute(x), box.top + view.frame.y_scale.compute(y)] })"
-            f"([{x}, {y}])"
-        )
+        box = "const box = view.canvas_view.el.getBoundingClientRect(), {x_scale, y_scale} = view.frame;"
+        ends = f"[box.left + x_scale.compute({float(x)}), box.top + y_scale.compute({float(y)})]"
+        left, top = self.page.evaluate(f"() => {{ {box} return {ends} }}")
         return float(left), float(top)
 
     def point(self, part: str, x: Any, y: Any) -> None:
         """Move the pointer to a place in a figure."""
-        self.page.mouse.move(*self.point_of(part, float(x), float(y)))
+        self.page.mouse.move(*self.point_of(part, x, y))
         self.settle()
 
+    def boxes(self, which: str) -> list[dict[str, float]]:
+        """Say where some elements stand."""
+        return list(
+            self.js(f"[...document.querySelectorAll('{which}')].map(one => one.getBoundingClientRect().toJSON())")
+        )
+
     def wait_for_text(self, element: str, text: str) -> None:
-        """Wait until an element has a text."""
         self.page.wait_for_function(f"document.getElementById('{element}').textContent.includes('{text}')")
 
     def download(self, what: str) -> bytes:
-        """Save a picture, a table, a study or a script."""
+        """Save a table, a study or a script."""
         with self.page.expect_download() as waiting:
             self.page.click(f"#save-{what}")
         return Path(waiting.value.path()).read_bytes()
@@ -203,7 +200,7 @@ def open_page(browser: Browser, made: Callable[[str], Path]) -> Iterator[Open]:
     for one in opened:
         assert [url[:60] for url in one.requests if not url.startswith(("file:", "data:", "blob:"))] == []
         assert len([url for url in one.requests if url.startswith("file:")]) == 1
-        assert one.complaints == []
+        assert [told for told in one.complaints if not told.startswith(("log:", "info:", "debug:"))] == []
         one.page.close()
 
 
@@ -284,7 +281,7 @@ def test_other_axes_and_variables_are_chosen(open_page: Open) -> None:
     assert (page.page.title(), page.js("window.broken")) == (TITLE, None)
     page.choose("along-x", "A – amplitude over wavelength of the waviness")
     page.choose("along-y", "λ/R – wavelength of the waviness")
-    page.choose("shown-1", "number of jumps on loading, including the jump-in")
+    page.choose("shown-1", "jumps on loading")
     figures = "explorer.parts.maps.map(map => map.figure)"
     labels = page.js(f"{figures}.map(one => [one.below[0].axis_label, one.left[0].axis_label])")
     assert labels == [["A", "λ/R"]] * 2, "what was across is up now, and what was up is free"
@@ -301,18 +298,14 @@ def test_other_axes_and_variables_are_chosen(open_page: Open) -> None:
 
 def test_on_a_phone_there_is_one_column_and_a_finger_reads_a_cell(open_page: Open) -> None:
     page = open_page("maps", viewport={"width": 390, "height": 844}, has_touch=True)
-    first, second = (page.page.locator(".plot.map").nth(i).bounding_box() for i in (0, 1))
-    assert first is not None
-    assert second is not None
-    assert first["x"] == second["x"]
-    assert second["y"] > first["y"] + first["height"]
+    first, second = page.boxes(".plot.map")
+    assert first["left"] == second["left"]
+    assert second["top"] > first["bottom"]
     for axis in AXES:
         page.js(f"document.getElementById('axis-{axis}').scrollIntoView({{block: 'center'}})")
         page.settle()
-        slider, first = (page.page.locator(which).first.bounding_box() for which in (f"#axis-{axis}", ".plot.map"))
-        assert slider is not None
-        assert first is not None
-        assert -1 <= first["y"] < first["y"] + first["height"] <= slider["y"] + 1, "the map stays in view"
+        first, (slider,) = page.boxes(".plot.map")[0], page.boxes(f"#axis-{axis}")
+        assert -1 <= first["top"] < first["bottom"] <= slider["top"] + 1, "the map stays in view"
     place = np.log10(float(page.dataset["lambda_over_R"][1])), 0.9
     page.page.touchscreen.tap(*page.point_of("explorer.parts.maps[0]", *place))
     page.wait_for_text("held", "held")
@@ -326,18 +319,13 @@ FRAMES = """explorer.figures().map((figure) => {
 """Of two maps, and of the two sections of each."""
 
 
-@pytest.mark.parametrize("width", [360, 1280, 1920])
-def test_the_page_is_used_frames_stand_in_line_and_it_can_be_read_without_a_picture(
-    width: int, open_page: Open
-) -> None:
+@pytest.mark.parametrize("width", [360, 1920])
+def test_the_page_is_used_frames_stand_in_line_and_everything_has_a_label(width: int, open_page: Open) -> None:
     page = open_page("maps", viewport={"width": width, "height": 900})
     assert page.js("document.documentElement.scrollWidth <= window.innerWidth")
-    page.page.wait_for_function(
-        f"Math.max(...({FRAMES}).slice(2).map(([left, right], i) => {{"
-        f"const map = ({FRAMES})[i >> 1]; return Math.max(Math.abs(left - map[0]), Math.abs(right - map[1])) }})) < 1.5"
-    )  # the layout follows the borders
-    boxes = [page.page.locator(".plot.map").nth(i).bounding_box() for i in (0, 1)]
-    assert max(box["x"] + box["width"] for box in boxes if box) > 0.95 * width, "no part of a wide window is empty"
+    frames = np.array(page.js(FRAMES))
+    np.testing.assert_allclose(frames[2:], frames[[0, 0, 1, 1]], rtol=0, atol=1.5)
+    assert max(box["right"] for box in page.boxes(".plot.map")) > 0.95 * width, "no part of a wide window is empty"
     assert page.page.get_attribute("html", "lang") == "en"
     assert page.js("[...document.querySelectorAll('main input, main select')].every(one => one.labels.length)")
     assert page.page.locator(".plot:not([aria-label])").count() == 0
@@ -345,29 +333,22 @@ def test_the_page_is_used_frames_stand_in_line_and_it_can_be_read_without_a_pict
     assert "[parameters]" in page.page.inner_text("details >> nth=0")
 
 
-def test_one_axis_is_drawn_as_lines_of_all_solvers(open_page: Open) -> None:
+def test_lines_are_those_of_all_solvers_and_points_are_dots_over_a_parameter(open_page: Open) -> None:
     page = open_page("lines")
     page.press("solver", "End")
     page.point("explorer.parts.sections[1].x", np.log10(0.47), 0.0)
     page.shows(solver=1, lambda_over_R=2)  # held by the key: the pointer does not move it
     assert page.text("value-solver") == "envelope"
-    page.press("lambda_over_R", "End")
-    page.shows(solver=1, lambda_over_R=4)
     page.check("log-0", on=False)
     drawn = page.js("explorer.parts.sections[0].x.lines.data.ys.map(line => Array.from(line))")
     np.testing.assert_allclose(drawn, page.dataset["pull_off_force"], rtol=5e-6)  # six digits
     assert page.text("lines").split() == ["exact", "envelope"]
-
-
-def test_points_are_dots_over_a_parameter(open_page: Open) -> None:
     page = open_page("points")
     page.choose("along-x", "λ/R – wavelength of the waviness")
     page.check("log-0", on=False)
     dot = page.dataset.isel(scene=2)
     page.point("explorer.parts.sections[0].x", np.log10(dot["lambda_over_R"]), dot["pull_off_force"])
     page.shows(scene=2)
-    page.press("scene", "Home")
-    page.shows(scene=0)
 
 
 @pytest.mark.parametrize(
@@ -386,10 +367,8 @@ def test_curves_are_those_of_the_scene_and_are_hidden_one_by_one(
         lines = page.js(f"explorer.parts.planes[{i}].lines.data")
         for side, quantity in zip(("xs", "ys"), sides, strict=True):
             drawn = np.concatenate(lines[side])
-            expected = np.concatenate([scene[f"{part}{quantity}{si}"] for part in ("", "path_")]) / units.get(
-                quantity, 1
-            )
-            ends = np.nanmin(expected), np.nanmax(expected)
+            expected = np.concatenate([scene[f"{part}{quantity}{si}"] for part in ("", "path_")])
+            ends = np.array([np.nanmin(expected), np.nanmax(expected)]) / units.get(quantity, 1)
             np.testing.assert_allclose([drawn.min(), drawn.max()], ends, rtol=5e-6)
     lines = page.js("explorer.parts.planes[0].lines.data")
     assert lines["width"].count(page.js("explorer.study.tracks[0].jumpWidth")) == int(scene["path_jump"].sum())
@@ -404,35 +383,13 @@ def test_curves_are_those_of_the_scene_and_are_hidden_one_by_one(
     assert len(unloading["dash"]) > 0 == len(tracks["loading"]["dash"]), "loading shows in the gaps of unloading"
 
 
-def test_dark_and_light_pages_have_colours_that_are_seen(open_page: Open) -> None:
-    page = open_page("curves", color_scheme="dark")
-    for mode, paper, letters in (("dark", "#16191d", "#d8dade"), ("light", "#ffffff", "#333333")):
-        page.page.emulate_media(color_scheme=mode)  # type: ignore[arg-type]
-        page.settle()
-        red, green, blue = (int(paper[i : i + 2], 16) for i in (1, 3, 5))
-        assert page.js("getComputedStyle(document.body).backgroundColor") == f"rgb({red}, {green}, {blue})"
-        assert {*page.js("explorer.figures().map(figure => figure.left[0].major_label_text_color)")} == {letters}
-        assert (page.js("theme.seen('#440154')") == "#440154") == (mode == "light")
-        track = "explorer.study.tracks.find(track => track.curve === 'equilibrium')"
-        stable, unstable = page.js(f"[theme.seen({track}.colour), theme.faded({track})]")
-        assert {stable, unstable} <= {*page.js("explorer.parts.planes[0].lines.data.colour")}
-        greys = [
-            np.dot([0.2126, 0.7152, 0.0722], [int(one[i : i + 2], 16) for i in (1, 3, 5)])
-            for one in (stable, unstable, paper)
-        ]
-        assert np.diff(sorted(greys)).min() > 30, "a grey print keeps them apart"
-        assert greys[1] == np.median(greys), "what is unstable is fainter"
-        strokes = page.js("[...document.querySelectorAll('#lines line')].map(line => line.getAttribute('stroke'))")
-        assert {stable, unstable} <= {*strokes}, "the legend has the same colours"
-
-
 def test_the_address_brings_a_colleague_to_the_same_state(open_page: Open) -> None:
     page = open_page("maps")
     page.press("A", "End")
     page.press("k", "Home")
-    page.choose("along-y", "A – amplitude over wavelength of the waviness")
-    page.choose("shown-1", "number of jumps on loading, including the jump-in")
     page.check("log-0", on=False)
+    page.choose("along-y", "A – amplitude over wavelength of the waviness")
+    page.choose("shown-1", "jumps on loading")
     page.page.wait_for_function("location.hash.includes('loading_jumps')")
     there = open_page("maps", "#" + page.page.url.partition("#")[2])
     state = "[explorer.at, explorer.x, explorer.y, explorer.drawn, explorer.held]"
@@ -483,12 +440,10 @@ def test_a_table_that_is_downloaded_is_the_map_that_is_shown(open_page: Open) ->
         for name in (*VALUES, "loading_jumps"):
             wanted = float(own[name])
             assert row[name] == "" if np.isnan(wanted) else float(row[name]) == float(f"{wanted:.6g}")
-    assert page.download("png")[:4] == b"\x89PNG"
 
 
-@pytest.mark.parametrize("width", [390, 1400])
-def test_sensitivities_are_those_under_the_pointer_and_the_strongest_is_marked(width: int, open_page: Open) -> None:
-    page = open_page("sensitivities", viewport={"width": width, "height": 900})
+def test_sensitivities_are_those_under_the_pointer_and_the_strongest_is_marked(open_page: Open) -> None:
+    page = open_page("sensitivities")
     for place in (0, 4):
         page.point("explorer.parts.maps[0]", page.dataset["lambda_over_R"][place], 0.3)
         scene = page.dataset.isel(k=1, lambda_over_R=place)
@@ -500,6 +455,3 @@ def test_sensitivities_are_those_under_the_pointer_and_the_strongest_is_marked(w
             sizes = {name: abs(value) for name, value in values.items() if name not in ("k", "nu")}
             marked = [name for name, cell in cells.items() if cell.get_attribute("class") == "strongest"]
             assert marked == [max(sizes, key=sizes.__getitem__)]
-    box = page.page.locator("#values").bounding_box()
-    assert box
-    assert box["x"] + box["width"] <= width

@@ -16,32 +16,19 @@ Call = Callable[..., Result]
 Made = Callable[..., Path]
 
 
-def test_it_tells_axes_fixed_values_extremes_status_and_origin(gradhesion: Call, dataset_file: Path) -> None:
-    result = gradhesion("info", dataset_file)
-    assert result.exit_code == 0
-    told = " ".join(result.stdout.split())
+def test_it_tells_axes_fixed_values_and_status(gradhesion: Call, dataset_file: Path, made: Made) -> None:
+    told = " ".join(gradhesion("info", dataset_file).stdout.split())
     for words in (
-        "A small study",
-        "24 scenes",
-        "axes k 0, 0.31 lambda_over_R 0.11, 0.227376, 0.47 A 0, 0.023 a_max_over_R 0.7, inf",
-        "fixed nu 0.27 modulus 430 c0_over_R 0.013",
-        "pull_off_force: pull-off force F/(1.5 pi R dgamma) min ",
-        "status: 24 of 24 scenes (100.0%) have values",
-        "origin gradhesion",
+        "k 0, 0.31 lambda_over_R 0.11, 0.227376, 0.47 A 0, 0.023 a_max_over_R 0.7, inf",
+        "nu 0.27 modulus 430 c0_over_R 0.013",
+        "24 of 24 scenes (100.0%)",
     ):
         assert words in told
-
-
-def test_axes_points_and_single_scenes(gradhesion: Call, made: Made) -> None:
     waves = {"start": 0.11, "stop": 0.47, "num": 20, "spacing": "log"}
-    told = gradhesion(
-        "info", made(parameters={"lambda_over_R": waves, "A": {"start": 0, "stop": 0.1, "num": 11}})
-    ).stdout
+    long = made(parameters={"lambda_over_R": waves, "A": {"start": 0, "stop": 0.1, "num": 11}})
+    told = gradhesion("info", long).stdout
     assert "20 values from 0.11 to 0.47, log-spaced" in told
     assert "11 values from 0 to 0.1, evenly spaced" in told
-    single = dict.fromkeys(("k", "lambda_over_R", "A", "a_max_over_R"), 0.2)
-    assert "none: a single scene" in gradhesion("info", made(parameters=single)).stdout
-    assert "points: one scene for each item of" in gradhesion("info", made(parameters=single, layout="points")).stdout
 
 
 @pytest.mark.parametrize("chunk", ["1", "131072"])
@@ -57,10 +44,9 @@ def test_extremes_and_flags_are_found_across_blocks(
         values = np.ones((2, 3, 2, 2))
         values[1, 2, 0, 1], values[0, 1, 1, 0], values[0, 0, 0, 0] = 9.0, -2.0, np.nan
         file["pull_off_force"][:] = values
-    told = gradhesion("info", dataset_file).stdout
-    assert "min       -2           at k = 0, lambda_over_R = 0.227376, A = 0.023, a_max_over_R = 0.7" in told
-    assert "max       9            at k = 0.31, lambda_over_R = 0.47, A = 0, a_max_over_R = inf" in told
-    lines = [" ".join(line.split()) for line in told.splitlines()]
+    lines = [" ".join(line.split()) for line in gradhesion("info", dataset_file).stdout.splitlines()]
+    assert "min -2 at k = 0, lambda_over_R = 0.227376, A = 0.023, a_max_over_R = 0.7" in lines
+    assert "max 9 at k = 0.31, lambda_over_R = 0.47, A = 0, a_max_over_R = inf" in lines
     first = lines.index("status: 6 of 24 scenes (25.0%) have values")  # the last flag, no_value, is set in 18
     flags = [line.partition(" %)")[0] for line in lines[first + 1 : lines.index("origin") - 1]]
     expected = [f"{name} {3 * i} of 24 scenes ({12.5 * i:.2g}" for i, name in enumerate(FLAGS)]
@@ -85,22 +71,11 @@ def damaged_values(content: bytes, path: Path) -> bytes:
     pytest.fail("there is no such chunk")
 
 
-DAMAGES = {
-    "missing": "does not exist",
-    "folder": "is not a file",
-    "text": "cannot be read as NetCDF",
-    "empty": "cannot be read as NetCDF",
-    "truncated": "cannot be read as NetCDF",
-    "flipped": "is damaged",
-    "foreign": "is not a dataset of gradhesion",
-}
+DAMAGES = ("missing", "folder", "text", "empty", "truncated", "flipped", "foreign")
 
 
-@pytest.mark.parametrize("command", ["info", "plot", "explore", "verify"])
 @pytest.mark.parametrize("damage", DAMAGES)
-def test_a_file_that_is_no_dataset_of_ours(
-    command: str, damage: str, gradhesion: Call, dataset_file: Path, tmp_path: Path
-) -> None:
+def test_a_file_that_is_no_dataset_of_ours(damage: str, gradhesion: Call, dataset_file: Path, tmp_path: Path) -> None:
     path = tmp_path / "bad.nc"
     content = dataset_file.read_bytes()
     if damage == "folder":
@@ -111,12 +86,12 @@ def test_a_file_that_is_no_dataset_of_ours(
     elif damage != "missing":
         contents = {"text": b"title = 1", "empty": b"", "truncated": content[: len(content) * 2 // 3]}
         path.write_bytes(contents[damage] if damage in contents else damaged_values(content, path))
-    result = gradhesion(command, path)
-    assert result.exit_code == 2
-    assert result.stderr.startswith(f"{path}: ")
-    assert DAMAGES[damage] in result.stderr
-    assert "gradhesion run" in result.stderr, "it tells what to do"
-    assert result.stdout == "" or damage == "flipped"
+    for command in ("info", "plot", "explore", "verify"):
+        result = gradhesion(command, path)
+        assert result.exit_code == 2
+        assert result.stderr.startswith(f"{path}: ")
+        assert "gradhesion run" in result.stderr, "it tells what to do"
+        assert result.stdout == "" or damage == "flipped"
 
 
 CHANGES: dict[str, Callable[[xarray.Dataset], xarray.Dataset]] = {

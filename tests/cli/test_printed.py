@@ -41,14 +41,12 @@ def test_names_reach_the_terminal_as_text(name: str, gradhesion: Call, study_fil
     told = []
     for command in (
         ["info", path], ["run", study, "-o", path], ["run", study, "-o", path], ["info", path], ["status", path], ["plan", study, "-o", path],
-        ["validate", study], ["validate", study, "--set", "title=3"], ["merge", path], ["plot", path, "--overwrite"], ["init", "-o", study],
-        ["verify", path, "--sample", "1"], ["merge", study], ["info", study], ["status", study],
+        ["validate", study, "--set", "title=3"], ["merge", path], ["plot", path, "--overwrite"], ["init", "-o", study], ["verify", path, "--sample", "1"],
     ):  # fmt: skip
         result = gradhesion(*command)
         told.append(result.stdout + result.stderr)
         assert printable(told[-1]) == told[-1], command
-        if "\n" in name and result.exit_code in {0, 4}:
-            assert name not in told[-1], command
+        assert "\n" not in name or result.exit_code not in {0, 4} or name not in told[-1], command
     assert printable_line(path.name) in told[2], "and can be recognised"
 
 
@@ -60,7 +58,7 @@ def test_text_that_is_safe_stays() -> None:
         assert printable(chr(code)).isprintable()
 
 
-@pytest.mark.parametrize("where", ["2>/dev/full", "2> >(exit)", "<&- >&- 2>&-"])
+@pytest.mark.parametrize("where", ["2>/dev/full", "<&- >&- 2>&-"])
 def test_messages_that_cannot_be_printed_do_not_decide(
     where: str, shell: Shell, study_file: Path, gradhesion: Call, tmp_path: Path
 ) -> None:

@@ -83,7 +83,7 @@ OWN: dict[str, tuple[str, str, str]] = {
     "profile: no unit": ("profile", "r [um],height [V]\n1,2\n", 'the column "height": "V" is not a unit of this quantity; a length (m) is expected'),
     "profile: no rows": ("profile", "r [um],height [nm]\n1,\n,2\n", "no row has two numbers; name a file with r and height in each row"),
     "profile: one column": ("profile", "r [um]\n1\n", 'there is no column "height", and a profile has r and height'),
-    "data: no unit": ("data", "depth [nm],load\n1,2\n", "write it after the name in brackets, as load [nN]"),
+    "data: no unit": ("data", "depth [nm],load\n1,2\n", "write it after the name in the header in brackets, as load [N]"),
     "data: one column": ("data", "depth [nm]\n1\n", "the file has depth alone; name them in the header"),
     "data: other names": ("data", "depht;laod\n1,5;2\n", 'the file has none of them; rename "depht" to "depth"'),
     "data: no rows": ("data", "depth [nm],load [nN]\n1,\n,2\n", "no row has numbers in all of depth, load; add some"),

@@ -16,22 +16,15 @@ import gradhesion as gr
 from gradhesion.cli.dataset.read.model_range import LIMITS
 from gradhesion.core import DOUBTFUL, FLAGS
 from gradhesion.core.answers.flags import FLAG_WORDS
+from tests.cli.picture.seen import legend
 
 LOADING, TOLERANCE, GONE = (FLAGS[name] for name in ("loading_contact_not_one_disc", "tolerance_not_met", "no_value"))
-HATCHES = {LOADING: "////", TOLERANCE: "xxxx"}
+HATCH = "////"
 MARKS = {LOADING: "o", TOLERANCE: "D"}
 PUNCH: dict[str, Any] = {"k": 0.2, "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.013, "A": 0.05, "a_max_over_R": 1.0}
 WAVES = {"start": 0.1, "stop": 0.5, "num": 12}
 SEVEN = {"k": {"start": 0.0, "stop": 0.9, "num": 7}}
-
-
-def words_of(bit: int) -> str:
-    """A flag in words."""
-    return FLAG_WORDS[next(name for name, own in FLAGS.items() if own == bit)]
-
-
-def legend(panels: Any) -> list[str]:
-    return [text.get_text() for one in panels.figure.legends for text in one.get_texts()]
+WORDS = {bit: FLAG_WORDS[name] for name, bit in FLAGS.items()}
 
 
 def open_marks(axes: Axes, bit: int) -> list[Any]:
@@ -68,11 +61,9 @@ def test_a_map_hatches_doubtful_scenes_and_shows_their_values(make: Callable[...
     dataset["status"][2:4, 5:9] = LOADING
     dataset["status"][5:, :3] = FLAGS["close_to_a_jump"]
     shown = gr.plot(dataset, "dissipated_energy")
-    assert (legend(plain), legend(shown)) == ([], [words_of(LOADING)])
-    assert hatched(plain[0], HATCHES[LOADING]) == []
-    np.testing.assert_array_equal(
-        inside(hatched(shown[0], HATCHES[LOADING]), dataset, "k"), dataset["status"] == LOADING
-    )
+    assert (legend(plain), legend(shown)) == ([], [WORDS[LOADING]])
+    assert hatched(plain[0], HATCH) == []
+    np.testing.assert_array_equal(inside(hatched(shown[0], HATCH), dataset, "k"), dataset["status"] == LOADING)
     np.testing.assert_array_equal(shown[0].collections[0].get_array(), plain[0].collections[0].get_array())
     assert legend(gr.plot(dataset, "pull_off_force")) == [], "the force does not depend on loading"
     assert legend(gr.plot(dataset, "status")) == []
@@ -87,10 +78,7 @@ def test_a_map_hatches_what_leaves_the_range_of_the_model(make: Callable[..., xa
     beyond = (dataset["wave_slope"] > 0.5).transpose("A", "lambda_over_R").values
     np.testing.assert_array_equal(inside(hatched(force[0], "++"), dataset, "A")[1:-1, 1:-1], beyond[1:-1, 1:-1])
     assert legend(gr.plot(dataset, "johnson_alpha")) == [several], "a number shows its own limit alone"
-    assert legend(gr.plot(dataset.isel(A=slice(0, 2)), "pull_off_force", x="lambda_over_R")) == [
-        "$A$ = 0.001",
-        "$A$ = 0.001802",
-    ]
+    assert len(legend(gr.plot(dataset.isel(A=slice(0, 2)), "pull_off_force", x="lambda_over_R"))) == 2, "lines alone"
 
 
 def test_a_map_may_have_every_doubt_and_failures_at_once(make: Callable[..., xarray.Dataset]) -> None:
@@ -99,13 +87,13 @@ def test_a_map_may_have_every_doubt_and_failures_at_once(make: Callable[..., xar
     dataset["status"][1:3, 2:5] = GONE | LOADING
     dataset["dissipated_energy"][1:3, 2:5] = np.nan
     panels = gr.plot(dataset)
-    found = [words_of(bit) for bit in FLAGS.values() if bit & DOUBTFUL]
+    found = [WORDS[bit] for bit in FLAGS.values() if bit & DOUBTFUL]
     assert {*legend(panels)} == {*found, "no finite value"}
     assert len(legend(panels)) == len(found) + 1, "once for all panels"
     failed = dataset["lambda_over_R"].values[3], dataset["k"].values[1]
     for axes in panels[2:]:
         assert axes.patch.get_facecolor()[:3] == to_rgb("0.8")
-        for hatch in (None, *HATCHES.values()):
+        for hatch in (None, HATCH, "xxxx"):
             paths = hatched(axes, hatch)
             assert paths
             assert not any(path.contains_point(failed) for path in paths), "the grey shows through"
@@ -118,7 +106,7 @@ def test_lines_have_open_markers_where_they_are_doubtful(make: Callable[..., xar
     dataset["dissipated_energy"][0, 2:4] = np.nan
     dataset["status"][0, 2:4] = GONE
     panels = gr.plot(dataset)
-    assert {words_of(LOADING), words_of(TOLERANCE), "no finite value"} <= {*legend(panels)}
+    assert {WORDS[LOADING], WORDS[TOLERANCE], "no finite value"} <= {*legend(panels)}
     force, energy = panels
     x = dataset["lambda_over_R"].values
     for bit, axes, name, marked in (
@@ -132,35 +120,27 @@ def test_lines_have_open_markers_where_they_are_doubtful(make: Callable[..., xar
     assert not open_marks(force, LOADING)
     (crosses,) = [line for line in energy.get_lines() if line.get_marker() == "x"]
     np.testing.assert_array_equal(crosses.get_xdata(), x[2:4])
-
-
-def test_points_have_open_markers() -> None:
     lists = PUNCH | {"lambda_over_R": [0.3, 0.1, 0.2, 0.4]}
     points = gr.run({"layout": "points", "outputs": ["dissipated_energy"], "parameters": lists})
     points["status"][...] = [LOADING, LOADING, 0, 0]
-    points["dissipated_energy"][3] = np.nan
-    panels = gr.plot(points)
-    assert legend(panels) == [words_of(LOADING), "no finite value"]
-    assert open_marks(panels[0], LOADING)[-1].get_xdata().tolist() == [0.1, 0.3]
+    assert open_marks(gr.plot(points)[0], LOADING)[-1].get_xdata().tolist() == [0.1, 0.3]
 
 
-@pytest.mark.parametrize(
-    ("name", "expected"),
-    [("best_A", [0.0, 0.6]), ("best_lambda_over_R", [0.4, 0.6]), ("best_pull_off_force", [0.0, 0.4, 0.6])],
-)
-def test_an_optimum_at_a_bound_is_marked_where_its_flag_is(name: str, expected: list[float]) -> None:
+def test_an_optimum_at_a_bound_is_marked_where_its_flag_is() -> None:
     own = {"k": [0.0, 0.2, 0.4, 0.6], "A": {"start": 0.001, "stop": 0.02}, "lambda_over_R": {"start": 0.1, "stop": 1.0}}
     search = {"maximise": "pull_off_force", "over": ["A", "lambda_over_R"], "resolution": 12}
     optima = gr.run({"kind": "optimum", "optimum": search, "parameters": PUNCH | own})
     meanings = optima["on_bound"].attrs["flag_meanings"].split()
     upper, lower = (1 << meanings.index(word) for word in ("A_at_its_upper_bound", "lambda_over_R_at_its_lower_bound"))
-    optima["on_bound"][...] = [upper, 0, lower, upper | lower]
-    panels = gr.plot(optima, name)
-    (marks,) = [line for line in panels[0].get_lines() if line.get_marker() == ">"]
-    np.testing.assert_array_equal(marks.get_xdata(), expected)
-    assert len(legend(panels)) == 1
-    optima["on_bound"][...] = 0
-    assert not legend(gr.plot(optima, name))
+    bounds = {"best_A": [0.0, 0.6], "best_lambda_over_R": [0.4, 0.6], "best_pull_off_force": [0.0, 0.4, 0.6]}
+    for name, expected in bounds.items():
+        optima["on_bound"][...] = [upper, 0, lower, upper | lower]
+        panels = gr.plot(optima, name)
+        (marks,) = [line for line in panels[0].get_lines() if line.get_marker() == ">"]
+        np.testing.assert_array_equal(marks.get_xdata(), expected)
+        assert len(legend(panels)) == 1
+        optima["on_bound"][...] = 0
+        assert not legend(gr.plot(optima, name))
 
 
 @pytest.fixture(scope="module")
@@ -218,13 +198,13 @@ def test_few_values_have_bars(sampled: xarray.Dataset) -> None:
     assert [len(one.get_paths()) for one in axes.collections if isinstance(one, LineCollection)] == [6]
 
 
-@pytest.mark.parametrize(
-    ("name", "choices"),
-    [
-        ("loading_jumps", {"band": "std"}), ("pull_off_force_std", {"band": "std"}), ("pull_off_force", {"band": "std", "kind": "map"}),
-        ("pull_off_force", {"band": "stdd"}), ("pull_off_force", {"band": "std", "over": {"k": "max"}}), ("pull_off_force", {"band": "quantiles"}),
-    ],
-)  # fmt: skip
-def test_a_band_that_is_not_there_is_refused(name: str, choices: dict[str, Any], sampled: xarray.Dataset) -> None:
-    with pytest.raises(gr.DatasetError, match=r"band|quantiles"):
-        gr.plot(sampled.drop_vars("pull_off_force_p05"), name, **choices)
+WRONG = [
+    ("loading_jumps", {"band": "std"}), ("pull_off_force_std", {"band": "std"}), ("pull_off_force", {"band": "std", "kind": "map"}),
+    ("pull_off_force", {"band": "stdd"}), ("pull_off_force", {"band": "std", "over": {"k": "max"}}), ("pull_off_force", {"band": "quantiles"}),
+]  # fmt: skip
+
+
+def test_a_band_that_is_not_there_is_refused(sampled: xarray.Dataset) -> None:
+    for name, choices in WRONG:
+        with pytest.raises(gr.DatasetError, match="band"):
+            gr.plot(sampled.drop_vars("pull_off_force_p05"), name, **choices)

@@ -1,15 +1,16 @@
 """Pictures of values show the values of the dataset: lines, maps, panels, points, what is taken over an axis."""
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 import xarray
-from matplotlib.axes import Axes
 from matplotlib.contour import QuadContourSet
 
 import gradhesion as gr
 from gradhesion.cli.names.symbols import SYMBOLS
+from tests.cli.picture.seen import contours, curves, legend, words
 
 PUNCH: dict[str, Any] = {"nu": 0.27, "modulus": 430.0, "c0_over_R": 0.013, "a_max_over_R": 0.7}
 SOLVERS = ["exact", "asymptotic", "envelope"]
@@ -36,32 +37,14 @@ def grid() -> xarray.Dataset:
     return computed(k=np.linspace(0, 0.8, 9), A=[0.0, 0.02, 0.05], lambda_over_R=np.geomspace(0.02, 1.0, 20))
 
 
-def curves(axes: Axes) -> list[Any]:
-    """List the lines of a panel that have a name."""
-    return [line for line in axes.get_lines() if not str(line.get_label()).startswith("_")]
-
-
-def words(panels: Any) -> str:
-    """All that stands above the panels, as a reader sees it."""
-    return str(panels.figure.get_suptitle()).replace("\N{NO-BREAK SPACE}", " ").replace("$", "").replace("{}", " ")
-
-
-def legend(panels: Any) -> list[str]:
-    return [text.get_text() for one in panels.figure.legends for text in one.get_texts()]
-
-
 @pytest.mark.parametrize("shape", SHAPES)
-def test_every_shape_is_drawn(shape: str) -> None:
+def test_every_shape_is_drawn_in_line(shape: str) -> None:
     panels = gr.plot(computed(**SHAPES[shape]))
     panels.figure.draw_without_rendering()
-    edges = np.array([axes.get_position().extents for axes in panels])
-    assert len(panels) % 2 == 0
-    half = len(panels) // 2
-    shared = [
-        (one[1::2] == pytest.approx(other[1::2], abs=1e-9))
-        for one, other in zip(edges[:half], edges[half:], strict=True)
-    ]
-    assert all(shared) or edges[:half, [0, 2]] == pytest.approx(edges[half:, [0, 2]], abs=1e-9)
+    first, second = np.split(np.array([axes.get_position().extents for axes in panels]), 2)
+    assert np.allclose(first[:, 1::2], second[:, 1::2], atol=1e-9) or np.allclose(
+        first[:, ::2], second[:, ::2], atol=1e-9
+    )
 
 
 def test_lines_are_the_values_of_the_dataset(grid: xarray.Dataset) -> None:
@@ -73,25 +56,23 @@ def test_lines_are_the_values_of_the_dataset(grid: xarray.Dataset) -> None:
         for line, values in zip(curves(axes), few[name].transpose("k", "lambda_over_R").values, strict=True):
             np.testing.assert_array_equal(line.get_xdata(), few["lambda_over_R"])
             np.testing.assert_array_equal(line.get_ydata(), values)
-        dashes = {str(line._dash_pattern) for line in curves(axes)}
-        assert len(dashes) == 3, "a grey print keeps them apart"
+        assert len({str(line._dash_pattern) for line in curves(axes)}) == 3, "a grey print keeps them apart"
     assert legend(panels) == [f"$k$ = {value:g}" for value in few["k"].values]
     assert r"A = 0.02, a_{\max}/R = 0.7" in words(panels)
 
 
-@pytest.mark.parametrize(("x", "y"), [(None, None), ("k", None), (None, "lambda_over_R"), ("k", "lambda_over_R")])
+@pytest.mark.parametrize(("x", "y"), [(None, None), ("k", None), (None, "lambda_over_R")])
 def test_a_map_has_its_axes_and_contours_its_values(x: str | None, y: str | None, grid: xarray.Dataset) -> None:
     one = grid.isel(A=1)
-    panels = gr.plot(one, "pull_off_force", x=x, y=y)
-    axes, bar = panels.figure.axes
-    turned = x is not None or y is not None
+    axes, bar = gr.plot(one, "pull_off_force", x=x, y=y).figure.axes
+    turned = bool(x or y)
     sides = ["lambda_over_R", "k"][:: -1 if turned else 1]
     assert [axes.get_xlabel(), axes.get_ylabel()] == [SYMBOLS[side] for side in sides]
     assert (axes.get_xscale(), axes.get_yscale()) == (("linear", "log") if turned else ("log", "linear"))
     assert bar.get_ylabel() == SYMBOLS["pull_off_force"]
-    filled, lines = [one for one in axes.collections if isinstance(one, QuadContourSet)][:2]
-    assert filled.levels[0] <= one["pull_off_force"].min()
-    assert filled.levels[-1] >= one["pull_off_force"].max()
+    filled = next(one for one in axes.collections if isinstance(one, QuadContourSet) and one.filled)
+    assert filled.levels[0] <= one["pull_off_force"].min() < one["pull_off_force"].max() <= filled.levels[-1]
+    lines = contours(axes)
     assert lines.labelTexts
     crossings = 0  # a contour crosses a line of the grid where the values along it, interpolated, have its level
     for level, path in zip(lines.levels, lines.get_paths(), strict=True):
@@ -104,29 +85,23 @@ def test_a_map_has_its_axes_and_contours_its_values(x: str | None, y: str | None
 
 
 def test_panels_have_some_values_of_their_axes() -> None:
-    scenes = computed(
-        ["pull_off_force"],
-        k=[0.0, 0.4],
-        A=np.linspace(0, 0.04, 5),
-        lambda_over_R=np.linspace(0.1, 0.4, 6),
-        a_max_over_R=[0.5, 1.0],
-    )
+    own: dict[str, Any] = {"A": np.linspace(0, 0.04, 5), "lambda_over_R": np.linspace(0.1, 0.4, 6), "a_max_over_R": [0.5, 1.0]}  # fmt: skip
+    scenes = computed(["pull_off_force"], k=[0.0, 0.4], **own)
     panels = gr.plot(scenes, kind="lines", x="lambda_over_R", y="k")
     titles = [axes.get_title() for axes in panels]
     assert titles == ["$A$ = 0.01", "$A$ = 0.03", "$A$ = 0.04", "", "", ""], "waves of no height have no length"
     rows = [text.get_text() for axes in panels for text in axes.texts if "a_" in text.get_text()]
     assert rows == [r"$a_{\max}/R$ = 0.5", r"$a_{\max}/R$ = 1"]
-    assert [len(gr.plot(scenes, x="A", y="k", at={"a_max_over_R": 0.5}))] == [3]
 
 
 def test_what_is_fixed_or_reduced_is_drawn_and_said(grid: xarray.Dataset) -> None:
+    force = grid["pull_off_force"]
     panels = gr.plot(grid, "pull_off_force", at={"A": 0.019}, over={"k": "max"})
     assert r"A = 0.02, a_{\max}/R = 0.7, max over k" in words(panels)
-    np.testing.assert_array_equal(panels[0].get_lines()[0].get_ydata(), grid["pull_off_force"].isel(A=1).max("k"))
+    np.testing.assert_array_equal(panels[0].get_lines()[0].get_ydata(), force.isel(A=1).max("k"))
     panels = gr.plot(grid, "pull_off_force", at={"A": 0.03, "k": 0.0}, interpolate=True)
     assert "A = 0.03 (interpolated)" in words(panels)
-    values = grid["pull_off_force"].isel(k=0).interp(A=0.03)
-    np.testing.assert_allclose(panels[0].get_lines()[0].get_ydata(), values, rtol=1e-14)
+    np.testing.assert_allclose(panels[0].get_lines()[0].get_ydata(), force.isel(k=0).interp(A=0.03), rtol=1e-14)
     failed = grid.copy(deep=True)
     failed["pull_off_force"][0, :, 0] = np.nan
     assert "20 failed scenes left out" in words(gr.plot(failed, "pull_off_force", at={"k": 0.0}, over={"A": "mean"}))
@@ -135,9 +110,7 @@ def test_what_is_fixed_or_reduced_is_drawn_and_said(grid: xarray.Dataset) -> Non
     assert len(curves(lines[0])) == 6
 
 
-def test_the_place_of_an_extreme_is_drawn_marked_at_an_end_and_left_out_where_there_is_none(
-    grid: xarray.Dataset,
-) -> None:
+def test_the_place_of_an_extreme_is_drawn_and_marked_at_an_end(grid: xarray.Dataset) -> None:
     one = grid.isel(k=0, lambda_over_R=slice(0, 12))
     panels = gr.plot(one, "pull_off_force", over={"lambda_over_R": "argmin"})
     places = one["lambda_over_R"].values[one["pull_off_force"].argmin("lambda_over_R").values]
@@ -145,15 +118,14 @@ def test_the_place_of_an_extreme_is_drawn_marked_at_an_end_and_left_out_where_th
     assert np.isnan(line[0]), "without waves the force does not depend on their length"
     np.testing.assert_array_equal(line[1:], places[1:])
     assert "1 left out where all values are equal" in words(panels)
-    ends = np.isin(places[1:], one["lambda_over_R"].values[[0, -1]])
-    marked = [len(line.get_xdata()) for line in panels[0].get_lines() if line.get_marker() == "^"]
-    assert ends.any()
-    assert marked == [ends.sum()]
-    with pytest.raises(gr.DatasetError, match="equal, so that no place is that of argmax"):
+    ends = np.isin(places[1:], one["lambda_over_R"].values[[0, -1]]).sum()
+    assert [len(line.get_xdata()) for line in panels[0].get_lines() if line.get_marker() == "^"] == [ends]
+    assert ends
+    with pytest.raises(gr.DatasetError, match="argmax"):
         gr.plot(grid, "pull_off_force", at={"A": 0.0}, over={"lambda_over_R": "argmax"})
 
 
-def test_units_have_prefixes_and_values_stay_in_si(root: Any) -> None:
+def test_units_have_prefixes_and_values_stay_in_si(root: Path) -> None:
     scenes = gr.run(root / "configs/physical.toml")
     force, energy = gr.plot(scenes, at={"k": 0.0, "work_of_adhesion": "50 mJ/m^2", "A": 0.0})
     assert (force.get_xlabel(), force.get_ylabel()) == ("$R$ (µm)", "pull-off force $F$ (µN)")
@@ -171,9 +143,7 @@ def test_units_have_prefixes_and_values_stay_in_si(root: Any) -> None:
     np.testing.assert_array_equal(over[0].get_lines()[0].get_xdata()[::-1], scenes["c0_over_R"])
 
 
-@pytest.mark.parametrize(
-    ("ends", "symbol"), [((5e-9, 9e-7), "nm"), ((2e-7, 9e-5), "µm"), ((3e-6, 8e-6), "µm"), ((3e-10, 4e-6), "nm")]
-)
+@pytest.mark.parametrize(("ends", "symbol"), [((5e-9, 9e-7), "nm"), ((2e-7, 9e-5), "µm"), ((3e-10, 4e-6), "nm")])
 def test_the_prefix_suits_a_logarithmic_axis(ends: tuple[float, float], symbol: str, grid: xarray.Dataset) -> None:
     wide = grid.isel(A=1, k=0).rename(lambda_over_R="wavelength").assign_coords(wavelength=np.geomspace(*ends, 20))
     assert gr.plot(wide, "pull_off_force")[0].get_xlabel() == rf"$\lambda$ ({symbol})"
@@ -185,56 +155,48 @@ def test_numbers_differ_where_values_do(grid: xarray.Dataset) -> None:
     assert len({*legend(gr.plot(near, "pull_off_force"))}) == 5
     (axes,) = gr.plot(near, "pull_off_force", x="k", at={"lambda_over_R": 0.1})
     axes.figure.draw_without_rendering()
-    numbers = [tick.get_text() for tick in axes.get_xticklabels()]
+    numbers = [float(tick.get_text()) for tick in axes.get_xticklabels()]
     assert len({*numbers}) == len(numbers) >= 3
-    np.testing.assert_allclose([float(one) for one in numbers], axes.get_xticks(), rtol=1e-14)
+    np.testing.assert_allclose(numbers, axes.get_xticks(), rtol=1e-14)
 
 
-def test_points_are_drawn_over_a_parameter() -> None:
+def test_points_are_drawn_over_a_parameter_and_many_as_their_number(grid: xarray.Dataset) -> None:
     parameters = PUNCH | {"lambda_over_R": [0.2, 0.1], "k": [0.1, 0.3], "A": 0.1}
     points = gr.run({"layout": "points", "outputs": ["pull_off_force"], "parameters": parameters})
     for x, order in (("lambda_over_R", [1, 0]), (None, [0, 1])):
         panels = gr.plot(points, "pull_off_force", x=x)
         assert panels[0].get_xlabel() == SYMBOLS[x or "k"]
-        line = panels[0].get_lines()[0]
-        np.testing.assert_array_equal(line.get_xdata(), points[x or "k"].values[order])
-        np.testing.assert_array_equal(line.get_ydata(), points["pull_off_force"].values[order])
+        expected = np.column_stack([points[x or "k"].values[order], points["pull_off_force"].values[order]])
+        np.testing.assert_array_equal(panels[0].get_lines()[0].get_xydata(), expected)
     assert "varying too: \\lambda/R" in words(panels)
-
-
-def test_many_points_are_drawn_as_their_number(grid: xarray.Dataset) -> None:
-    count = 2500
-    k = np.random.default_rng(7).uniform(0.0, 0.9, count)
-    attrs = grid.attrs | {"title": "Many"}
-    points = xarray.Dataset(
-        {"pull_off_force": ("scene", 1.0 + k), "status": ("scene", np.zeros(count, "i4"), grid["status"].attrs)},
-        coords={"k": ("scene", k), "nu": ("scene", np.full(count, 0.3))},
-        attrs=attrs,
-    )
-    points["pull_off_force"][:40] = np.nan
-    panels = gr.plot(points)
-    (cells,) = panels[0].collections
-    assert float(np.sum(cells.get_array())) == count - 40, "every scene with a value is counted once"
-    assert not gr.plot(points.isel(scene=slice(0, 100)))[0].collections
+    k = np.random.default_rng(7).uniform(0.0, 0.9, 2500)
+    status = ("scene", np.zeros(k.size, "i4"), grid["status"].attrs)
+    coords = {"k": ("scene", k), "nu": ("scene", np.full(k.size, 0.3))}
+    many = xarray.Dataset({"pull_off_force": ("scene", 1.0 + k), "status": status}, coords, grid.attrs)
+    many["pull_off_force"][:40] = np.nan
+    (cells,) = gr.plot(many)[0].collections
+    assert float(np.sum(cells.get_array())) == k.size - 40, "every scene with a value is counted once"
+    assert not gr.plot(many.isel(scene=slice(0, 100)))[0].collections
     with pytest.raises(gr.DatasetError, match="density"):
-        gr.plot(points, band="std")
+        gr.plot(many, band="std")
 
 
 def test_a_status_has_a_colour_or_a_height_for_each_set_of_flags(grid: xarray.Dataset) -> None:
     one = grid.isel(A=1).copy(deep=True)
-    codes = [0, 4, 9]
-    one["status"][...] = np.array(codes)[np.arange(20) * 3 // 20]
+    codes, places = np.array([0, 4, 9]), np.arange(20) * 3 // 20
+    one["status"][...] = codes[places]
     axes, bar = gr.plot(one, "status").figure.axes
     mesh = axes.collections[0]
-    np.testing.assert_array_equal(np.array(codes)[mesh.get_array().astype(int)], one["status"])
+    np.testing.assert_array_equal(codes[mesh.get_array().astype(int)], one["status"])
     assert bar.get_yticklabels()[0].get_text() == "nothing to report"
     shades = mesh.cmap(mesh.norm(np.arange(3))) @ [0.299, 0.587, 0.114, 0.0]
     assert (np.diff(shades) > 0.2).all(), "they differ in a grey print"
-    (lines,) = gr.plot(one.isel(k=slice(0, 2)), "status")
+    few = one.isel(k=slice(0, 2))
+    (lines,) = gr.plot(few, "status")
     assert len(lines.get_yticklabels()) == 3
-    assert np.round(lines.get_lines()[0].get_ydata()).tolist() == (np.arange(20) * 3 // 20).tolist()
+    assert np.round(lines.get_lines()[0].get_ydata()).tolist() == places.tolist()
     with pytest.raises(gr.DatasetError, match="ylim"):
-        gr.plot(one.isel(k=slice(0, 2)), "status", ylim=(0, 1))
+        gr.plot(few, "status", ylim=(0, 1))
 
 
 def test_a_front_is_one_goal_over_the_other() -> None:
@@ -243,8 +205,7 @@ def test_a_front_is_one_goal_over_the_other() -> None:
     front = gr.run({"kind": "optimum", "optimum": search, "parameters": PUNCH | own})
     (axes,) = gr.plot(front)
     assert (axes.get_xlabel(), axes.get_ylabel()) == (SYMBOLS["pull_off_force"], SYMBOLS["dissipated_energy"])
-    for line, k in zip(curves(axes), (0, 1), strict=True):
-        values = front["best_pull_off_force"].isel(k=k).values
+    for line, values in zip(curves(axes), front["best_pull_off_force"].values, strict=True):
         np.testing.assert_array_equal(line.get_xdata(), values[np.isfinite(values)])
     ends = float(front["best_pull_off_force"].min()) - 0.5, float(front["best_pull_off_force"].max()) + 0.25
     assert gr.plot(front, xlim=ends)[0].get_xlim() == pytest.approx(ends, rel=1e-12)

@@ -4,12 +4,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pytest
 import xarray
 
+import gradhesion as gr
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.picture.curves import drawn_curves
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.words.words import described
@@ -60,23 +58,13 @@ def test_in_units() -> None:
     assert dataset["pressure_si"].attrs["long_name"] == "contact pressure p, positive in compression"
     np.testing.assert_allclose(dataset["pressure_si"], dataset["pressure"] * 0.05 / 2e-6)
     np.testing.assert_allclose(dataset["pressure_radius_si"], dataset["pressure_radius"] * 2e-6)
-    figure = drawn_curves(dataset, [])
-    assert "Pa" in figure.axes[0].get_ylabel()
+    panels = gr.plot(dataset)
+    assert "Pa" in panels[0].get_ylabel()
 
 
 def test_words_and_picture(tmp_path: Path) -> None:
     dataset = compute(study(["pressure", "surface", "path"]))
     dataset.to_netcdf(tmp_path / "x.nc")
     assert "pressure: 96 points per state" in "\n".join(described(dataset, tmp_path / "x.nc"))
-    with pytest.raises(DatasetError, match="pressure is drawn over the distance from the axis, and path is not"):
-        drawn_curves(dataset, ["pressure", "path"])
-    assert len(drawn_curves(dataset, []).axes) == 3  # the path
-    figure = drawn_curves(dataset, ["pressure", "surface"])
-    assert [axes.get_ylabel() for axes in figure.axes] == [r"pressure $pR/\Delta\gamma$", "surface $u_z/R$"]
-    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["turning point", "pull off", "jump out"]
-    with pytest.raises(DatasetError, match="pressure: this dataset lacks the radius"):
-        drawn_curves(compute(study(["pressure"])).drop_vars("pressure_radius"), [])
-    with pytest.raises(DatasetError, match="no value in any state"):
-        drawn_curves(dataset[["pressure", "pressure_radius", "status"]] * np.nan, ["pressure"])
     with xarray.open_dataset(tmp_path / "x.nc") as again:
         assert again["state"].values.tolist()[0] == "turning_point"

@@ -71,15 +71,15 @@ def test_a_curve_has_a_line_for_each_of_its_points(gradhesion: Call, made: Made)
 
 
 @pytest.mark.parametrize(
-    ("words", "sentence"),
+    ("words", "key"),
     [
-        (["--format", "csv"], "--jumps"),
-        (["--format", "csv", "--variable", "path", "--variable", "equilibrium"], "choose one"),
-        (["--format", "csv", "--variable", "pathh"], 'did you mean "path"?'),
-        (["--variable", "path"], "add --format csv"),
+        (["--format", "csv"], "jumps"),
+        (["--format", "csv", "--variable", "path", "--variable", "equilibrium"], "path"),
+        (["--format", "csv", "--variable", "pathh"], '"path"'),
+        (["--variable", "path"], "--format"),
     ],
 )
-def test_what_is_no_table_is_refused(words: list[str], sentence: str, gradhesion: Call, made: Made) -> None:
+def test_what_is_no_table_is_refused(words: list[str], key: str, gradhesion: Call, made: Made) -> None:
     result = gradhesion("info", made(kind="curve", outputs=["equilibrium", "path", "jumps"]), *words)
-    assert result.exit_code == 2
-    assert sentence in result.stderr
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert key in result.stderr

@@ -15,7 +15,6 @@ from gradhesion.cli.dataset import compute
 from gradhesion.cli.dataset.read.reader import opened
 from gradhesion.cli.names.curves import CURVES, EXTENTS, INTEGERS, MEANINGS, RAGGED, STATE_CURVES
 from gradhesion.cli.study import study_from
-from gradhesion.cli.words.curve_words import curve_lines
 from gradhesion.core import FAILED, FLAGS, draw_curves, solve
 from gradhesion.core.problem.inputs import INPUTS
 
@@ -142,7 +141,6 @@ def test_info_tells_curves_in_words(gradhesion: Call, drawn: Callable[..., Path]
     path = drawn()
     told = gradhesion("info", path).stdout
     with opened(path) as dataset:
-        assert list(curve_lines(dataset, cells=1)) == list(curve_lines(dataset)), "read in whatever pieces"
         points = dataset["load"].count("point")
         loading = ((dataset["path_jump"] == 1) & (dataset["path_unloading"] == 0)).sum("path_point")
         least, greatest = float(dataset["load"].min()), float(dataset["load"].max())
