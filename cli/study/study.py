@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from gradhesion.cli.names.outputs import BEST, OF_PHYSICAL, ON_BOUND, PARAMETER, PHYSICAL_PARAMETER, SI, labels_of
 from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
 from gradhesion.cli.names.units import UNITS
-from gradhesion.cli.study.points import Points
-from gradhesion.cli.study.profile_file import Measured
+from gradhesion.cli.study.files import FromFile
 from gradhesion.cli.study.rules.answers import Search, Uncertainty
 from gradhesion.cli.study.rules.axes import Values
 from gradhesion.cli.study.tiling import Block, Tiling, cells_of_chunk
@@ -85,9 +84,9 @@ class Study:
     """Cells of a chunk of the dataset of a map, at most; a block that is computed at a time has two."""
     folder: Path = Path()
     """The folder of the files that it names."""
-    points: Points = field(default_factory=Points)
+    points: FromFile = field(default_factory=FromFile)
     """The file with its scenes, and the parameters that are columns of it."""
-    measured: Measured = field(default_factory=Measured)
+    measured: FromFile = field(default_factory=FromFile)
     """The file with the heights of its punch, and the fit of them."""
     spectrum: Spectrum | None = None
     """Of random roughness: `profile` is its first realisation."""

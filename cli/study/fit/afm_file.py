@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.study.fit.columns import PAUSE, LoopFileError, Raw, in_si
-from gradhesion.cli.study.rules.form import ColumnTable, DataTable
+from gradhesion.cli.study.rules.fit_form import ColumnTable, DataTable
 from gradhesion.cli.tables.columns import Columns
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.study.rules.form import ColumnTable, DataTable
+from gradhesion.cli.study.rules.fit_form import ColumnTable, DataTable
 from gradhesion.cli.study.text.quantities import factor_of_column
 from gradhesion.cli.tables.columns import Columns, ColumnsError
 from gradhesion.cli.tables.reading import read_columns

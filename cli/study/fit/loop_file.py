@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.study.fit.afm_file import is_force_file, read_force_file
 from gradhesion.cli.study.fit.columns import PAUSE, LoopFileError, Raw, read_table
-from gradhesion.cli.study.rules.form import DataTable
+from gradhesion.cli.study.rules.fit_form import DataTable
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.loops.measured import points as loop_points
 from gradhesion.core.loops.measured.averaging import MOST, averaged

@@ -12,8 +12,9 @@ from typing import Any, Final
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.files import kind_of
-from gradhesion.cli.study.text import places
 from gradhesion.cli.study.text.fitted import fitted_value
+from gradhesion.cli.study.text.written import Path as Key
+from gradhesion.cli.study.text.written import lines_of
 from gradhesion.cli.terminal.wording import shown
 
 MOST_BYTES: Final = 2**28
@@ -24,7 +25,7 @@ DEEP: Final = f"nested more than {_DEEPEST} deep; remove some levels"
 _DOTS: Final = re.compile(r"(?:[\w\"'-]+\s*\.\s*){100}")
 """A key far too deep: the parser takes a time that grows with the square of its length."""
 _COMMA: Final = re.compile(r"=\s*([+-]?\d+),(\d+)")
-_Lines = Callable[[], Mapping[places.Path, str]]
+_Lines = Callable[[], Mapping[Key, str]]
 """Finds the file and the line of each key."""
 
 
@@ -36,7 +37,7 @@ class Source:
     data: dict[str, Any]
     text: str
     """The text that gives just this data, or nothing if there is none."""
-    place: Callable[[places.Path], str]
+    place: Callable[[Key], str]
     """Tells where a key comes from."""
     mistakes: tuple[str, ...] = ()
     """What was wrong with the overrides."""
@@ -54,7 +55,7 @@ def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) ->
         The file cannot be read, or is not TOML.
     """
     data, lines, text = _read(path, most, ())
-    sources: dict[places.Path, str] = {}
+    sources: dict[Key, str] = {}
     mistakes = []
     for override in overrides:
         try:
@@ -62,7 +63,7 @@ def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) ->
         except ValueError as error:
             mistakes.append(f"--set {override}: {error}")
 
-    def place(key: places.Path) -> str:
+    def place(key: Key) -> str:
         above = [key[:depth] for depth in range(len(key), 0, -1)]
         found = next((lines()[steps] for steps in above if steps in lines()), "")
         made = next((steps for steps in above if steps in sources), None)
@@ -93,7 +94,7 @@ def _read(path: Path, most: int, above: tuple[Path, ...]) -> tuple[dict[str, Any
         raise StudyError(_syntax_sentence(path, text, str(error))) from None
     if _DOTS.search(text) or is_deep(data):
         raise StudyError(deep)
-    lines = cache(lambda: {key: f"{path}:{line}" for key, line in places.lines_of(text).items()})
+    lines = cache(lambda: {key: f"{path}:{line}" for key, line in lines_of(text).items()})
     if "include" not in data:
         return data, lines, text
     where = f"{lines().get(('include',), path)}: include = {shown(data['include'])}"
@@ -185,7 +186,7 @@ def _syntax_sentence(path: Path, text: str, problem: str) -> str:
     return f"{path}:{number}: not valid TOML, {what[0].lower()}{what[1:]}{column}{within}; {remedy}"
 
 
-def _set(data: dict[str, Any], override: str) -> places.Path:
+def _set(data: dict[str, Any], override: str) -> Key:
     """
     Set a key by its dotted path in place, and give that path.
 
