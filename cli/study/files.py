@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -83,18 +84,7 @@ class FromFile:
 def points_of(
     data: Mapping[str, Any], folder: Path, columns: Mapping[str, NDArray[np.float64]] | None = None
 ) -> FromFile:
-    """
-    Read the points of a study.
-
-    Parameters
-    ----------
-    data
-        The keys of the study.
-    folder
-        Where the file is looked for.
-    columns
-        The columns of the file; it is then not read.
-    """
+    """Read the points of a study from a file in a folder, unless the columns of that are given."""
     key, table = ("parameters", "points"), data.get("parameters")
     written = table.get("points") if isinstance(table, Mapping) else None
     named = {"file": written} if isinstance(written, str) else written
@@ -139,14 +129,7 @@ def _mistakes(data: Mapping[str, Any], found: Columns) -> Iterator[str]:
 
 
 def _column(name: str, found: Columns) -> NDArray[np.float64]:
-    """
-    Give a column in the unit of its key.
-
-    Raises
-    ------
-    ColumnsError
-        It has no unit, or one of another dimension; or its values are out of range.
-    """
+    """Give a column in the unit of its key; ColumnsError where it has no such unit, or is out of range."""
     key, given = INPUTS[name], found.values[name]
     values = scaled(given, factor_of_column(found, name, name))
     rows = np.flatnonzero(~key.admits(values))
@@ -216,14 +199,7 @@ def _up_to(data: Mapping[str, Any], table: Mapping[str, Any]) -> float | None:
 def fitted(
     r: NDArray[np.float64], heights: NDArray[np.float64], *, up_to: float | None, terms: int, exponent: float | str
 ) -> "FittedProfile":
-    """
-    Fit a profile in metres.
-
-    Raises
-    ------
-    ValueError
-        It cannot be fitted; the message says what to do.
-    """
+    """Fit a profile in metres; ValueError says why it cannot be fitted, and what to do."""
     from gradhesion.core.answers.profile_fit import fit_profile  # noqa: PLC0415 (500 ms for SciPy)
 
     power = None if isinstance(exponent, str) else float(exponent)
@@ -232,40 +208,19 @@ def fitted(
 
 def exponent_of(text: str) -> float | str:
     """
-    Read the power of a punch: a number above 1, or "fit".
-
-    Raises
-    ------
-    ValueError
-        It is neither.
+    Read the power of a punch: a number above 1, or "fit"; ValueError where it is neither.
 
     >>> exponent_of("2.5"), exponent_of("fit")
     (2.5, 'fit')
     """
-    if text == "fit":
-        return text
-    try:
-        power = float(text)
-    except ValueError:
-        power = math.nan
-    if not 1.0 < power < math.inf:
-        raise ValueError('a power is a finite number above 1, or "fit"')
-    return power
+    with suppress(ValueError):
+        if text == "fit" or 1.0 < float(text) < math.inf:
+            return text if text == "fit" else float(text)
+    raise ValueError('a power is a finite number above 1, or "fit"')
 
 
 def read_profile(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float64], str, int]:
-    """
-    Read a measured profile.
-
-    Returns
-    -------
-    Places and heights in m, the fingerprint of the file, and the number of rows that have no numbers and are left out.
-
-    Raises
-    ------
-    ColumnsError
-        It cannot be read, or is no profile.
-    """
+    """Read places and heights in m, the fingerprint of the file, and how many rows without numbers were left out."""
     found = read_columns(path, only=HEIGHTS)
     for name in (name for name in HEIGHTS if name not in found.values):
         near = did_you_mean(name, (*found.values, *found.others)).replace("did you mean", "rename")

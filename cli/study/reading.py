@@ -1,8 +1,7 @@
 """A study from a file or a mapping: checked as a whole, and expanded."""
 
 import re
-import shlex
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
@@ -80,14 +79,12 @@ def study_from(
 
 def load_any(path: str | Path, overrides: Iterable[str] = ()) -> Study | FitStudy:
     """Read a study of scenes, or one of a fit, from a file; as `load_study`."""
-    source = read_source(Path(path), overrides)
-    return _fit(source) if kind_of(source.data) == "fit" else _of_scenes(source)
+    return _of_any(read_source(Path(path), overrides))
 
 
 def any_from(data: Mapping[str, Any], name: str = "study", *, folder: str | Path = "") -> Study | FitStudy:
     """Make a study of scenes, or one of a fit, from a mapping; as `study_from`."""
-    source = _source(data, name, folder)
-    return _fit(source) if kind_of(source.data) == "fit" else _of_scenes(source)
+    return _of_any(_source(data, name, folder))
 
 
 def text_of(data: Mapping[str, Any], study: Study) -> str:
@@ -105,7 +102,12 @@ def _source(data: Mapping[str, Any], name: str, folder: str | Path) -> Source:
     return Source(name=name, data=own, text="", place=lambda _: name, folder=home)
 
 
-def _fit(source: Source) -> FitStudy:
+def _of_any(source: Source) -> Study | FitStudy:
+    """Check a study of its kind and expand it."""
+    return _of_a_fit(source) if kind_of(source.data) == "fit" else _of_scenes(source)
+
+
+def _of_a_fit(source: Source) -> FitStudy:
     """Check a fit as a whole and read its data."""
     data, mistakes = _own_keys(source.data)
     asked = _expanded(checked(data), {})
@@ -114,8 +116,7 @@ def _fit(source: Source) -> FitStudy:
     if asked.form.data and not any("data" in (*one.path[:1], *one.meant[:1]) for one in mistakes):
         loops, more = loops_of(source.folder, asked)
         mistakes += more
-    if mistakes or source.mistakes:
-        raise _refused(source, mistakes)
+    _refuse(source, mistakes)
     return fit_of(source, asked.form, loops)
 
 
@@ -129,8 +130,7 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
     between = _between(asked, source.data, broken(asked))
     mistakes += [*points.mistakes, *measured.mistakes]
     mistakes += [one for one in between if not points.unread or one.value is not None]  # what a file would give
-    if mistakes or source.mistakes:
-        raise _refused(source, mistakes)
+    _refuse(source, mistakes)
     form = asked.form
     absent = left_out(asked.values, with_units=form.physical is not None)
     given = {**asked.values, **absent}
@@ -178,12 +178,11 @@ def variables_of(kind: str, requested: Iterable[str]) -> tuple[str, ...]:
     requested = {*requested}
     if kind == "map":
         return tuple(name for name in OUTPUTS_OF["map"] if name in requested)
-    own = ((curve, name) for curve in CURVES.values() for name in curve.names)
-    return tuple(
-        name
-        for curve, name in own
-        if {curve.name, name} & requested or (name == curve.count and {*curve.names} & requested)
-    )
+    found: list[str] = []
+    for curve in CURVES.values():
+        own = [name for name in curve.names if {curve.name, name} & requested]
+        found += [curve.count, *own] if own and curve.count and curve.count not in own else own
+    return tuple(found)
 
 
 def _own_keys(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[Mistake]]:
@@ -262,20 +261,17 @@ def _uncertainty(table: Any) -> Uncertainty:
     return Uncertainty(deviations=given, samples=table.samples, seed=table.seed)
 
 
-def _refused(source: Source, mistakes: Iterable[Mistake]) -> StudyError:
-    """Put what is wrong with a study into sentences, in the order of its lines."""
+def _refuse(source: Source, mistakes: Sequence[Mistake]) -> None:
+    """Raise StudyError with what is wrong with a study, in the order of its lines, if anything is."""
     sentences = []
     for mistake in mistakes:
         value = "" if mistake.value is None else f" = {shown(mistake.value)}"
-        place, key, sentence = source.place(mistake.path), dotted(mistake.path), mistake.sentence
-        if place.startswith(f"--set {key}=") and mistake.meant[-1:] == mistake.path[-1:]:
-            right = f"{dotted(mistake.meant)}={place.partition('=')[2].strip()}"
-            sentence = f"{sentence.partition(';')[0]}; write --set {shlex.quote(right)}"
-        sentences.append(f"{place}: {key}{value}: {sentence}")
+        sentences.append(f"{source.place(mistake.path)}: {dotted(mistake.path)}{value}: {mistake.sentence}")
     found = [*source.mistakes, *sorted(sentences, key=_line)]
     if len(found) > MOST_MISTAKES:
         found[MOST_MISTAKES:] = [f"... and {len(found) - MOST_MISTAKES} more mistakes; fix these first"]
-    return StudyError(found)
+    if found:
+        raise StudyError(found)
 
 
 def _line(sentence: str) -> tuple[str, int]:

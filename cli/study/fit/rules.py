@@ -2,7 +2,7 @@
 
 from typing import Any, Final
 
-from gradhesion.cli.study.fit.afm_file import is_force_file
+from gradhesion.cli.study.fit.columns import is_force_file
 from gradhesion.cli.study.rules.asked import Asked, Found, home
 from gradhesion.cli.study.rules.form import Form
 from gradhesion.cli.study.rules.inputs import inputs, rate, together, toughness, waves, works

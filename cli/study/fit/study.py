@@ -72,11 +72,6 @@ class FitStudy:
         """Whether the study has the noise."""
         return self.given_noise is not None
 
-    @property
-    def noise(self) -> tuple[float, float]:
-        """The noise of the first loop."""
-        return self.noise_of(self.loop)
-
     def noise_of(self, loop: LoopFile) -> tuple[float, float]:
         """Give the standard deviations of depth and load of one of its loops, in SI units."""
         return self.given_noise or loop.noise
@@ -105,8 +100,8 @@ class FitStudy:
         for loop in self.loops:
             sentences += loop.notes
             if not self.noise_is_given and not loop.problem:
-                noise = "{:.3g} nm, {:.3g} nN".format(*(1e9 * one for one in loop.noise))
-                words = f"{loop.file}: noise estimated from differences of neighbours: {noise}"
+                depth, load = (1e9 * one for one in loop.noise)
+                words = f"{loop.file}: noise estimated from differences of neighbours: {depth:.3g} nm, {load:.3g} nN"
                 sentences.append(f"{words}; give it under [fit] where it is known")
         return tuple(sentences)
 

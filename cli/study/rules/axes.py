@@ -32,7 +32,8 @@ def expanded(entry: Entry) -> Values:
     ends = np.array([entry.start, entry.stop]) + 0.0  # no negative zeros
     if entry.num is None:  # searched
         return ends
-    values = (np.geomspace if entry.spacing == "log" else np.linspace)(*ends, entry.num)
+    spaced = np.geomspace if entry.spacing == "log" else np.linspace
+    values = spaced(ends[0], ends[1], entry.num)
     values = _shortest(values, np.abs(values) if entry.spacing == "log" else np.abs(ends).max())
     values = np.clip(values, ends.min(), ends.max())
     values[0], values[-1] = ends

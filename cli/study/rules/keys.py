@@ -119,11 +119,8 @@ def tagged(**forms: Any) -> Any:
 
 def range_of(own: Input, number: Any) -> Any:
     """Make the table of a range of a number."""
-    ends = {
-        which: (number, said(f"the {place} value", own.value))
-        for which, place in (("start", "first"), ("stop", "last"))
-    }
-    return create_model(f"Range_{own.name}", __base__=Range, **ends)
+    start, stop = ((number, said(f"the {which} value", own.value)) for which in ("first", "last"))
+    return create_model(f"Range_{own.name}", __base__=Range, start=start, stop=stop)
 
 
 def input_key(own: Input) -> tuple[Any, Any]:
@@ -133,7 +130,8 @@ def input_key(own: Input) -> tuple[Any, Any]:
         schema = Field(json_schema_extra={"type": ["string", "number"]})
         number = Annotated[float, BeforeValidator(lambda value: si_value(value, own.name)), schema]
     else:
-        number = Annotated[float, Field(strict=True, allow_inf_nan=own.infinite, **own.bounds)]
+        limits: dict[str, Any] = {"strict": True, "allow_inf_nan": own.infinite, **own.bounds}
+        number = Annotated[float, Field(**limits)]
     plain = number
     if own.name == "indentation_max":
         plain = Annotated[
@@ -150,12 +148,7 @@ def input_key(own: Input) -> tuple[Any, Any]:
 
 def deviation_of(value: object, name: str) -> Deviation:
     """
-    Read the deviation of an input.
-
-    Raises
-    ------
-    ValueError
-        It is none; the message says what to write.
+    Read the deviation of an input; ValueError says what to write instead of what is none.
 
     >>> deviation_of("5 %", "modulus").deviation, deviation_of("20 nm", "c0").deviation
     (0.05, 2e-08)

@@ -98,8 +98,8 @@ def _sentence(detail: ErrorDetails, path: Path) -> str:
         return str(detail["ctx"]["error"])
     if kind == "missing":
         return required(*path)
-    if kind == "literal_error" and (words := re.findall(r"'([^']+)'", str(detail["ctx"]["expected"]))):
-        return f"this must be one of its words; {did_you_mean(str(value), words)}"
+    if kind == "literal_error" and (known := re.findall(r"'([^']+)'", str(detail["ctx"]["expected"]))):
+        return f"this must be one of its words; {did_you_mean(str(value), known)}"
     if (
         kind == "float_type"
         and isinstance(value, str)

@@ -11,10 +11,7 @@ def fitted_value(path: Path, key: str) -> float | str:
     """
     Give the value of a key as a study writes it: in its unit if it has one.
 
-    Raises
-    ------
-    ValueError
-        The file is no fit of one loop, the fit has no such key, or is flagged; the message says so and what to do.
+    ValueError where the file is no fit of one loop, or the fit has no such key, or is flagged.
     """
     import netCDF4  # noqa: PLC0415 (180 ms, which other studies do without)
 

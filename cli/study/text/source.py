@@ -25,6 +25,8 @@ DEEP: Final = f"nested more than {_DEEPEST} deep; remove some levels"
 _DOTS: Final = re.compile(r"(?:[\w\"'-]+\s*\.\s*){100}")
 """A key far too deep: the parser takes a time that grows with the square of its length."""
 _COMMA: Final = re.compile(r"=\s*([+-]?\d+),(\d+)")
+_AT: Final = re.compile(r" ?\(at (?:line (\d+), column (\d+)|end of document)\)")
+"""Where the parser has found a mistake."""
 _Lines = Callable[[], Mapping[Key, str]]
 """Finds the file and the line of each key."""
 
@@ -46,14 +48,7 @@ class Source:
 
 
 def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) -> Source:
-    """
-    Read a study file and set what is overridden.
-
-    Raises
-    ------
-    StudyError
-        The file cannot be read, or is not TOML.
-    """
+    """Read a study file of at most so many bytes, and set what is overridden; StudyError where it is no TOML."""
     data, lines, text = _read(path, most, ())
     sources: dict[Key, str] = {}
     mistakes = []
@@ -84,16 +79,15 @@ def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) ->
 def _read(path: Path, most: int, above: tuple[Path, ...]) -> tuple[dict[str, Any], _Lines, str]:
     """Read the keys of a file and of what it includes, their places, and a text of just these keys if there is one."""
     text = _text(path, most)
-    deep = f"{path}: not a study, tables or lists are {DEEP}"
     try:
-        data = {} if _DOTS.search(text) else tomllib.loads(text)
+        data = None if _DOTS.search(text) else tomllib.loads(text)
     except RecursionError:
-        raise StudyError(deep) from None
+        data = None
     except ValueError as error:
         _check_kind(path)
         raise StudyError(_syntax_sentence(path, text, str(error))) from None
-    if _DOTS.search(text) or is_deep(data):
-        raise StudyError(deep)
+    if data is None or is_deep(data):
+        raise StudyError(f"{path}: not a study, tables or lists are {DEEP}")
     lines = cache(lambda: {key: f"{path}:{line}" for key, line in lines_of(text).items()})
     if "include" not in data:
         return data, lines, text
@@ -108,23 +102,8 @@ def included(
     """
     Give the keys of a study with those of the one that it includes, and the places of these.
 
-    The keys of the study win; tables at the top are merged key by key, and all other values replaced.
-
-    Parameters
-    ----------
-    data, folder
-        The keys, with `include`, and where that file is looked for.
-    where
-        What a message begins with: the place of `include`, and its value.
-    above
-        The files that include this one.
-    most
-        Bytes of the longest study.
-
-    Raises
-    ------
-    StudyError
-        There is no such study, or it includes this one.
+    The keys of the study win; tables at the top are merged key by key, and all other values replaced. A message begins
+    with `where`, the place of `include`; `above` are the files that include this one.
     """
     name = data["include"]
     if not isinstance(name, str) or not name:
@@ -171,46 +150,30 @@ def _check_kind(path: Path) -> None:
 
 def _syntax_sentence(path: Path, text: str, problem: str) -> str:
     """Say where a text is not TOML, and show the line of what is meant as a study: any other file may hold secrets."""
-    at = re.search(r" ?\(at (?:line (\d+), column (\d+)|end of document)\)", problem)
+    at = _AT.search(problem)
     if not at:  # Python's own limit on integers
         return f"{path}: not valid TOML, a number of more than 4,300 digits; write it with an exponent, as 1e6"
-    lines = text.rstrip().split("\n")
+    lines, what = text.rstrip().split("\n"), problem[: at.start()]
     number = min(int(at[1] or len(lines)), len(lines))
     line = lines[number - 1].strip() if path.suffix == ".toml" else ""
-    comma, what = _COMMA.search(line), problem[: at.start()]
-    remedy = f"write a decimal point, {comma[1]}.{comma[2]}" if comma else "fix this line"
+    remedy = "fix this line"
+    if comma := _COMMA.search(line):
+        remedy = f"write a decimal point, {comma[1]}.{comma[2]}"
     if what.startswith(("Cannot overwrite", "Cannot declare")):
         remedy = "it is given twice, join the two or remove one"
-    column = f" (column {at[2]})" if at[2] else ""
-    within = f" in {shown(line)}" if line else ""
+    column, within = f" (column {at[2]})" if at[2] else "", f" in {shown(line)}" if line else ""
     return f"{path}:{number}: not valid TOML, {what[0].lower()}{what[1:]}{column}{within}; {remedy}"
 
 
 def _set(data: dict[str, Any], override: str) -> Key:
-    """
-    Set a key by its dotted path in place, and give that path.
-
-    Raises
-    ------
-    ValueError
-        It cannot be set; the message says why, and what to do.
-    """
+    """Set a key by its dotted path in place, and give that path; ValueError says why it cannot be set."""
     key, equals, text = override.partition("=")
     steps, value = tuple(step.strip() for step in key.split(".")), text.strip()
     if not equals or not all(steps):
         raise ValueError("not of the form KEY=VALUE; write for example --set parameters.A=0.02")
     if steps[0] == "include":
         raise ValueError("a study is included by its file alone; write this at its top")
-    if value.endswith(".nc") and '"' not in value:
-        parsed: Any = fitted_value(Path(value), steps[-1])
-    else:
-        whole = _parsed(f"value = {value}")
-        if whole.keys() != {"value"}:
-            several = "," in value and _parsed(f"value = [{value}]").keys() == {"value"}
-            remedy = "write several values in brackets" if several else "quote strings"
-            right = f"[{value}]" if several else json.dumps(value, ensure_ascii=False)
-            raise ValueError(f"the value is not TOML; {remedy}, as in --set '{key}={right}'")
-        parsed = whole["value"]
+    parsed = fitted_value(Path(value), steps[-1]) if value.endswith(".nc") and '"' not in value else _parsed(key, value)
     if len(steps) > _DEEPEST or is_deep(parsed):
         raise ValueError(DEEP)
     table: Any = data
@@ -223,23 +186,28 @@ def _set(data: dict[str, Any], override: str) -> Key:
     return steps
 
 
-def is_deep(data: Any) -> bool:
+def _parsed(key: str, value: str) -> Any:
+    """Parse the value of an override; ValueError where it is no TOML."""
+    for text, right in ((value, ""), (f"[{value}]", "write several values in brackets")):
+        try:
+            found = tomllib.loads(f"value = {text}")
+        except (ValueError, RecursionError):
+            continue
+        if right and found.keys() == {"value"}:
+            raise ValueError(f"the value is not TOML; {right}, as in --set '{key}={text}'")
+        if found.keys() == {"value"}:
+            return found["value"]
+    quoted = json.dumps(value, ensure_ascii=False)
+    raise ValueError(f"the value is not TOML; quote strings, as in --set '{key}={quoted}'")
+
+
+def is_deep(data: Any, levels: int = _DEEPEST) -> bool:
     """
-    Check whether tables and lists are nested more deeply than in any study, without going down them all.
+    Check whether tables and lists are nested more deeply than in any study.
 
     >>> is_deep({"parameters": {"k": [0.0, 0.5]}}), is_deep(eval(40 * '[' + 40 * ']'))
     (False, True)
     """
-    level = [data]
-    for _ in range(_DEEPEST):
-        nested = (one.values() if isinstance(one, Mapping) else one for one in level if isinstance(one, Mapping | list))
-        level = [item for items in nested for item in items if isinstance(item, Mapping | list)]
-    return bool(level)
-
-
-def _parsed(text: str) -> dict[str, Any]:
-    """Parse TOML; nothing of what is none."""
-    try:
-        return tomllib.loads(text)
-    except (ValueError, RecursionError):
-        return {}
+    items = data.values() if isinstance(data, Mapping) else data if isinstance(data, list) else ()
+    nested = (item for item in items if isinstance(item, Mapping | list))
+    return levels == 0 or any(is_deep(item, levels - 1) for item in nested)

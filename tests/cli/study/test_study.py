@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.study.rules.axes import expanded
-from gradhesion.cli.study.rules.form import Range
+from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.study.text.places import lines_of
+from gradhesion.cli.study.text.written import lines_of
 from gradhesion.cli.study.tiling import Tiling, size_of, tile
 
 
