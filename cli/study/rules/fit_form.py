@@ -27,22 +27,16 @@ class DataTable(File):
 
     indentation: Column | None = said("column of the depth, with its unit", '{ column = "depth", unit = "nm" }', None)
     displacement: Column | None = said(
-        "instead of indentation: column of depth + load/stiffness, the displacement of a machine",
-        '{ column = "piezo", unit = "nm" }',
-        None,
+        "instead: column of depth + load/stiffness, that of a machine", '{ column = "piezo", unit = "nm" }', None
     )
     load: Column | None = said(
         "column of the load, with its unit; positive loads press", '{ column = "force", unit = "nN" }', None
     )
     branch: Word | None = said(
-        'column with "loading" or "unloading", "approach" or "retract", 0 or 1 [from the order of the points]',
-        '"branch"',
-        None,
+        'column of "loading" and "unloading", "approach" and "retract", 0 and 1 [order of points]', '"branch"', None
     )
     leave_out: list[Word] = said(
-        'more words of branch whose rows are left out, beside "pause", "hold", "dwell", "creep" and "modulate"',
-        '["pause"]',
-        [],
+        'words of branch left out, beside "pause", "hold", "dwell", "creep" and "modulate"', '["wait"]', []
     )
     which: Literal["loading", "unloading"] | None = said("the branch that is fitted [both]", '"unloading"', None)
     cycle: Word | None = said("column with the number of the cycle, a whole number", '"cycle"', None)
@@ -112,9 +106,7 @@ class FitTable(Table):
         "whether more than 2,000 points are averaged along the path, never across a jump", "false", default=True
     )
     noise: Noise | None = said(
-        "standard deviations of the measured depth and load [estimated from the data]",
-        '{ load = "0.5 nN", indentation = "0.1 nm" }',
-        None,
+        "standard deviations of the data [estimated from them]", '{ load = "0.5 nN", indentation = "0.1 nm" }', None
     )
     intervals: Literal["profile", "linear"] = said(
         "95 % intervals from profile likelihoods, or from the linearised problem", '"profile"', "profile"

@@ -109,9 +109,7 @@ class ProfileTable(Shape):  # type: ignore[misc]
         dataclasses.fields(Profile)[0].metadata["about"], "2.0", 2.0, json_schema_extra={"minimum": 1.0}
     )
     spectrum: SpectrumTable | None = said(
-        "random self-affine waves instead of harmonics; A is then their rms height over lambda",
-        "{ hurst = 0.8, first = 1, last = 32, realisations = 100, seed = 1 }",
-        None,
+        "random self-affine waves for harmonics; A is their rms height over lambda", "{ hurst = 0.8, last = 32 }", None
     )
     file: str | None = said(File.model_fields["file"].description, '"tip.csv"', None, min_length=1)
     sha256: str = said(File.model_fields["sha256"].description, '"0a1b..."', "", pattern="^[0-9a-f]{64}$")
@@ -123,11 +121,7 @@ class States(Table):
     """The states whose pressure and surface are drawn."""
 
     contact_radius_over_R: list[Annotated[Finite, Field(gt=0.0)]] | None = said(  # noqa: N815 (the key of a study)
-        "contact radii a/R of equilibrium states [turning point, pull-off and jump-out]",
-        "[0.1, 0.2]",
-        None,
-        min_length=1,
-        max_length=100,
+        "contact radii a/R [turning point, pull-off and jump-out]", "[0.1, 0.2]", None, min_length=1, max_length=100
     )
 
 
@@ -135,10 +129,7 @@ class Method(Table):
     """How the scenes are solved."""
 
     solver: Words = said(
-        "the exact solution, or an approximation for short waves; a list compares several",
-        '["exact", "envelope"]',
-        "exact",
-        validate_default=True,
+        "exact, or an approximation for short waves; a list compares several", '"exact"', "exact", validate_default=True
     )
     check_contact: bool = said(
         "whether `status` reports contact that is not one disc on loading", "false", default=True
@@ -183,9 +174,7 @@ class Form(Table):
     """A whole study, each key for itself."""
 
     include: str = said(
-        "path of a study, from the folder of this one, whose keys hold where this one has none, also within its tables",
-        '"base.toml"',
-        "",
+        "path of a study from the folder of this one; its keys hold where this one has none", '"base.toml"', ""
     )
     title: Annotated[str, AfterValidator(_one_line)] = said(
         "title of the dataset [name of the file]", '"Pull-off force against wavelength"', ""
@@ -195,10 +184,7 @@ class Form(Table):
         "every combination of the axes is a scene, or the lists are combined item by item", '"grid"', "grid"
     )
     outputs: list[str] = said(
-        "quantities to compute for each scene, required for maps and curves",
-        '["pull_off_force", "dissipated_energy"]',
-        [],
-        min_length=1,
+        "quantities to compute, required for maps and curves", '["pull_off_force", "delta_max"]', [], min_length=1
     )
     parameters: Parameters = said("the parameters of a scene, each a number or an axis", "{ k = 0.5, nu = 0.3, .. }")
     physical: Physical | None = said("quantities with units instead of ratios", '{ R = "1 mm", .. }', None)
@@ -214,14 +200,10 @@ class Form(Table):
         'states for pressure and surface, for kind = "curve"', "{ contact_radius_over_R = [0.1, 0.2] }", States()
     )
     optimum: Optimum | None = said(
-        'goal, searched inputs and requirements, for kind = "optimum"',
-        '{ maximise = "pull_off_force", over = ["lambda_over_R"] }',
-        None,
+        'goal and searched inputs, for kind = "optimum"', '{ maximise = "pull_off_force", over = ["A"] }', None
     )
     uncertainty: Uncertainty | None = said(
-        "uncertainties of the inputs: outputs get standard deviations and, with samples, quantiles",
-        '{ modulus = "5 %" }',
-        None,
+        "uncertainties of inputs, for deviations of outputs and, with samples, quantiles", '{ modulus = "5 %" }', None
     )
     method: Method = said("how the scenes are solved", '{ solver = "exact" }', Method())
     data: DataTable | None = said(
