@@ -68,8 +68,7 @@ def read_raw(path: Path, table: DataTable, *, through_machine: bool) -> list[Raw
         import afmformats  # noqa: PLC0415 (not there without the extra)
         from afmformats.errors import AFMFileFormatError, MissingMetaDataError  # noqa: PLC0415
     except ModuleNotFoundError:
-        words = "files of instruments are read by afmformats: install it with `pip install gradhesion[afm]`"
-        raise LoopFileError("file", words) from None
+        raise LoopFileError("file", "afmformats is missing; install it, `pip install gradhesion[afm]`") from None
     log = logging.getLogger("afmformats")  # which writes the traceback of what is raised
     silent, log.disabled = log.disabled, True
     try:
@@ -85,8 +84,7 @@ def read_raw(path: Path, table: DataTable, *, through_machine: bool) -> list[Raw
         raise LoopFileError("file", f"the file cannot be read ({reason}); name one that is there") from None
     except (AFMFileFormatError, MissingMetaDataError, Exception) as error:  # noqa: BLE001 (the first two are none)
         reason = " ".join(str(error).split())[:200] or type(error).__name__
-        words = f"afmformats cannot read a force curve from the file ({reason}); export it again, or as CSV"
-        raise LoopFileError("file", words) from None
+        raise LoopFileError("file", f"afmformats cannot read it ({reason}); export it again, or as CSV") from None
     finally:
         log.disabled = silent
     if not found:
@@ -133,9 +131,8 @@ def _of_curve(curve: Any, table: DataTable, sha256: str, *, through_machine: boo
     elif spring > 0.0:
         depth = -known(height) - known("force") / spring
     else:
-        what = "the file has no spring constant, without which there is no deflection; name the column of the depths, "
-        remedy = 'indentation = { column = "tip position", sign = -1 }, or calibrate and save the curve again'
-        raise LoopFileError("file", what + remedy)
+        remedy = 'name a column of depths, indentation = { column = "tip position", sign = -1 }, or calibrate it'
+        raise LoopFileError("file", f"the file has no spring constant, and so no deflection; {remedy}")
     branch = np.minimum(known("segment"), PAUSE) if "segment" in curve else None
     return Raw(depth=depth, load=load, branch=branch, sha256=sha256, of=str(curve.enum))
 
@@ -145,8 +142,7 @@ def _of_table(path: Path, table: DataTable) -> Raw:
     depth, load = getattr(table, table.depths), table.load
     assert load is not None  # noqa: S101 (the rules of a fit ask for it)
     if depth.column == load.column:
-        sentence = f"the column {shown(load.column)} has the depths already; name the column of the loads"
-        raise LoopFileError("load", sentence)
+        raise LoopFileError("load", f"the column {shown(load.column)} has the depths; name that of the loads")
     if bool(depth.back) != bool(load.back) or (depth.back and (table.branch or table.cycle)):
         sentence = "back names the columns of unloading, of depths and of loads, and then there is no branch or cycle"
         raise LoopFileError("load" if depth.back else table.depths, f"{sentence}; write all of them so")

@@ -183,8 +183,7 @@ def _refuse_faults(loop: LoopFile, table: DataTable) -> None:
     fault = fault_of(loop.depth, loop.load, loop.noise[1] / np.sqrt(loop.counts), loop.unloading)
     depth = table.depths or "indentation"
     if fault == "straight":
-        words = "the load is linear in the depth within its noise: the data show no contact"
-        raise LoopFileError("load", f"{words}; name a file or a column that does")
+        raise LoopFileError("load", "the load is linear in the depth, without contact; name another file or column")
     if fault == "depth":
         words = "the load rises towards the shallowest points, but depth grows into the half-space: its sign is wrong"
         raise LoopFileError(depth, f"{words}; write {_turned(depth, table)}")
@@ -208,9 +207,8 @@ def _turned(key: str, table: DataTable) -> str:
 def _refuse_few(loop: LoopFile, fitted: list[str]) -> None:
     """Refuse points that are too few for what is fitted, or all the same."""
     if loop.depth.size <= len(fitted):
-        words = f"{loop.depth.size} points are too few for {len(fitted)} fitted values ({', '.join(fitted)})"
-        raise LoopFileError("file", f"{words}; measure more points, or fix some")
+        words = f"{loop.depth.size} points are too few for {len(fitted)} fitted values; measure more, or fix some"
+        raise LoopFileError("file", words)
     for row, values in (("depth", loop.depth), ("load", loop.load)):
         if np.ptp(values) == 0.0:
-            words = f"all values of the {row} are the same, so that there is no loop; name another column"
-            raise LoopFileError("file", words)
+            raise LoopFileError("file", f"all values of the {row} are the same; name another column")

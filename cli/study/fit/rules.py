@@ -5,7 +5,7 @@ from typing import Any, Final
 from gradhesion.cli.study.fit.columns import is_force_file
 from gradhesion.cli.study.rules.asked import Asked, Found, home
 from gradhesion.cli.study.rules.form import Form
-from gradhesion.cli.study.rules.inputs import inputs, rate, together, toughness, waves, works
+from gradhesion.cli.study.rules.inputs import SOFT, inputs, rate, together, toughness, waves, works
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import line_of, required
 from gradhesion.core.problem.inputs import INPUTS
@@ -51,10 +51,10 @@ def _profile(asked: Asked) -> Found:
     """Check that the punch is one that a loop is drawn of."""
     for name in ("file", "spectrum", "sha256", "terms", "up_to"):
         if asked.has(f"profile.{name}"):
-            words = (
-                "a loop belongs to one punch, given by harmonics; `gradhesion profile FILE.csv` prints those of a file"
+            yield (
+                f"profile.{name}",
+                "a loop has one punch, given by harmonics; write those of `gradhesion profile FILE.csv`",
             )
-            yield f"profile.{name}", f"{words}; remove this key"
     if asked.form.profile.exponent == "fit":
         yield "profile.exponent", "there is no file to fit it to; write a number"
 
@@ -84,19 +84,15 @@ def _machine(asked: Asked) -> Found:
     spring, control = "spring_constant", control_of(asked.form)
     columns = [name for name in _DEPTHS if asked.has(f"data.{name}")]
     if asked.has("loading.machine_stiffness"):
-        words = "a ratio, where [physical] has units; give spring_constant there and remove it"
-        yield "loading.machine_stiffness", words
+        yield "loading.machine_stiffness", "a ratio; give spring_constant under [physical] instead"
     if len(columns) == 2 or not asked.right("loading.control"):
         return
     if "loading" in asked.data and columns == [_DEPTHS[control != "machine"]]:
-        words = 'control = "machine" goes together with a column of its displacement, and not of the indentation'
-        yield "loading.control", f"{words}; change one of the two"
+        yield "loading.control", "a machine, and nothing else, has a column of its displacement; change one of the two"
     elif control == "machine" and not asked.given(spring):
-        words = f"the displacement of a machine is depth + load/stiffness; write for example {INPUTS[spring].example}"
-        yield home(spring), f"{words}, or a range that is searched"
+        yield home(spring), f"a machine has a stiffness, or a range of it; write for example {INPUTS[spring].example}"
     elif control != "machine" and asked.given(spring):
-        words = "the data have depths, on which a machine has no effect; remove it, or name a column displacement"
-        yield home(spring), words
+        yield home(spring), "a machine has no effect on depths; remove it, or name a column displacement"
 
 
 def _searched(asked: Asked) -> Found:
@@ -119,15 +115,12 @@ def _searched(asked: Asked) -> Found:
             yield at, "it is searched on a logarithmic scale; begin the range above 0"
     free = [name for name, entry in given.items() if isinstance(entry, Range)]
     if not free and asked.right("parameters", "physical"):
-        words = 'no parameter is fitted; give a range to one, as E_star = { start = "0.1 GPa", stop = "10 GPa" }'
-        yield "physical", words
+        yield "physical", 'nothing is fitted; write for example E_star = { start = "0.1 GPa", stop = "10 GPa" }'
     first, *others = [name for name in free if name in ONE_NUMBER] or [""]
     for name in others:
-        words = f"a loop cannot determine both {first} and {name}, which act through one number; fix one of them"
-        yield home(name), words
+        yield home(name), f"a loop cannot tell {first} and {name} apart, which act through one number; fix one"
     if {*_SPEEDS} <= {*free}:
         yield home(_SPEEDS[1]), "a loop depends on the ratio of the two speeds alone; give one of them as a number"
     k = given.get("k")
     if (k.stop if isinstance(k, Range) else k) == 1.0 and given.get("nu") != 0.5:
-        words = "with k = 1 and nu other than 0.5 the surface has no stiffness; use nu = 0.5, or stay below 1"
-        yield "parameters.k", words
+        yield "parameters.k", SOFT

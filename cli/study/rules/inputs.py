@@ -28,6 +28,7 @@ EITHER: Final = {
     "toughness": ("rate",),
 }
 """Keys that cannot stand beside others."""
+SOFT: Final = "with k = 1 and nu other than 0.5 the surface has no stiffness; use nu = 0.5, or k below 1"
 _MAY_MIX: Final = ("A", "closing_ratio", "machine_stiffness")
 """The ratios that may stand beside quantities with units."""
 _MOST_AMPLITUDES: Final = 1000
@@ -120,12 +121,10 @@ def waves(asked: Asked) -> Found:
         numbers = [wave.n for wave in getattr(asked.form, name).harmonics or ()] if getattr(asked.form, name) else []
         for i, n in enumerate(numbers):
             if n in numbers[:i]:
-                words = f"the wave n = {n} is given already, as item {numbers.index(n)}; join the two"
-                yield f"{name}.harmonics[{i}].n", words
+                yield f"{name}.harmonics[{i}].n", f"item {numbers.index(n)} is the wave n = {n} already; join the two"
     made = [one.made() for one in asked.form.profile.harmonics or ()]
     if made and asked.waved and not any(one.cos or one.sin for one in made):
-        words = f"all cos and sin are zero, so that {asked.waved[0]} has no effect; give one a value"
-        yield "profile.harmonics", f"{words}, or use {asked.waved[0]} = 0"
+        yield "profile.harmonics", f"all cos and sin are zero; give one a value, or write {asked.waved[0]} = 0"
 
 
 def works(asked: Asked) -> Found:
@@ -142,8 +141,7 @@ def works(asked: Asked) -> Found:
     else:
         above = closing.max() > opening.min()
     if above:
-        words = f"an edge cannot close at more work than it opens at, but {closing.max():g} J/m^2 exceeds "
-        yield home(key), f"{words}{opening.min():g} J/m^2; lower it, or raise work_of_adhesion"
+        yield home(key), "an edge cannot close at more work than it opens at; lower it, or raise work_of_adhesion"
 
 
 def _needs_table(asked: Asked, table: str) -> Found:
@@ -172,9 +170,7 @@ def toughness(asked: Asked) -> Found:
         radius = violation(pattern, amplitude, wavelength, end)
         if radius is not None:
             what = {"toughness": "toughness is negative", "work": "work of adhesion is not positive"}[pattern.of]
-            words = (
-                f"with the amplitude {amplitude:g} the {what} at the radius {radius:.6g}{' m' if asked.units else ' R'}"
-            )
+            words = f"with the amplitude {amplitude:g} the {what} at {radius:.6g}{' m' if asked.units else ' R'}"
             yield home(key) if key in asked.values else "toughness.harmonics", f"{words}; use smaller waves"
             return
 
@@ -207,14 +203,15 @@ def rate(asked: Asked) -> Found:
         if asked.given(one) and not asked.given(other):
             yield home(one), f"the two speeds go together; add {INPUTS[other].example} under [physical]"
     if form.loading.control == "load":
-        words = 'under a falling load the energy of this law has no bound; write control = "machine" with a soft spring'
-        yield "loading.control", f"{words}, or remove [rate]"
+        yield "loading.control", 'with [rate] the energy of a falling load has no bound; write control = "machine"'
     if form.rate.closing == "same":
         everywhere = np.all if asked.kind == "fit" else np.any
         for name in asked.given("closing_ratio", "work_of_adhesion_closing"):
             if everywhere(np.asarray(asked.values.get(name, 1.0)) == 0.0):
-                words = 'without adhesion on approach there is no such law; write closing = "quasi-static"'
-                yield home(name), f"{words}, or a larger value"
+                yield (
+                    home(name),
+                    'with closing = "same" it is above 0; write a larger value, or closing = "quasi-static"',
+                )
         for name in asked.given("load_max", "preload"):
             yield home(name), f'with closing = "same" a cycle turns at a depth; give {asked.turn} instead'
     longest, rim = ("wavelength", "a_max") if asked.units else ("lambda_over_R", "a_max_over_R")
@@ -222,7 +219,7 @@ def rate(asked: Asked) -> Found:
         count = float(np.min(asked.values[rim])) / float(np.max(asked.values[longest]))
         count *= max((wave.n for wave in form.profile.harmonics or ()), default=1)
         if MOST_WAVES < count < math.inf:
-            words = f"{count:,.0f} waves within the punch are more than the {MOST_WAVES:,.0f} that can be followed"
-            yield home(rim), f"{words} at a speed; use a smaller punch or longer waves"
+            most = f"at a speed up to {MOST_WAVES:,.0f} waves are followed, and the punch has {count:,.0f}"
+            yield home(rim), f"{most}; use a smaller punch or longer waves"
     if not asked.ends and not asked.wrong:
         yield "rate", f"an edge with a speed opens from a radius; give {asked.turn} or a finite radius of the punch"

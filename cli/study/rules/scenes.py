@@ -11,7 +11,7 @@ from gradhesion.cli.names.outputs import SI
 from gradhesion.cli.study.rules.asked import Asked, Found, home
 from gradhesion.cli.study.rules.axes import repeated
 from gradhesion.cli.study.rules.form import OUTPUTS_OF
-from gradhesion.cli.study.rules.inputs import inputs, rate, shape_of, together, toughness, waves, works
+from gradhesion.cli.study.rules.inputs import SOFT, inputs, rate, shape_of, together, toughness, waves, works
 from gradhesion.cli.study.rules.mistakes import required
 from gradhesion.cli.study.rules.search import search, uncertain
 from gradhesion.cli.terminal.wording import did_you_mean, shown
@@ -43,10 +43,7 @@ def _axes(asked: Asked) -> Found:
     if asked.points and soft:  # in one scene, unless the lists differ in length, as is said below
         soft = (1 in (k.size, nu.size) or k.size == nu.size) and bool(np.any((k == 1.0) & (nu != 0.5)))
     if soft:
-        yield (
-            "parameters.k",
-            "with k = 1 and nu other than 0.5 the surface has no stiffness; use nu = 0.5, or k below 1",
-        )
+        yield "parameters.k", SOFT
     if not asked.points:
         for name, values in asked.values.items():
             yield from repeated(name, values)
@@ -55,8 +52,7 @@ def _axes(asked: Asked) -> Found:
     first = next(iter(lengths), "")
     for name, length in lengths.items():
         if length != lengths[first]:
-            words = f"it has {length} values, but {first} has {lengths[first]}; all lists of points have one length"
-            yield home(name), f"{words} (a single number applies to all scenes)"
+            yield home(name), f"it has {length} values, but {first} has {lengths[first]}; give all lists one length"
 
 
 def _curve_of(name: str) -> str:
@@ -76,8 +72,7 @@ def _outputs(asked: Asked) -> Found:
             continue
         at, curve = f"outputs[{i}]", _curve_of(name)
         if name not in known and name in OUTPUTS_OF[other]:
-            words = f'an output of studies of kind "{other}", and this one is of kind "{asked.kind}"'
-            yield at, f'{words}; {did_you_mean(name, known)}, or write kind = "{other}"'
+            yield at, f'an output of kind "{other}"; {did_you_mean(name, known)}, or write kind = "{other}"'
         elif name in GIVEN_UP:
             yield at, f"this output is given up, remove it: {GIVEN_UP[name]}"
         elif name not in known:
@@ -116,10 +111,8 @@ def _unknown_of(name: str, asked: Asked) -> Iterator[str]:
     unequal = asked.given("work_of_adhesion_closing", "closing_ratio")
     equal = np.all(np.asarray(asked.values.get("closing_ratio", 0.0)) == 1.0)
     if own and own.needs_turn and unequal and not equal and not asked.ends and asked.right("parameters", "physical"):
-        words = (
-            f"an unbounded punch that does not turn has no bound of {own.about.split(',')[0]} where it closes at less"
-        )
-        yield f"{words} work; give {asked.turn} or a finite radius of the punch, or remove this"
+        words = f"{own.about.split(',')[0]} has no bound on an unbounded punch that closes at less work"
+        yield f"{words}; give {asked.turn} or a finite radius of the punch, or remove this"
 
 
 def _approximate(asked: Asked) -> str:
@@ -132,8 +125,7 @@ def _method(asked: Asked) -> Found:
     method, form = asked.form.method, asked.form
     if asked.kind == "curve":
         if method.solver != ["exact"]:
-            words = "a curve study has no solver, since its outputs select the curves; remove this key"
-            yield "method.solver", f'{words}, and add "asymptotic", "envelope" or "effective" to outputs'
+            yield "method.solver", "outputs select the curves of a curve study; name them there, and remove this key"
         if not method.check_contact:
             yield "method.check_contact", "the path of a curve study is always checked; remove this key"
         return
@@ -160,15 +152,14 @@ def _punch(asked: Asked) -> Found:
         yield "profile.exponent", "there is no file to fit it to; add file, or write for example exponent = 2.0"
     if (spectrum := table.spectrum) is not None:
         if not 0 <= spectrum.last - spectrum.first < MOST_HARMONICS:
-            words = f"a series has 1 to {MOST_HARMONICS} waves, from first = {spectrum.first} on"
-            yield "profile.spectrum.last", f"{words}; use another last, or another first"
+            words = f"a series has 1 to {MOST_HARMONICS} waves, from first on; use another last, or another first"
+            yield "profile.spectrum.last", words
         if asked.kind != "map":
-            words = 'random roughness is available only in maps; write kind = "map", or give harmonics'
-            yield "profile.spectrum", words
+            yield "profile.spectrum", 'only maps have random roughness; write kind = "map", or give harmonics'
     single = not table.file and not spectrum and len(table.harmonics or (1,)) == 1
     if asked.given("a_max_over_a2") and not (single and shape_of(table) == Profile()):
-        words = "a_2 is defined only for one cosine on a paraboloid; give a_max_over_R or a_max_over_L"
-        yield "parameters.a_max_over_a2", f"{words}, or remove [profile]"
+        words = "only one cosine on a paraboloid has a radius a_2; give a_max_over_R, or remove [profile]"
+        yield "parameters.a_max_over_a2", words
 
 
 def _machine(asked: Asked) -> Found:
@@ -177,8 +168,7 @@ def _machine(asked: Asked) -> Found:
     if not asked.right("loading.control"):
         return
     for name in (one for one in given if control != "machine" and one in asked.form.entries):
-        words = f'control = "{control}" has no machine; remove this key, or write control = "machine" under [loading]'
-        yield home(name), words
+        yield home(name), f'control = "{control}" has no machine; remove this key, or write control = "machine"'
     if control == "machine" and not given:
         own = INPUTS["spring_constant" if asked.units else "machine_stiffness"]
         yield "loading.control", f"a machine needs its stiffness; write for example {own.example} under [{own.table}]"
@@ -189,8 +179,7 @@ def _states(asked: Asked) -> Found:
     radii, at = asked.form.states.contact_radius_over_R or [], "states.contact_radius_over_R"
     drawn = any(CURVES[curve].of_a_state for curve in map(_curve_of, asked.form.outputs) if curve)
     if radii and asked.form.outputs and not drawn:
-        words = 'no curve of states is requested; add "pressure" or "surface" to the outputs of a curve study'
-        yield at, f"{words}, or remove [states]"
+        yield at, 'no curve of states is requested; add "pressure" or "surface" to outputs, or remove [states]'
     rim = float(np.min(asked.values.get("a_max_over_R", math.inf)))
     for i, radius in enumerate(radii):
         if radius in radii[:i]:
@@ -216,5 +205,5 @@ def _size(asked: Asked) -> Found:
     scenes *= 1 if spectrum is None else spectrum.realisations
     kind = "pareto" if asked.kind == "optimum" and table is not None and len(table.goals) > 1 else asked.kind
     if scenes > MOST_SCENES[kind]:
-        words = f"a {kind} study has at most {MOST_SCENES[kind]:,} scenes, and this one has {scenes:,}; split the study"
-        yield "kind" if kind in ("curve", "pareto") else "parameters", f"{words}, or use fewer values"
+        words = f"at most {MOST_SCENES[kind]:,} scenes are in one {kind} study, and this one has {scenes:,}; split it"
+        yield "kind" if kind in ("curve", "pareto") else "parameters", words

@@ -9,7 +9,7 @@ from gradhesion.cli.names.outputs import OF_LINEAR, SI, SPREADABLE
 from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.rules.asked import Asked, Found, home
 from gradhesion.cli.study.rules.form import Optimum
-from gradhesion.cli.study.rules.mistakes import line_of
+from gradhesion.cli.study.rules.mistakes import line_of, required
 from gradhesion.cli.terminal.wording import did_you_mean, nearest, shown
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.names import SENSITIVITIES
@@ -33,8 +33,7 @@ def uncertain(asked: Asked) -> Found:
         at, values = f"uncertainty.{name}", np.atleast_1d(asked.values.get(name, 1.0))
         if not asked.meant(name):
             kin = next((other for other in form.entries if INPUTS[other].gives == INPUTS[name].gives), name)
-            words = did_you_mean(kin, [*form.entries])
-            yield at, f"the study gives no {name} that could be uncertain; {words}, or remove this key"
+            yield at, f"the study gives no {name}; {did_you_mean(kin, [*form.entries])}, or remove this key"
         elif name in asked.values:
             if one.relative and np.any(values == 0.0):
                 yield at, f"{name} is 0 in some scene, and a percentage of 0 is 0; give a number instead"
@@ -44,14 +43,12 @@ def uncertain(asked: Asked) -> Found:
                 yield at, f'some scene has {name} outside of it; widen it, or give a standard deviation such as "5 %"'
     spread, linear = {*form.outputs} & {*SPREADABLE}, {*form.outputs} & {*OF_LINEAR}
     if form.profile.spectrum and linear:
-        words = "standard deviations apply to one punch, but a spectrum draws many; remove [uncertainty]"
-        yield "uncertainty", words
+        yield "uncertainty", "a spectrum draws many punches, and deviations are of one; remove one of the two"
     known = linear and form.method.solver == ["exact"] and form.rate is None
     if own and form.outputs and not spread:
         yield "outputs", f"none of these has a spread; add for example {', '.join(map(shown, OF_LINEAR))}"
     if own and spread and not table.samples and not known and asked.right("outputs", "uncertainty.samples"):
-        words = "no sensitivity of the outputs is known, so that their spread needs samples; write samples = 1024"
-        yield "uncertainty.samples", f"{words} under [uncertainty]"
+        yield "uncertainty.samples", "without sensitivities of the outputs it needs samples; write samples = 1024"
 
 
 def search(asked: Asked) -> Found:
@@ -59,7 +56,7 @@ def search(asked: Asked) -> Found:
     table, method = asked.form.optimum, asked.form.method
     if asked.kind != "optimum" or table is None:
         if asked.kind == "optimum" and "optimum" not in asked.data:
-            yield "optimum", f"this table is required; write for example {line_of('optimum')}"
+            yield "optimum", required("optimum")
         return
     yield from _goals(asked, table.goals)
     if asked.right("optimum.over"):
@@ -72,8 +69,7 @@ def search(asked: Asked) -> Found:
             elif word == "maximum" and table.require.minimum.get(name, value) > value:
                 yield f"optimum.require.maximum.{name}", "the maximum is below the minimum; exchange the two"
     if table.require.one_disc and (method.solver != ["exact"] or not method.check_contact):
-        words = 'this needs solver = "exact" and check_contact = true; change [method], or remove this key'
-        yield "optimum.require.one_disc", words
+        yield "optimum.require.one_disc", "this needs the exact solver and check_contact = true; change [method]"
     if asked.lists_solvers:
         yield "method.solver", "an optimum has one solver; choose one of these"
 
@@ -107,8 +103,7 @@ def _over(asked: Asked, table: Optimum) -> Found:
             remedy = f'did you mean "{near}"?' if near else f"add {name} = {{ start = .., stop = .. }}"
             yield at, f"the study gives no {name} to search; {remedy}"
         elif entry is not None and (not isinstance(entry, Mapping) or "num" in entry):
-            words = f"a searched input has bounds without num, not {home(name)} = {shown(entry)}"
-            yield at, f"{words}; write {name} = {{ start = .., stop = .. }}, or remove it here"
+            yield at, f"a searched input has two bounds; write {home(name)} = {{ start = .., stop = .. }}, without num"
         elif name in asked.values and np.ptp(np.asarray(asked.values[name])) == 0.0:
             yield home(name), "the bounds are the same; write another stop, or a number"
     if len(table.over) > MOST_SEARCHED:
@@ -118,5 +113,4 @@ def _over(asked: Asked, table: Optimum) -> Found:
         yield "optimum.resolution", f"with {len(table.over)} searched inputs it is at most {most}; use that or less"
     for name, values in asked.axes.items():
         if not asked.points and isinstance(values, np.ndarray) and values.size == 1:
-            words = f"an axis of one value cannot be combined with searched inputs; write {name} = {values[0]!s}"
-            yield home(name), words
+            yield home(name), f"beside searched inputs an axis has several values; write {name} = {values[0]!s}"
