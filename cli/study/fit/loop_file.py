@@ -63,8 +63,10 @@ class LoopFile:
         """What was left out of it, and what was averaged."""
         if self.problem:
             return [f"{self.file}: {self.problem}"]
-        left_out = ((self.dropped, "without a number"), (self.paused, "of pauses"))
-        sentences = [f"{counted(count, 'row')} {what} left out" for count, what in left_out if count]
+        sentences = []
+        for count, what in ((self.dropped, "without a number"), (self.paused, "of pauses")):
+            if count:
+                sentences.append(f"{counted(count, 'row')} {what} {'was' if count == 1 else 'were'} left out")
         if self.points > self.depth.size:
             sentences.append(f"{counted(self.points, 'point')} averaged along the path; {self.depth.size:,} kept")
         return [f"{self.file}: {sentence}" for sentence in sentences]
@@ -183,7 +185,7 @@ def _refuse_faults(loop: LoopFile, table: DataTable) -> None:
     fault = fault_of(loop.depth, loop.load, loop.noise[1] / np.sqrt(loop.counts), loop.unloading)
     depth = table.depths or "indentation"
     if fault == "straight":
-        raise LoopFileError("load", "the load is linear in the depth, without contact; name another file or column")
+        raise LoopFileError("load", "the data show no contact, but a linear load; name another file or column")
     if fault == "depth":
         words = "the load rises towards the shallowest points, but depth grows into the half-space: its sign is wrong"
         raise LoopFileError(depth, f"{words}; write {_turned(depth, table)}")
@@ -207,8 +209,8 @@ def _turned(key: str, table: DataTable) -> str:
 def _refuse_few(loop: LoopFile, fitted: list[str]) -> None:
     """Refuse points that are too few for what is fitted, or all the same."""
     if loop.depth.size <= len(fitted):
-        words = f"{loop.depth.size} points are too few for {len(fitted)} fitted values; measure more, or fix some"
-        raise LoopFileError("file", words)
+        words = f"{loop.depth.size} points are too few for {len(fitted)} fitted values ({', '.join(fitted)})"
+        raise LoopFileError("file", f"{words}; measure more points, or fix some")
     for row, values in (("depth", loop.depth), ("load", loop.load)):
         if np.ptp(values) == 0.0:
             raise LoopFileError("file", f"all values of the {row} are the same; name another column")

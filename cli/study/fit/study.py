@@ -72,6 +72,11 @@ class FitStudy:
         """Whether the study has the noise."""
         return self.given_noise is not None
 
+    @property
+    def noise(self) -> tuple[float, float]:
+        """The noise of the first loop."""
+        return self.noise_of(self.loop)
+
     def noise_of(self, loop: LoopFile) -> tuple[float, float]:
         """Give the standard deviations of depth and load of one of its loops, in SI units."""
         return self.given_noise or loop.noise

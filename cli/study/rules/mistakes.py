@@ -105,7 +105,7 @@ def _sentence(detail: ErrorDetails, path: Path) -> str:
         and isinstance(value, str)
         and (sentence := ratio_sentence(value, own.name if own else "A"))
     ):
-        return sentence
+        return sentence if own else f"this must be a number; {sentence}"
     if own and kind in ("greater_than", "greater_than_equal", "less_than_equal", "finite_number"):
         return _out_of_range(own, path, kind)
     words = re.sub(r"^(Input|String|List) should (.*?)( or instance of.*| after .*)?$", r"this must \2", detail["msg"])

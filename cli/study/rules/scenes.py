@@ -72,7 +72,7 @@ def _outputs(asked: Asked) -> Found:
             continue
         at, curve = f"outputs[{i}]", _curve_of(name)
         if name not in known and name in OUTPUTS_OF[other]:
-            yield at, f'an output of kind "{other}"; {did_you_mean(name, known)}, or write kind = "{other}"'
+            yield at, f'an output of studies of kind "{other}"; {did_you_mean(name, known)}, or write that kind'
         elif name in GIVEN_UP:
             yield at, f"this output is given up, remove it: {GIVEN_UP[name]}"
         elif name not in known:
@@ -185,7 +185,7 @@ def _states(asked: Asked) -> Found:
         if radius in radii[:i]:
             yield f"{at}[{i}]", "this radius is given twice; remove one of the two"
         elif radius > rim:
-            yield f"{at}[{i}]", f"a contact cannot be wider than its punch; use a radius up to a_max_over_R = {rim:g}"
+            yield f"{at}[{i}]", f"a contact cannot be wider than its punch; use a radius in (0, {rim:g}]"
 
 
 def _range(asked: Asked) -> Found:
