@@ -11,18 +11,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.names.outputs import (
-    BEST,
-    OF_LINEAR,
-    OF_PHYSICAL,
-    ON_BOUND,
-    PARAMETER,
-    PHYSICAL_PARAMETER,
-    SI,
-    SPREAD,
-    SPREADABLE,
-    labels_of,
-)
+from gradhesion.cli.names import outputs as names
+from gradhesion.cli.names.outputs import PARAMETER, PHYSICAL_PARAMETER, SI, labels_of
 from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
 from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.files import FromFile
@@ -111,15 +101,15 @@ class Study:
     def linear(self) -> tuple[str, ...]:
         """The outputs whose standard deviation follows from sensitivities."""
         known = self.uncertainty and self.knows_slopes
-        return tuple(name for name in self.outputs if name in OF_LINEAR) if known else ()
+        return tuple(name for name in self.outputs if name in names.OF_LINEAR) if known else ()
 
     @property
     def spreads(self) -> tuple[str, ...]:
         """The variables with the spread of its outputs, those in SI units last."""
         own = tuple(f"{name}_std" for name in self.linear)
         if self.uncertainty.samples and self.uncertainty:
-            known = [name for name in self.outputs if name in SPREADABLE]
-            ways = {name: [way for way in SPREAD if way != "std_linear" or name in self.linear] for name in known}
+            known = [name for name in self.outputs if name in names.SPREADABLE]
+            ways = {name: [way for way in names.SPREAD if way != "std_linear" or name in self.linear] for name in known}
             own = tuple(f"{name}_{way}" for name in known for way in ways[name])
         return (*own, *(name + SI for name in own if name in UNITS and "R" in self.parameters))
 
@@ -130,8 +120,9 @@ class Study:
             in_si = [name + SI for name in search.reported if name in UNITS and "R" in self.given]
             slopes = [search.slope] if self.has_slopes else []
             whole = [*search.reported, *in_si, *(one.name for one in search.inputs), *slopes]
-            return (*(BEST + name for name in whole), *(() if search.is_front else (ON_BOUND,)))
-        physical = [name + OF_PHYSICAL for name in self.outputs if name in SENSITIVITIES and "R" in self.parameters]
+            return (*(names.BEST + name for name in whole), *(() if search.is_front else (names.ON_BOUND,)))
+        united = self.outputs if "R" in self.parameters else ()
+        physical = [name + names.OF_PHYSICAL for name in united if name in SENSITIVITIES]
         return (*self.outputs, *(name + SI for name in self.in_si), *physical, *self.spreads)
 
     @property
@@ -179,10 +170,9 @@ class Study:
     @property
     def watches_slope(self) -> bool:
         """Whether a contact may reach radii at which the punch is no longer shallow (core/closed/reach.py)."""
-        given = self.parameters
-        if "a_max" in given and "R" in given:
-            return self.may_reach(np.max(given["a_max"]) / np.min(given["R"]))
-        return self.kind != "curve" and self.may_reach(given.get("a_max_over_R", math.inf))
+        if {"a_max", "R"} <= self.parameters.keys():
+            return self.may_reach(np.max(self.parameters["a_max"]) / np.min(self.parameters["R"]))
+        return self.kind != "curve" and self.may_reach(self.parameters.get("a_max_over_R", math.inf))
 
     def may_reach(self, rims: Values) -> bool:
         """Report whether a contact within one of these rims a_max/R may be steep, and anything depends on it."""
@@ -238,9 +228,7 @@ class Study:
     def axes(self) -> dict[str, int]:
         """The dimensions along which its parameters vary, with their lengths."""
         axes = {name: values.size for name, values in self.parameters.items() if isinstance(values, np.ndarray)}
-        if self.layout == "points":
-            return {SCENE: next(iter(axes.values()), 1)}
-        return axes
+        return {SCENE: next(iter(axes.values()), 1)} if self.layout == "points" else axes
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -300,7 +288,7 @@ class Study:
 
     def parameters_of(self, block: Block) -> dict[str, NDArray[np.float64]]:
         """Cut a block out of the axes: the parameters as arrays that broadcast to the block's shape."""
-        axes, cut = list(self.axes), {}
+        axes, cut = [*self.axes], {}
         for name, values in self.parameters.items():
             if isinstance(values, float):
                 cut[name] = np.full((1,) * len(axes), values)
