@@ -70,20 +70,14 @@ ENCODINGS = {"Windows text": "cp1252", "cut UTF-16": "utf-16"}
 
 OWN: dict[str, tuple[str, str, str]] = {
     "fit: unit of the study": ("fit", "depth [um],force\n1,2\n", 'the unit of the column "depth" is "nm" in the study and "um" in the header of the file; correct one'),
-    "fit: no unit": ("fit", "depth (raw),force\n1,2\n", 'the unit of the column "depth" is "nm" in the study and "raw" in the header'),
-    "fit: units in a row": ("fit", "depth,force\nnm,uN\n1,2\n", 'the unit of the column "force" is "nN" in the study and "uN" in the header'),
     "fit: no column": ("fit", "dept,force\n1,2\n", 'the file has no column "depth"; did you mean "dept"?'),
     "points: empty cell": ("points", "modulus,A\n1,0.1\n500,\n", "line 3: A is missing (NaN); give it, or remove the row"),
     "points: error of a spreadsheet": ("points", "modulus,A\n1,#N/A\n", "line 2: A is missing (NaN); give it, or remove the row"),
     "points: unit of a ratio": ("points", "modulus [MPa],A\n1,0.1\n", 'the column "modulus": "MPa" is not a unit of this quantity; a number without a unit is expected'),
-    "points: index": ("points", ",modulus,A\n0,500,0.1\n", "column 1 of the header on line 1 has no name; name it or remove it"),
     "profile: no unit": ("profile", "r [um],height [V]\n1,2\n", 'the column "height": "V" is not a unit of this quantity; a length (m) is expected'),
-    "profile: no rows": ("profile", "r [um],height [nm]\n1,\n,2\n", "no row has two numbers; name a file with r and height in each row"),
-    "profile: one column": ("profile", "r [um]\n1\n", 'there is no column "height", and a profile has r and height'),
     "data: no unit": ("data", "depth [nm],load\n1,2\n", "write it after the name in brackets, as load [nN]"),
     "data: one column": ("data", "depth [nm]\n1\n", "the file has depth alone; name them in the header"),
     "data: other names": ("data", "depht;laod\n1,5;2\n", 'the file has none of them; rename "depht" to "depth"'),
-    "data: no rows": ("data", "depth [nm],load [nN]\n1,\n,2\n", "no row has numbers in all of depth, load; add some"),
 }  # fmt: skip
 """Wrong for one reader."""
 

@@ -130,7 +130,7 @@ def _unknown_key(path: Path, absent: Collection[str]) -> tuple[Path, str]:
         return path, f"not an input of a study; {did_you_mean(key, known)}"
     homes = {name: keys for name, keys in keys_of.items() if len(name) < 2 and not {*name} & {*absent}}
     homes[()] = [name for name in homes[()] if name not in absent]
-    homes.pop(("uncertainty",), None)  # whose keys are those of the inputs
+    homes |= {name: ["samples", "seed"] for name in homes if name == ("uncertainty",)}  # the others are those of inputs
     for other, keys in homes.items():
         if other != table and key in keys:
             where = f"under [{dotted(other)}]" if other else "at the top, before the first [table]"
@@ -140,12 +140,8 @@ def _unknown_key(path: Path, absent: Collection[str]) -> tuple[Path, str]:
         return (*table, "num"), f'{sentence}, evenly spaced unless spacing = "log"'
     near, place = nearest(key, known), table
     called = [name for name, one in INPUTS.items() if key.lower() in one.called]
-    if (
-        table in (("parameters",), ("physical",))
-        and called
-        and near not in called
-        and (near or "").lower() != key.lower()
-    ):
+    elsewhere = called and near not in called and (near or "").lower() != key.lower()
+    if elsewhere and table in (("parameters",), ("physical",)):
         near, place = called[0], (INPUTS[called[0]].table,)
     elif not table and not near:
         found = ((other, nearest(key, keys)) for other, keys in homes.items())
