@@ -6,7 +6,8 @@ from typing import Any, Final
 
 from docs.tables import code, table
 from gradhesion.cli.names.outputs import OUTPUTS
-from gradhesion.cli.study.rules.form import Form, OffsetsTable
+from gradhesion.cli.study.rules.fit_form import OffsetsTable
+from gradhesion.cli.study.rules.form import Form
 from gradhesion.cli.study.text.quantities import WORDS
 from gradhesion.core import SOLVERS
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL, REDUCED

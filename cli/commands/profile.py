@@ -33,7 +33,7 @@ def profile(
     from gradhesion.cli.errors import StudyError
     from gradhesion.cli.picture.fits import drawn_profile
     from gradhesion.cli.picture.pictured import save
-    from gradhesion.cli.study.profile_file import exponent_of, fitted, read_profile
+    from gradhesion.cli.study.files import exponent_of, fitted, read_profile
     from gradhesion.cli.study.text.quantities import si_value
     from gradhesion.cli.terminal.output import show_block
     from gradhesion.cli.words.profile_words import tables_of

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from gradhesion.cli.dataset.variable import Variable
 from gradhesion.cli.names.curves import NAMED_STATES, STATE, is_of_a_state
 from gradhesion.cli.names.scenes import IDLE, REALISATION, REALISATIONS, SOLVER, SOLVERS
-from gradhesion.cli.study.points import COMMENT
+from gradhesion.cli.study.files import COMMENT
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of
 from gradhesion.cli.work.solve.given import scenes_from
@@ -54,7 +54,7 @@ def coordinates(study: Study) -> dict[str, Variable]:
             attributes["comment"] = f"{IDLE} where {key.idle_without} = 0; the study leaves it out"
         if study.spectrum is not None:
             attributes["long_name"] = RMS.get(name, key.about)
-        if name in study.points.columns:
+        if name in study.points.inputs:
             attributes["comment"] = COMMENT + study.points.file
         if name in study.parameters:
             values = np.asarray(study.parameters[name])

@@ -1,8 +1,7 @@
 """A study from a file or a mapping: checked as a whole, and expanded."""
 
 import re
-import shlex
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
@@ -11,21 +10,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.errors import StudyError
+from gradhesion.cli.study.files import measured_in, points_of
+from gradhesion.cli.study.fit.loop_file import LoopFile
 from gradhesion.cli.study.fit.rules import broken as broken_in_fit
-from gradhesion.cli.study.fit.study import FitStudy, fit_from
-from gradhesion.cli.study.points import points_of
-from gradhesion.cli.study.profile_file import measured_in
+from gradhesion.cli.study.fit.study import FitStudy, fit_of, loops_of
 from gradhesion.cli.study.rules.answers import Search, Searched, Uncertainty
-from gradhesion.cli.study.rules.asked import Asked, checked, foreign_to, kind_of
-from gradhesion.cli.study.rules.axes import expanded, range_mistakes
-from gradhesion.cli.study.rules.form import OUTPUTS_OF, Form, Range
+from gradhesion.cli.study.rules.asked import Asked, checked, foreign_to, home, kind_of
+from gradhesion.cli.study.rules.axes import Values, expanded, range_mistakes
+from gradhesion.cli.study.rules.form import OUTPUTS_OF, Form
+from gradhesion.cli.study.rules.inputs import left_out, shape_of
+from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import Mistake
-from gradhesion.cli.study.rules.scenes import broken, left_out, shape_of
+from gradhesion.cli.study.rules.scenes import broken
 from gradhesion.cli.study.study import Method, Study
 from gradhesion.cli.study.text.foreign import as_written
-from gradhesion.cli.study.text.places import dotted, steps_of
 from gradhesion.cli.study.text.source import DEEP, Source, included, is_deep, read_source
-from gradhesion.cli.study.text.written import toml_of
+from gradhesion.cli.study.text.written import dotted, steps_of, toml_of
 from gradhesion.cli.terminal.wording import nearest, shown
 from gradhesion.core.answers.spectrum import random_profile
 from gradhesion.core.problem.control import Loading
@@ -79,14 +79,12 @@ def study_from(
 
 def load_any(path: str | Path, overrides: Iterable[str] = ()) -> Study | FitStudy:
     """Read a study of scenes, or one of a fit, from a file; as `load_study`."""
-    source = read_source(Path(path), overrides)
-    return _fit(source) if kind_of(source.data) == "fit" else _of_scenes(source)
+    return _of_any(read_source(Path(path), overrides))
 
 
 def any_from(data: Mapping[str, Any], name: str = "study", *, folder: str | Path = "") -> Study | FitStudy:
     """Make a study of scenes, or one of a fit, from a mapping; as `study_from`."""
-    source = _source(data, name, folder)
-    return _fit(source) if kind_of(source.data) == "fit" else _of_scenes(source)
+    return _of_any(_source(data, name, folder))
 
 
 def text_of(data: Mapping[str, Any], study: Study) -> str:
@@ -104,17 +102,22 @@ def _source(data: Mapping[str, Any], name: str, folder: str | Path) -> Source:
     return Source(name=name, data=own, text="", place=lambda _: name, folder=home)
 
 
-def _fit(source: Source) -> FitStudy:
+def _of_any(source: Source) -> Study | FitStudy:
+    """Check a study of its kind and expand it."""
+    return _of_a_fit(source) if kind_of(source.data) == "fit" else _of_scenes(source)
+
+
+def _of_a_fit(source: Source) -> FitStudy:
     """Check a fit as a whole and read its data."""
     data, mistakes = _own_keys(source.data)
     asked = _expanded(checked(data), {})
     mistakes += _between(asked, source.data, broken_in_fit(asked))
+    loops: tuple[LoopFile, ...] = ()
     if asked.form.data and not any("data" in (*one.path[:1], *one.meant[:1]) for one in mistakes):
-        found = fit_from(source, asked)
-        if isinstance(found, FitStudy) and not mistakes and not source.mistakes:
-            return found
-        mistakes += [found] if isinstance(found, Mistake) else []
-    raise _refused(source, mistakes)
+        loops, more = loops_of(source.folder, asked)
+        mistakes += more
+    _refuse(source, mistakes)
+    return fit_of(source, asked.form, loops)
 
 
 def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = None) -> Study:
@@ -123,13 +126,11 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
         raise StudyError(f"{source.place(('kind',))}: a fit has no scenes; `gradhesion run` and gradhesion.run fit it")
     own, mistakes = _own_keys(source.data)
     points, measured = points_of(own, source.folder, columns), measured_in(own, source.folder)
-    asked = _expanded(checked(measured.beside(points.beside(own))), points.columns, _searched(own))
-    mistakes += [*points.mistakes, *measured.mistakes]
-    unread = points.unread or measured.unread  # and what a file would give is not missing
+    asked = _expanded(checked(measured.beside(points.beside(own))), points.inputs, _searched(own))
     between = _between(asked, source.data, broken(asked))
-    mistakes += [one for one in between if not unread or one.value is not None]
-    if mistakes or source.mistakes:
-        raise _refused(source, mistakes)
+    mistakes += [*points.mistakes, *measured.mistakes]
+    mistakes += [one for one in between if not points.unread or one.value is not None]  # what a file would give
+    _refuse(source, mistakes)
     form = asked.form
     absent = left_out(asked.values, with_units=form.physical is not None)
     given = {**asked.values, **absent}
@@ -151,7 +152,7 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
         outputs=() if form.kind == "optimum" else variables_of(form.kind, form.outputs),
         parameters=parameters,
         method=Method(solver=solver, check_contact=form.method.check_contact),
-        profile=measured.profile() or profile,
+        profile=measured.fit.profile if measured.fit else profile,
         spectrum=spectrum,
         loading=Loading(control=form.loading.control),
         toughness=form.toughness.made() if form.toughness else None,
@@ -177,12 +178,11 @@ def variables_of(kind: str, requested: Iterable[str]) -> tuple[str, ...]:
     requested = {*requested}
     if kind == "map":
         return tuple(name for name in OUTPUTS_OF["map"] if name in requested)
-    own = ((curve, name) for curve in CURVES.values() for name in curve.names)
-    return tuple(
-        name
-        for curve, name in own
-        if {curve.name, name} & requested or (name == curve.count and {*curve.names} & requested)
-    )
+    found: list[str] = []
+    for curve in CURVES.values():
+        own = [name for name in curve.names if {curve.name, name} & requested]
+        found += [curve.count, *own] if own and curve.count and curve.count not in own else own
+    return tuple(found)
 
 
 def _own_keys(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[Mistake]]:
@@ -195,23 +195,26 @@ def _own_keys(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[Mistake]]:
 def _searched(data: Mapping[str, Any]) -> tuple[str, ...]:
     """Name the inputs of an optimum that have bounds alone and are searched, also those whose names are misspelt."""
     table = data.get("optimum")
-    if kind_of(data) != "optimum" or not isinstance(table, Mapping) or not isinstance(table.get("over"), list):
-        return ()
-    tables = {name: data.get(own.table) for name, own in INPUTS.items()}
-    entries = {name: own[name] for name, own in tables.items() if isinstance(own, Mapping) and name in own}
+    over = table.get("over") if isinstance(table, Mapping) and kind_of(data) == "optimum" else None
+    tables = {
+        name: table for name in (one.table for one in INPUTS.values()) if isinstance(table := data.get(name), Mapping)
+    }
+    entries = {name: tables.get(own.table, {}).get(name) for name, own in INPUTS.items()}
     bounded = [name for name, entry in entries.items() if isinstance(entry, Mapping) and "num" not in entry]
-    names = (name for name in table["over"] if isinstance(name, str))
+    names = [name for name in over if isinstance(name, str)] if isinstance(over, list) else []
     meant = (name if name in INPUTS else nearest(name, bounded) for name in names)
     return tuple(dict.fromkeys(name for name in meant if name in bounded))
 
 
-def _expanded(asked: Asked, columns: Mapping[str, Any], over: tuple[str, ...] = ()) -> Asked:
-    """Expand the inputs that are right, columns of a file in their place."""
+def _expanded(asked: Asked, columns: Mapping[str, Values], over: tuple[str, ...] = ()) -> Asked:
+    """Expand the inputs that are right, columns of a file in their place; those of a fit to the ends of their range."""
     values, wrong = {}, [*asked.mistakes]
     for name, entry in asked.form.entries.items():
+        if asked.kind == "fit" and isinstance(entry, Range):
+            entry = Range(start=entry.start, stop=entry.stop)
         own = [] if asked.kind == "fit" else list(range_mistakes(name, entry, searched=name in over))
         wrong += [Mistake(steps_of(path), asked.at(steps_of(path)), words) for path, words in own]
-        if not own and entry != "data" and asked.right(f"{INPUTS[name].table}.{name}"):
+        if not own and entry != "data" and asked.right(home(name)):
             values[name] = columns.get(name, expanded(entry))
     return replace(asked, values=values, over=over, mistakes=tuple(wrong))
 
@@ -258,20 +261,17 @@ def _uncertainty(table: Any) -> Uncertainty:
     return Uncertainty(deviations=given, samples=table.samples, seed=table.seed)
 
 
-def _refused(source: Source, mistakes: Iterable[Mistake]) -> StudyError:
-    """Put what is wrong with a study into sentences, in the order of its lines."""
+def _refuse(source: Source, mistakes: Sequence[Mistake]) -> None:
+    """Raise StudyError with what is wrong with a study, in the order of its lines, if anything is."""
     sentences = []
     for mistake in mistakes:
         value = "" if mistake.value is None else f" = {shown(mistake.value)}"
-        place, key, sentence = source.place(mistake.path), dotted(mistake.path), mistake.sentence
-        if place.startswith(f"--set {key}=") and mistake.meant[-1:] == mistake.path[-1:]:
-            right = f"{dotted(mistake.meant)}={place.partition('=')[2].strip()}"
-            sentence = f"{sentence.partition(';')[0]}; write --set {shlex.quote(right)}"
-        sentences.append(f"{place}: {key}{value}: {sentence}")
+        sentences.append(f"{source.place(mistake.path)}: {dotted(mistake.path)}{value}: {mistake.sentence}")
     found = [*source.mistakes, *sorted(sentences, key=_line)]
     if len(found) > MOST_MISTAKES:
         found[MOST_MISTAKES:] = [f"... and {len(found) - MOST_MISTAKES} more mistakes; fix these first"]
-    return StudyError(found)
+    if found:
+        raise StudyError(found)
 
 
 def _line(sentence: str) -> tuple[str, int]:

@@ -1,9 +1,18 @@
 """The shape of a punch and the control of its loading in words, for datasets and `gradhesion info`."""
 
+from collections.abc import Iterable
+from typing import Final
+
 from gradhesion.core.answers.spectrum import Spectrum
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.profile import Harmonic, Profile
-from gradhesion.core.problem.toughness import Rate, Toughness
+from gradhesion.core.problem.toughness import Rate, Toughness, ToughnessHarmonic
+
+_CONTROLS: Final = {
+    "displacement": "displacement",
+    "load": "load, so that the energy of the jump-out, which has no bound, is left out",
+    "machine": "displacement through a machine of finite stiffness",
+}
 
 
 def shape_in_words(profile: Profile, spectrum: Spectrum | None = None) -> str:
@@ -18,11 +27,10 @@ def shape_in_words(profile: Profile, spectrum: Spectrum | None = None) -> str:
     m = profile.exponent
     power = {1.0: "", 2.0: " R"}.get(m, f" R^{m - 1.0:.15g}")
     own = f"r^{m:.15g}/({m:.15g}{power})" if m != 1.0 else "r"
+    written = _series(profile.harmonics, "x", "1 - cos")
     if spectrum is not None:
         waves = f"random waves {spectrum.first} to {spectrum.last}, Hurst exponent {spectrum.hurst:.15g}"
-        drawn = f"{spectrum.realisations:,} realisations, seed {spectrum.seed}"
-        return f"{own} + lambda A [{waves}; {drawn}], x = r/lambda"
-    written = _series([term for harmonic in profile.harmonics for term in _terms(harmonic)])
+        written = f"{waves}; {spectrum.realisations:,} realisations, seed {spectrum.seed}"
     return f"{own} + lambda A [{written}], x = r/lambda" if written else own
 
 
@@ -41,30 +49,18 @@ def profile_table(profile: Profile) -> str:
 
 
 def control_in_words(loading: Loading) -> str:
-    """
-    Say what is controlled.
-
-    >>> control_in_words(Loading(control="load"))
-    'load, so that the energy of the jump-out, which has no bound, is left out'
-    """
-    return {
-        "displacement": "displacement",
-        "load": "load, so that the energy of the jump-out, which has no bound, is left out",
-        "machine": "displacement through a machine of finite stiffness",
-    }[loading.control]
+    """Say what is controlled."""
+    return _CONTROLS[loading.control]
 
 
 def toughness_in_words(toughness: Toughness) -> str:
     """
     Write how the toughness varies with the radius as a formula.
 
-    >>> from gradhesion.core.problem.toughness import ToughnessHarmonic
     >>> toughness_in_words(Toughness((ToughnessHarmonic(n=1, cos=0.5), ToughnessHarmonic(n=2, sin=-0.1))))
     'K_c times 1 + t [0.5 cos(2 pi y) - 0.1 sin(4 pi y)], y = r/lambda_t'
     """
-    waves = ((one.n, size, wave) for one in toughness.harmonics for size, wave in ((one.cos, "cos"), (one.sin, "sin")))
-    written = _series([(size, f"{wave}({2 * n} pi y)") for n, size, wave in waves if size != 0.0])
-    what = {"toughness": "K_c", "work": "w"}[toughness.of]
+    written, what = _series(toughness.harmonics, "y", "cos"), {"toughness": "K_c", "work": "w"}[toughness.of]
     return f"{what} times 1 + t [{written}], y = r/lambda_t" if written else f"{what} times 1"
 
 
@@ -80,20 +76,13 @@ def rate_in_words(rate: Rate) -> str:
     return f"G = w_o [1 + {power}] while the edge opens, {closing} while it closes"
 
 
-def _terms(harmonic: Harmonic) -> list[tuple[float, str]]:
-    """List the waves of a harmonic that are there, with their sizes."""
-    angle = f"{2 * harmonic.n} pi x"
-    waves = ((harmonic.cos, f"1 - cos({angle})"), (harmonic.sin, f"sin({angle})"))
-    return [(size, wave) for size, wave in waves if size != 0.0]
-
-
-def _series(terms: list[tuple[float, str]]) -> str:
-    """Write waves with their sizes as a sum."""
-    written = "".join((" - " if size < 0.0 else " + ") + _term(size, wave, len(terms)) for size, wave in terms)
-    return ("-" if written.startswith(" -") else "") + written[3:]
-
-
-def _term(size: float, wave: str, terms: int) -> str:
-    """Write one of so many waves with its size, its sign apart."""
-    factor = "" if abs(size) == 1.0 else f"{abs(size):.15g} "
-    return factor + (f"({wave})" if wave.startswith("1") and not (terms == 1 and size == 1.0) else wave)
+def _series(harmonics: Iterable[Harmonic | ToughnessHarmonic], angle: str, cosine: str) -> str:
+    """Write the waves that are there with their sizes as a sum."""
+    sizes = [(size, f"{wave}({2 * one.n} pi {angle})") for one in harmonics
+             for size, wave in ((one.cos, cosine), (one.sin, "sin")) if size != 0.0]  # fmt: skip
+    text = ""
+    for size, wave in sizes:
+        bare = not wave.startswith("1") or (len(sizes) == 1 and size == 1.0)
+        factor = "" if abs(size) == 1.0 else f"{abs(size):.15g} "
+        text += f" {'-' if size < 0.0 else '+'} {factor}{wave if bare else f'({wave})'}"
+    return f"-{text[3:]}" if text.startswith(" - ") else text[3:]

@@ -11,11 +11,11 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.names.outputs import BEST, OF_PHYSICAL, ON_BOUND, PARAMETER, PHYSICAL_PARAMETER, SI, labels_of
+from gradhesion.cli.names import outputs as names
+from gradhesion.cli.names.outputs import PARAMETER, PHYSICAL_PARAMETER, SI, labels_of
 from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
 from gradhesion.cli.names.units import UNITS
-from gradhesion.cli.study.points import Points
-from gradhesion.cli.study.profile_file import Measured
+from gradhesion.cli.study.files import FromFile
 from gradhesion.cli.study.rules.answers import Search, Uncertainty
 from gradhesion.cli.study.rules.axes import Values
 from gradhesion.cli.study.tiling import Block, Tiling, cells_of_chunk
@@ -85,9 +85,9 @@ class Study:
     """Cells of a chunk of the dataset of a map, at most; a block that is computed at a time has two."""
     folder: Path = Path()
     """The folder of the files that it names."""
-    points: Points = field(default_factory=Points)
+    points: FromFile = field(default_factory=FromFile)
     """The file with its scenes, and the parameters that are columns of it."""
-    measured: Measured = field(default_factory=Measured)
+    measured: FromFile = field(default_factory=FromFile)
     """The file with the heights of its punch, and the fit of them."""
     spectrum: Spectrum | None = None
     """Of random roughness: `profile` is its first realisation."""
@@ -100,30 +100,30 @@ class Study:
     @property
     def linear(self) -> tuple[str, ...]:
         """The outputs whose standard deviation follows from sensitivities."""
-        return self.uncertainty.linear(self.outputs, exact=self.knows_slopes)
+        known = self.uncertainty and self.knows_slopes
+        return tuple(name for name in self.outputs if name in names.OF_LINEAR) if known else ()
 
     @property
     def spreads(self) -> tuple[str, ...]:
         """The variables with the spread of its outputs, those in SI units last."""
-        own = self.uncertainty.spreads(self.outputs, exact=self.knows_slopes)
+        own = tuple(f"{name}_std" for name in self.linear)
+        if self.uncertainty.samples and self.uncertainty:
+            known = [name for name in self.outputs if name in names.SPREADABLE]
+            ways = {name: [way for way in names.SPREAD if way != "std_linear" or name in self.linear] for name in known}
+            own = tuple(f"{name}_{way}" for name in known for way in ways[name])
         return (*own, *(name + SI for name in own if name in UNITS and "R" in self.parameters))
 
     @cached_property
     def variables(self) -> tuple[str, ...]:
         """The names of all variables of its dataset except `status`."""
-        if self.search:
-            return self._best
-        physical = [name + OF_PHYSICAL for name in self.outputs if name in SENSITIVITIES and "R" in self.parameters]
+        if search := self.search:
+            in_si = [name + SI for name in search.reported if name in UNITS and "R" in self.given]
+            slopes = [search.slope] if self.has_slopes else []
+            whole = [*search.reported, *in_si, *(one.name for one in search.inputs), *slopes]
+            return (*(names.BEST + name for name in whole), *(() if search.is_front else (names.ON_BOUND,)))
+        united = self.outputs if "R" in self.parameters else ()
+        physical = [name + names.OF_PHYSICAL for name in united if name in SENSITIVITIES]
         return (*self.outputs, *(name + SI for name in self.in_si), *physical, *self.spreads)
-
-    @property
-    def _best(self) -> tuple[str, ...]:
-        """The variables of a dataset of optima."""
-        search = self.search
-        in_si = [name + SI for name in search.reported if name in UNITS and "R" in self.given]
-        slopes = [search.slope] if self.has_slopes else []
-        whole = [*search.reported, *in_si, *(one.name for one in search.inputs), *slopes]
-        return (*(BEST + name for name in whole), *(() if search.is_front else (ON_BOUND,)))
 
     @property
     def has_slopes(self) -> bool:
@@ -158,22 +158,21 @@ class Study:
         return self.turn == TURNS[0]
 
     @property
-    def status_type(self) -> str:
-        """The type of `status`: as many bits as its flags need."""
-        return "i2" if self.has_answers or self.turns_at_a_depth or self.follows_waves else "i1"
-
-    @property
     def follows_waves(self) -> bool:
         """Whether its waves are followed one by one, so that there may be too many of them."""
         return self.toughness is not None or self.rate is not None
 
     @property
+    def status_type(self) -> str:
+        """The type of `status`: as many bits as its flags need."""
+        return "i2" if self.has_answers or self.turns_at_a_depth or self.follows_waves else "i1"
+
+    @property
     def watches_slope(self) -> bool:
         """Whether a contact may reach radii at which the punch is no longer shallow (core/closed/reach.py)."""
-        given = self.parameters
-        if "a_max" in given and "R" in given:
-            return self.may_reach(np.max(given["a_max"]) / np.min(given["R"]))
-        return self.kind != "curve" and self.may_reach(given.get("a_max_over_R", math.inf))
+        if {"a_max", "R"} <= self.parameters.keys():
+            return self.may_reach(np.max(self.parameters["a_max"]) / np.min(self.parameters["R"]))
+        return self.kind != "curve" and self.may_reach(self.parameters.get("a_max_over_R", math.inf))
 
     def may_reach(self, rims: Values) -> bool:
         """Report whether a contact within one of these rims a_max/R may be steep, and anything depends on it."""
@@ -194,16 +193,12 @@ class Study:
         """What its sensitivities are to, by the dimension along which they stand; nothing if it has none."""
         requested = {labels_of(name) for name in self.variables} - {""}
         more = [MACHINE] if self.loading.control == "machine" else []
-        last = [self.turn] if self.turn else []
-        last += [name for name in (CLOSING, *PATTERN) if self.gives(name)]
-        keys = (*PARAMETERS, *more, *last)
-        given = [INPUTS[name] for name in self.parameters]
-        units = tuple(
-            key.name
-            for key in given
-            if key.table == "physical" and key.gives != RANGE and not np.all(np.isinf(self.parameters[key.name]))
-        )
-        return {name: own for name, own in ((PARAMETER, keys), (PHYSICAL_PARAMETER, units)) if name in requested}
+        more += [self.turn] if self.turn else []
+        more += [name for name in (CLOSING, *PATTERN) if any(INPUTS[one].gives == name for one in self.given)]
+        united = [name for name in self.parameters if INPUTS[name].table == "physical" and INPUTS[name].gives != RANGE]
+        units = [name for name in united if not np.all(np.isinf(self.parameters[name]))]
+        found = {PARAMETER: (*PARAMETERS, *more), PHYSICAL_PARAMETER: tuple(units)}
+        return {name: own for name, own in found.items() if name in requested}
 
     @cached_property
     def made(self) -> tuple[str, ...]:
@@ -222,10 +217,6 @@ class Study:
         """The parameter at which its cycles turn before the rim; empty if they turn there."""
         return next((INPUTS[name].gives for name in self.given if INPUTS[name].gives in TURNS), "")
 
-    def gives(self, parameter: str) -> bool:
-        """Report whether it gives a parameter that not every scene has."""
-        return any(INPUTS[name].gives == parameter for name in self.given)
-
     @cached_property
     def sizes(self) -> dict[str, int]:
         """The dimensions of its dataset, with their lengths: that of several solvers, its axes, and realisations."""
@@ -237,9 +228,7 @@ class Study:
     def axes(self) -> dict[str, int]:
         """The dimensions along which its parameters vary, with their lengths."""
         axes = {name: values.size for name, values in self.parameters.items() if isinstance(values, np.ndarray)}
-        if self.layout == "points":
-            return {SCENE: next(iter(axes.values()), 1)}
-        return axes
+        return {SCENE: next(iter(axes.values()), 1)} if self.layout == "points" else axes
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -276,9 +265,7 @@ class Study:
         """How often each scene is solved, about: itself, with samples of its inputs, or beside them."""
         if self.search:
             return self.search.points
-        if not self.uncertainty:
-            return 1
-        return 1 + (self.uncertainty.samples or FEW_SAMPLES)
+        return 1 + (self.uncertainty.samples or FEW_SAMPLES) if self.uncertainty else 1
 
     @property
     def sha256(self) -> str:
@@ -301,16 +288,13 @@ class Study:
 
     def parameters_of(self, block: Block) -> dict[str, NDArray[np.float64]]:
         """Cut a block out of the axes: the parameters as arrays that broadcast to the block's shape."""
-        names = list(self.axes)
-        cut = {}
+        axes, cut = [*self.axes], {}
         for name, values in self.parameters.items():
             if isinstance(values, float):
-                cut[name] = np.full((1,) * len(names), values)
+                cut[name] = np.full((1,) * len(axes), values)
             elif self.layout == "points":
                 cut[name] = values[block[0]]
             else:
-                axis = names.index(name)
-                shape = [1] * len(names)
-                shape[axis] = -1
-                cut[name] = values[block[axis]].reshape(shape)
+                axis = axes.index(name)
+                cut[name] = values[block[axis]].reshape([-1 if i == axis else 1 for i in range(len(axes))])
         return cut

@@ -23,11 +23,6 @@ def number(cell: str) -> float:
     """
     Give the number in a cell; NaN if it is empty, or an error of a spreadsheet.
 
-    Raises
-    ------
-    ValueError
-        It has none; the message says so and what to do.
-
     >>> number("1e3"), number(" "), number("-inf")
     (1000.0, nan, -inf)
     """
@@ -58,11 +53,6 @@ def word(cell: str, words: Mapping[str, float]) -> float:
     """
     Give the number for a word, or that in its place; NaN if there is none.
 
-    Raises
-    ------
-    ValueError
-        It is none of these; the message says so and which there are.
-
     >>> word("Unloading", {"loading": 0.0, "unloading": 1.0}), word("1.0", {"loading": 0.0, "unloading": 1.0})
     (1.0, 1.0)
     """
@@ -78,11 +68,6 @@ def word(cell: str, words: Mapping[str, float]) -> float:
 def whole_number(cell: str) -> float:
     """
     Give the whole number in a cell; NaN if there is none.
-
-    Raises
-    ------
-    ValueError
-        It is not whole, or too large to be told from its neighbours.
 
     >>> whole_number("7.0"), whole_number("")
     (7.0, nan)

@@ -13,14 +13,7 @@ MAGIC = (b"\x89HDF\r\n\x1a\n", b"CDF")
 
 
 def of_netcdf(content: bytes, sha256: str, wanted: Wanted) -> Columns:
-    """
-    Read the variables of one dimension.
-
-    Raises
-    ------
-    ColumnsError
-        It has none, or they differ in length.
-    """
+    """Read the variables of one dimension."""
     import netCDF4  # noqa: PLC0415 (180 ms that a table in text does not need)
 
     only = wanted.only

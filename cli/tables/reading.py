@@ -37,12 +37,7 @@ def read_columns(
 
     Returns
     -------
-    The columns, each of one row or more; what is missing is NaN.
-
-    Raises
-    ------
-    ColumnsError
-        It cannot be read, or has no columns of numbers.
+    The columns, each of one row or more; what is missing is NaN. ColumnsError says why there are none.
 
     Notes
     -----

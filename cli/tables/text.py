@@ -60,14 +60,7 @@ class Header:
 
 
 def of_text(content: bytes, sha256: str, wanted: Wanted) -> Columns:
-    """
-    Read the columns of a text.
-
-    Raises
-    ------
-    ColumnsError
-        It is no table of numbers.
-    """
+    """Read the columns of a text."""
     text = _decoded(content)
     header = _header_of(text, wanted)
     others = tuple(name for i, name in enumerate(header.names) if i not in header.read)
@@ -122,14 +115,7 @@ def _cells_of(place: int, line: str, separator: str | None) -> list[str]:
 
 
 def _header_of(text: str, wanted: Wanted) -> Header:
-    """
-    Read the names and units of the columns, and find what separates them.
-
-    Raises
-    ------
-    ColumnsError
-        There is none above a row.
-    """
+    """Read the names and units of the columns, and find what separates them."""
     lines = _lines(text)
     place, line = next(lines, (0, ""))
     given = re.fullmatch(r"sep=([;,|\t])\s*", line)  # as spreadsheets write it
@@ -188,25 +174,20 @@ def _names_in_a_comment(text: str, before: int, columns: int, separator: str | N
         cells, own = _heads_of(place, line.strip().lstrip("#").removeprefix(" columns:").strip(), None)
         if own == separator and len(cells) == columns and not any(map(is_number, cells)):
             return place, cells
-    raise ColumnsError(
-        f"line {before} has numbers where the names of the columns are expected; add a header line above it"
-    )
+    words = f"line {before} has numbers where the names of the columns are expected"
+    raise ColumnsError(f"{words}; add a header line above it")
 
 
 def _check_names(header: Header) -> None:
     """Check that each column that is read has a name of its own."""
+    line = f"the header on line {header.number}"
     for i in header.read:
         if not header.names[i]:
-            raise ColumnsError(
-                f"column {i + 1} of the header on line {header.number} has no name; name it or remove it"
-            )
-        before = header.names.index(header.names[i])
-        if before < i:
-            raise ColumnsError(
-                f"columns {before + 1} and {i + 1} of the header on line {header.number} have one name, "
-                f"{shown(header.names[i])}; "
-                "rename one"
-            )
+            raise ColumnsError(f"column {i + 1} of {line} has no name; name it or remove it")
+        first = header.names.index(header.names[i])
+        if first < i:
+            words = f"columns {first + 1} and {i + 1} of {line} have one name, {shown(header.names[i])}"
+            raise ColumnsError(f"{words}; rename one")
 
 
 def _units_below(cells: list[str], names: tuple[str, ...], read: tuple[int, ...], wanted: Wanted) -> dict[str, str]:
@@ -224,14 +205,7 @@ def _units_below(cells: list[str], names: tuple[str, ...], read: tuple[int, ...]
 
 
 def _rows(text: str, header: Header) -> Iterator[tuple[int, list[str]]]:
-    """
-    Give the cells of each row, with the number of its line.
-
-    Raises
-    ------
-    ColumnsError
-        A row is longer or shorter than the header.
-    """
+    """Give the cells of each row, with the number of its line."""
     count = len(header.names)
     for place, line in _lines(text):
         if place <= header.last:
@@ -253,10 +227,9 @@ def _plain(text: str, header: Header) -> NDArray[np.float64] | None:
     """Read a table of nothing but numbers by NumPy, which is four times as fast; None where anything else is in it."""
     if '"' in text:
         return None
+    lines = io.StringIO(text, newline=None)
     try:
-        table = np.loadtxt(
-            io.StringIO(text, newline=None), delimiter=header.separator, skiprows=header.last, ndmin=2, unpack=True
-        )
+        table = np.loadtxt(lines, delimiter=header.separator, skiprows=header.last, ndmin=2, unpack=True)
     except ValueError:
         return None
     return None if len(table) != len(header.names) or np.isinf(table).any() else table
@@ -284,14 +257,7 @@ def _shown(header: Header, column: int, cell: str) -> str:
 
 
 def _has_decimal_commas(text: str, header: Header, columns: list[int]) -> bool:
-    """
-    Tell whether the numbers of a table have decimal commas.
-
-    Raises
-    ------
-    ColumnsError
-        Some have and others do not, or the commas may as well stand between thousands.
-    """
+    """Tell whether the numbers of a table have decimal commas."""
     points = commas = sure = 0
     first = ""
     for place, cells in _rows(text, header):
@@ -302,14 +268,10 @@ def _has_decimal_commas(text: str, header: Header, columns: list[int]) -> bool:
                 sure = sure or (0 if _THOUSANDS.fullmatch(cells[i]) else place)
                 first = first or _shown(header, i, cells[i])
                 commas = commas or place
+    remedy = "write points for the decimals, and nothing between thousands"
     if commas and points:
-        raise ColumnsError(
-            f"line {commas} has a comma and line {points} a point in a number; write points for the decimals, and "
-            "nothing between thousands"
-        )
+        raise ColumnsError(f"line {commas} has a comma and line {points} a point in a number; {remedy}")
     if commas and not sure:
-        raise ColumnsError(
-            f"line {commas}: {first} may be a decimal or thousands, like every number of the file with a comma; "
-            "write a point for the decimals, and nothing between thousands"
-        )
+        words = f"line {commas}: {first} may be a decimal or thousands, like every number of the file with a comma"
+        raise ColumnsError(f"{words}; {remedy}")
     return bool(commas)

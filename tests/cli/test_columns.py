@@ -23,47 +23,34 @@ def written(folder: Path, text: str | bytes, name: str = "table.csv") -> Path:
     return path
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "A,R [um]\n0.5,1e3\ninf,-2\n",
-        "\ufeff# a comment\n\nA ; R (um)\r\n0.5;1e3\r\n# another\r\ninf;-2",
-        "A\tR [um]\n0.5\t1e3\ninf\t-2\n",
-        "  A   R [um]\n 0.5  1e3\n inf -2 # behind\n",
-        '"A","R [um]"\n"0.5","1e3"\n"inf","-2"\n',
-    ],
-)
-def test_a_text_has_a_header_with_units(text: str, tmp_path: Path) -> None:
-    found = read_columns(written(tmp_path, text))
+TEXTS = [
+    "A,R [um]\n0.5,1e3\ninf,-2\n",
+    "\ufeff# a comment\n\nA ; R (um)\r\n0.5;1e3\r\n# another\r\ninf;-2",
+    "  A   R [um]\n 0.5  1e3\n inf -2 # behind\n",
+    '"A","R [um]"\n"0.5","1e3"\n"inf","-2"\n',
+    "A;R [um]\n0,5;1000\ninf;-2\n",
+    "A\tR [um]\n0,5\t1e3\ninf\t-2\n",
+    'A,R [um]\n"0,5","1000"\n"inf","-2"\n',
+    "sep=;\nA;R [um]\n0,5;1000\ninf;-2\n",
+    "A,R\n-,um\n0.5,1000\ninf,-2\n",
+    "A;R;\n;[um];\n0,5;1000;\ninf;-2;\n",
+    "A,R [um]\n0.5,1000,,\n\n,\ninf,-2\n",
+    "A;R [um];\r0.5;1000;\rinf;-2;\r",
+    "A [-],R [um] # comment, and more\n0.5,1000 # comment, and more\ninf,-2\n",
+    '"A" "R [um]"\n0.5 1000\ninf -2\n',
+    "# A,R [um]\n0.5,1000\ninf,-2\n",
+    "# an export\n#\n# columns: A R [um]\n# of 2 rows, as written\n0.5 1000\ninf -2\n",
+    "A;R [um]\n0,5;1000\ninf;-2\n".encode("utf-16"),
+    "A,R [um]\n.5,+1e+3\ninf,-20E-1\n".encode("utf-32"),
+]
+
+
+@pytest.mark.parametrize("text", TEXTS)
+def test_what_a_spreadsheet_or_an_instrument_writes_is_read_with_its_units(text: str | bytes, tmp_path: Path) -> None:
+    found = read_columns(path := written(tmp_path, text))
     assert {name: values.tolist() for name, values in found.values.items()} == {"A": [0.5, np.inf], "R": [1e3, -2.0]}
     assert found.units == {"R": "um"}
-    assert found.sha256 == hashlib.sha256(text.encode()).hexdigest()
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "A;R [um]\n0,5;1000\n2,25;-2\n",
-        "A\tR [um]\n0,5\t1e3\n2,25\t-2\n",
-        'A,R [um]\n"0,5","1000"\n"2,25","-2"\n',
-        "sep=;\nA;R [um]\n0,5;1000\n2,25;-2\n",
-        "A,R\n-,um\n0.5,1000\n2.25,-2\n",
-        "A;R;\n;[um];\n0,5;1000;\n2,25;-2;\n",
-        "A,R [um],\n0.5,1000,\n2.25,-2,\n",
-        "A,R [um]\n0.5,1000,,\n\n,\n2.25,-2\n",
-        "A;R [um];\r0.5;1000;\r2.25;-2;\r",
-        "A [-],R [um] # comment, and more\n0.5,1000 # comment, and more\n2.25,-2\n",
-        '"A" "R [um]"\n0.5 1000\n2.25 -2\n',
-        "# A,R [um]\n0.5,1000\n2.25,-2\n",
-        "# an export\n#\n# columns: A R [um]\n# of 2 rows, as written\n0.5 1000\n2.25 -2\n",
-        "A;R [um]\n0,5;1000\n2,25;-2\n".encode("utf-16"),
-        "A,R [um]\n.5,+1e+3\n225E-2,-2.\n".encode("utf-32"),
-    ],
-)
-def test_what_a_spreadsheet_or_an_instrument_writes_is_read(text: str | bytes, tmp_path: Path) -> None:
-    found = read_columns(written(tmp_path, text))
-    assert {name: values.tolist() for name, values in found.values.items()} == {"A": [0.5, 2.25], "R": [1e3, -2.0]}
-    assert found.units == {"R": "um"}
+    assert found.sha256 == hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 @pytest.mark.parametrize("cell", ["", "nan", " ", "#N/A", "#DIV/0!", '""'])
@@ -76,8 +63,6 @@ def test_what_is_not_read_may_be_anything_but_ragged(tmp_path: Path) -> None:
     text = ',A,note,note\n7,1,"a, b",\n8,2,\u00b5,#c\n'
     found = read_columns(written(tmp_path, text), only=["A", "k"])
     assert (found.values["A"].tolist(), found.others) == ([1.0, 2.0], ("", "note", "note"))
-    with pytest.raises(ColumnsError, match="line 2 has 4 values under 2 names; if its numbers have decimal commas"):
-        read_columns(written(tmp_path, "A,k\n1,5,2,3\n"), only=["A", "k"])
     with pytest.raises(ColumnsError, match="line 3 has 2 values under 3 names"):
         read_columns(written(tmp_path, "A,k,note\n1,2,x\n3,4\n"), only=["A", "k"])
 
@@ -110,8 +95,6 @@ MISTAKES = {
     "# only\n": "comments only",
     "A,,k\n1,2,3\n": "column 2 of the header on line 1 has no name",
     "A\n1\n2 mm\n": "line 3 has 2 values under 1 name;",
-    b"A,k\n1,2\n\xff\xfe,3\n": "not text in UTF-8",
-    b"\xff\xfeA": "not text in UTF-8",
     b"\x89HDF\r\n\x1a\nbroken": "cannot be read as NetCDF",
     "A," + 2**15 * "[" + "\n1,2\n": "line 1 is too long for a header, 32,771 characters",
     ",".join(f"c{i}" for i in range(2000)) + "\n1\n": "2,000 columns",

@@ -65,16 +65,13 @@ def read(content: bytes, overrides: list[str]) -> None:
             assert SENTENCE.fullmatch(one.removeprefix(str(path))), one
 
 
+KEYS = st.sampled_from(["parameters.k", "parameters.k.num", "title", "a.b", "", "."])
+
+
 @given(
     lines=st.lists(st.sampled_from(LINES), min_size=8, max_size=20),
     cuts=st.lists(st.tuples(st.integers(0, 600), st.integers(0, 12), pieces), max_size=4),
-    overrides=st.lists(
-        st.builds(
-            "{}={}".format, st.sampled_from(["parameters.k", "parameters.k.num", "title", "a.b", "", "."]), pieces
-        ),
-        max_size=2,
-        unique=True,
-    ),
+    overrides=st.lists(st.builds("{}={}".format, KEYS, pieces), max_size=2, unique=True),
 )
 @settings(max_examples=500)
 def test_mutated_studies(lines: list[str], cuts: list[tuple[int, int, str]], overrides: list[str]) -> None:
@@ -85,38 +82,32 @@ def test_mutated_studies(lines: list[str], cuts: list[tuple[int, int, str]], ove
     read(text.encode("utf-8", "replace"), overrides)
 
 
+NUMBERS = ["-1", "0", "1e400", "nan", "inf", "7", "1e-300", "0.5", '"0.5"', "true", "5 m", ""]
+
+
 @st.composite
 def edited(draw: st.DrawFn) -> str:
     """One of the studies of the project after one to four slips of its author."""
     lines = [*draw(st.sampled_from(CONFIGS))]
     for _ in range(draw(st.integers(1, 4))):
-        at = draw(st.integers(0, len(lines) - 1))
+        at, other = (draw(st.integers(0, len(lines) - 1)) for _ in range(2))
         key, equals, value = lines[at].partition("=")
+        numbers = [*re.finditer(r"[\d.]+", value)]
         slip = draw(st.sampled_from(["drop", "twice", "value", "number", "key", "swap", "add", "letter"]))
         if slip == "drop" and len(lines) > 1:
             del lines[at]
         elif slip == "twice":
-            lines.insert(draw(st.integers(0, len(lines))), lines[at])
+            lines.insert(other, lines[at])
         elif slip == "value" and equals:
-            lines[at] = key + "= " + draw(pieces)
-        elif slip == "number" and equals:
-            numbers = [*re.finditer(r"[\d.]+", value)]
-            if numbers:
-                here = draw(st.sampled_from(numbers))
-                other = draw(
-                    st.sampled_from(
-                        ["-1", "0", "1e400", "nan", "inf", "7", "1e-300", "0.5", '"0.5"', "true", "5 m", ""]
-                    )
-                )
-                lines[at] = f"{key}={value[: here.start()]}{other}{value[here.end() :]}"
+            lines[at] = f"{key}= {draw(pieces)}"
+        elif slip == "number" and numbers:
+            here = draw(st.sampled_from(numbers))
+            lines[at] = f"{key}={value[: here.start()]}{draw(st.sampled_from(NUMBERS))}{value[here.end() :]}"
         elif slip == "key" and equals:
             lines[at] = (
-                draw(st.sampled_from([key.strip() + "s", key.strip().upper(), "parameters.k", "k", "n", ""]))
-                + " ="
-                + value
+                f"{draw(st.sampled_from([f'{key.strip()}s', key.upper(), 'parameters.k', 'k', 'n', '']))} ={value}"
             )
         elif slip == "swap":
-            other = draw(st.integers(0, len(lines) - 1))
             lines[at], lines[other] = lines[other], lines[at]
         elif slip == "add":
             lines.insert(at, draw(st.sampled_from(LINES)))
@@ -151,23 +142,18 @@ def test_keys_however_deep_are_refused_at_once(text: str, tmp_path: Path) -> Non
     path = tmp_path / "study.toml"
     path.write_text(text)
     start = time.process_time()
-    with pytest.raises(
-        StudyError, match="not a study, tables or lists are nested more than 32 deep; remove some levels"
-    ):
+    with pytest.raises(StudyError, match="nested more than 32 deep"):
         load_study(path)
     assert time.process_time() - start < 2.0, "it took 80 s"
 
 
-@pytest.mark.parametrize("override", [f"{'a.' * 5000}b=1", f"parameters.k={'[' * 50}{']' * 50}", f"{'a.' * 40}b=1"])
-def test_overrides_however_deep_are_refused(override: str, tmp_path: Path) -> None:
+def test_overrides_and_mappings_however_deep_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "study.toml"
     path.write_text(CONFIG + "nu = 0.3\n")
     assert load_study(path).scenes == 2
-    with pytest.raises(StudyError, match=r"^--set .*: nested more than 32 deep"):
-        load_study(path, [override])
-
-
-def test_a_mapping_however_deep_is_refused() -> None:
+    for override in (f"{'a.' * 5000}b=1", f"parameters.k={'[' * 50}{']' * 50}", f"{'a.' * 40}b=1"):
+        with pytest.raises(StudyError, match=r"^--set .*: nested more than 32 deep"):
+            load_study(path, [override])
     endless: dict[str, Any] = {"outputs": ["pull_off_force"]}
     endless["parameters"] = endless
     with pytest.raises(StudyError, match="nested more than 32 deep"):

@@ -55,11 +55,14 @@ KINDS: dict[str, dict[str, Any]] = {
     "uncertainty": {"parameters": PUNCH | {"A": 0.02}, "uncertainty": {"modulus": "5 %", "samples": 8, "seed": 1}},
     "turned": {"parameters": PUNCH | {"indentation_max_over_R": [-0.1, 0.05]}},
     "two works": {"parameters": PUNCH | {"a_max_over_R": 0.7, "closing_ratio": [0.5, 1.0]}},
+    "pattern": {"parameters": PUNCH | {"a_max_over_R": 0.7, "toughness_wavelength_over_R": [0.1, 0.2]}, "toughness": {"harmonics": [{"n": 1, "sin": 0.2}], "of": "work"}},
     "optimum": {"kind": "optimum", "outputs": None, "parameters": SEARCHED, "optimum": {"maximise": "pull_off_force", "over": ["lambda_over_R"], "resolution": 20}},
     "curve": CURVE | {"outputs": ["equilibrium", "path", "asymptotic", "envelope", "effective", "smooth"]},
     "points of curves": CURVE | {"layout": "points", "outputs": ["path", "jumps"], "parameters": CURVE["parameters"] | {"A": [0.02, 0.0]}},
     "jumps": CURVE | {"outputs": ["jumps", "smooth"], "loading": {"control": "machine", "machine_stiffness": 9.0}},
     "curve in units": {"kind": "curve", "outputs": ["path", "jumps"], "parameters": {"k": 0.3, "nu": 0.3, "A": [0.0, 0.01]}, "physical": TIP | {"a_max": "0.4 um"}},
+    "curves of a pattern": CURVE | {"outputs": ["path", "equilibrium", "closing_equilibrium", "jumps"], "parameters": CURVE["parameters"] | {"closing_ratio": 0.4, "toughness_wavelength_over_R": 0.1}, "toughness": {"harmonics": [{"n": 1, "cos": 0.3}]}},
+    "curves at a speed": CURVE | {"outputs": ["path", "equilibrium"], "parameters": CURVE["parameters"] | {"speed_over_reference": 0.1}, "rate": {"exponent": 0.6, "closing": "same"}},
     "states": CURVE | {"outputs": ["pressure", "surface"]},
 }  # fmt: skip
 NO_PAGE = ("states",)

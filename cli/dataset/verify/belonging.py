@@ -15,7 +15,7 @@ from gradhesion.cli.dataset.read.reader import study_text
 from gradhesion.cli.errors import DatasetError, StudyError
 from gradhesion.cli.names.outputs import labels_of
 from gradhesion.cli.names.scenes import SCENE, SOLVER
-from gradhesion.cli.study.points import COMMENT, points_of
+from gradhesion.cli.study.files import COMMENT, points_of
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
 from gradhesion.core.problem.inputs import INPUTS

@@ -1,18 +1,30 @@
-"""The columns of a measured loop in SI units, from a table of numbers or from an instrument's file."""
+"""The columns of a measured loop in SI units, from a table of numbers or from an instrument's file.
 
+Instruments' files are read by afmformats, with the conventions of force microscopy: a height is the position of the
+base of the cantilever, and falls as it approaches; a force is the deflection times the spring constant, and presses
+where it is positive. The machine has moved by minus the height, and the depth is that less the deflection.
+"""
+
+import hashlib
+import logging
+import warnings
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Final
+from pathlib import Path, PurePath
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.study.rules.form import ColumnTable, DataTable
+from gradhesion.cli.study.rules.fit_form import ColumnTable, DataTable
 from gradhesion.cli.study.text.quantities import factor_of_column
 from gradhesion.cli.tables.columns import Columns, ColumnsError
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 
+INSTRUMENTS: Final = (".ibw", ".jpk-force", ".jpk-force-map", ".jpk-qi-data", ".jpk-qi-series", ".zip")
+"""How the names of files end that are of an instrument, and no tables."""
+EITHER: Final = (".h5", ".tab")
+"""How those end that are of afmformats where the study names no columns, and tables where it does."""
 PAUSES: Final = ("pause", "hold", "dwell", "creep", "modulate")
 """What instruments call a stretch between branches, in which the punch waits: such rows are left out."""
 PAUSE: Final = 2.0
@@ -20,6 +32,10 @@ PAUSE: Final = 2.0
 _WAYS: Final = "loading unloading approach retract approaching retracting extend withdraw forward backward false true"
 BRANCHES: Final = {word: float(i % 2) for i, word in enumerate(_WAYS.split())}
 """What a column of branches says, with the number for it, which may stand there as well."""
+_HEIGHTS: Final = ("height (measured)", "height (piezo)")
+"""An instrument's columns of heights, the better first."""
+_TIP: Final = "tip position"
+"""That of the height of the tip: height plus deflection."""
 
 
 class LoopFileError(ValueError):
@@ -44,33 +60,99 @@ class Raw:
     """Which of the loops of a file it is; empty for the only one."""
 
 
-def read_table(path: Path, table: DataTable) -> Raw:
-    """
-    Read the columns of a loop.
+def read_raw(path: Path, table: DataTable, *, through_machine: bool) -> list[Raw]:
+    """Read the loop of a table, or those of an instrument's file; LoopFileError where there is none."""
+    if not is_force_file(table.model_copy(update={"file": path.name})):
+        return [_of_table(path, table)]
+    try:
+        import afmformats  # noqa: PLC0415 (not there without the extra)
+        from afmformats.errors import AFMFileFormatError, MissingMetaDataError  # noqa: PLC0415
+    except ModuleNotFoundError:
+        raise LoopFileError("file", "afmformats is missing; install it, `pip install gradhesion[afm]`") from None
+    log = logging.getLogger("afmformats")  # which writes the traceback of what is raised
+    silent, log.disabled = log.disabled, True
+    try:
+        sha256 = hashlib.sha256(path.read_bytes()).hexdigest()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            curves = afmformats.load_data(path, modality="force-distance")
+            found = [_of_curve(curve, table, sha256, through_machine=through_machine) for curve in curves]
+    except LoopFileError:
+        raise
+    except OSError as error:
+        reason = error.strerror or error
+        raise LoopFileError("file", f"the file cannot be read ({reason}); name one that is there") from None
+    except (AFMFileFormatError, MissingMetaDataError, Exception) as error:  # noqa: BLE001 (the first two are none)
+        reason = " ".join(str(error).split())[:200] or type(error).__name__
+        raise LoopFileError("file", f"afmformats cannot read it ({reason}); export it again, or as CSV") from None
+    finally:
+        log.disabled = silent
+    if not found:
+        raise LoopFileError("file", "the file has no force curves; name one with approach and retraction")
+    return [Raw(**{**vars(found[0]), "of": ""})] if len(found) == 1 else found
 
-    Raises
-    ------
-    LoopFileError
-        The file cannot be read, or lacks a column.
+
+def is_force_file(table: DataTable) -> bool:
     """
+    Tell whether a file is an instrument's, by its name and whether columns are named.
+
+    >>> is_force_file(DataTable(file="curve.jpk-force")), is_force_file(DataTable(file="curve.csv"))
+    (True, False)
+    """
+    suffix = PurePath(table.file).suffix.lower()
+    return suffix in INSTRUMENTS or (suffix in EITHER and not (table.depths or table.load))
+
+
+def _of_curve(curve: Any, table: DataTable, sha256: str, *, through_machine: bool) -> Raw:
+    """Give depth (or displacement), load and branch of a force curve."""
+
+    def known(name: str) -> NDArray[np.float64]:
+        if name not in curve:
+            there = ", ".join(map(shown, curve.columns))
+            raise LoopFileError("file", f"the curve has no column {shown(name)}, only {there}; export it with that one")
+        return np.asarray(curve[name], dtype=np.float64)
+
+    def column(key: str, requested: ColumnTable) -> NDArray[np.float64]:
+        name = requested.column
+        if name not in curve:
+            raise LoopFileError(key, f"the file has no column {shown(name)}; {did_you_mean(name, curve.columns)}")
+        units = {name: "N" if name == "force" else "m"}  # afmformats has SI units
+        return _in_si(Columns(values={name: known(name)}, units=units, sha256=sha256, place=str), key, requested)
+
+    load = column("load", table.load) if table.load else known("force")
+    height = next((name for name in _HEIGHTS if name in curve), _HEIGHTS[0])
+    spring = float(curve.metadata.get("spring constant", np.nan))
+    if table.depths:
+        depth = column(table.depths, getattr(table, table.depths))
+    elif through_machine:
+        depth = -known(height)
+    elif _TIP in curve:
+        depth = -known(_TIP)
+    elif spring > 0.0:
+        depth = -known(height) - known("force") / spring
+    else:
+        remedy = 'name a column of depths, indentation = { column = "tip position", sign = -1 }, or calibrate it'
+        raise LoopFileError("file", f"the file has no spring constant, and so no deflection; {remedy}")
+    branch = np.minimum(known("segment"), PAUSE) if "segment" in curve else None
+    return Raw(depth=depth, load=load, branch=branch, sha256=sha256, of=str(curve.enum))
+
+
+def _of_table(path: Path, table: DataTable) -> Raw:
+    """Read the columns of a loop from a table."""
     depth, load = getattr(table, table.depths), table.load
     assert load is not None  # noqa: S101 (the rules of a fit ask for it)
     if depth.column == load.column:
-        sentence = f"the column {shown(load.column)} has the depths already; name the column of the loads"
-        raise LoopFileError("load", sentence)
+        raise LoopFileError("load", f"the column {shown(load.column)} has the depths; name that of the loads")
     if bool(depth.back) != bool(load.back) or (depth.back and (table.branch or table.cycle)):
         sentence = "back names the columns of unloading, of depths and of loads, and then there is no branch or cycle"
         raise LoopFileError("load" if depth.back else table.depths, f"{sentence}; write all of them so")
     wanted = [(table.depths, depth.column), ("load", load.column), ("branch", table.branch), ("cycle", table.cycle)]
     wanted += [(table.depths, depth.back), ("load", load.back)]
     pauses = dict.fromkeys((*PAUSES, *(word.strip().lower() for word in table.leave_out)), PAUSE)
+    words = {table.branch: BRANCHES | pauses} if table.branch else {}
     try:
-        found = read_columns(
-            path,
-            only=[name for _, name in wanted if name],
-            words={table.branch: BRANCHES | pauses} if table.branch else {},
-            whole=[table.cycle] if table.cycle else [],
-        )
+        named = [name for _, name in wanted if name]
+        found = read_columns(path, only=named, words=words, whole=[table.cycle] if table.cycle else [])
     except ColumnsError as error:
         raise LoopFileError("file", str(error)) from None
     for key, name in wanted:
@@ -78,12 +160,12 @@ def read_table(path: Path, table: DataTable) -> Raw:
             there = (*found.values, *found.others)
             raise LoopFileError(key, f"the file has no column {shown(name)}; {did_you_mean(name, there)}")
     columns = ((table.depths, depth), ("load", load))
-    rows = np.array([in_si(found, *one) for one in columns])
+    rows = np.array([_in_si(found, *one) for one in columns])
     if not depth.back:
         branch, cycle = (found.values[name] if name else None for name in (table.branch, table.cycle))
         return Raw(depth=rows[0], load=rows[1], branch=branch, cycle=cycle, sha256=found.sha256)
     backs = ((key, one.model_copy(update={"column": one.back})) for key, one in columns)
-    ways = [rows, np.array([in_si(found, *one) for one in backs])]
+    ways = [rows, np.array([_in_si(found, *one) for one in backs])]
     for back, points in enumerate(ways):  # unloading behind loading, in the order of a cycle; the shorter is padded
         points = points[:, ~np.isnan(points).all(axis=0)]
         falls = points.size > 0 and points[0, -1] < points[0, 0]
@@ -93,17 +175,10 @@ def read_table(path: Path, table: DataTable) -> Raw:
     return Raw(depth=both[0], load=both[1], branch=branch, sha256=found.sha256)
 
 
-def in_si(found: Columns, key: str, requested: ColumnTable) -> NDArray[np.float64]:
-    """
-    Give a column of loads or of depths in SI units, with its sign.
-
-    Raises
-    ------
-    LoopFileError
-        It has no unit, one of another dimension, or another one than the file says.
-    """
-    own = "load" if key == "load" else "indentation"
+def _in_si(found: Columns, key: str, requested: ColumnTable) -> NDArray[np.float64]:
+    """Give a column of loads or of depths in SI units, with its sign."""
     try:
+        own = "load" if key == "load" else "indentation"
         factor = factor_of_column(found, requested.column, own, requested.unit)
     except ColumnsError as error:
         raise LoopFileError(key, str(error)) from None

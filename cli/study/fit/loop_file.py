@@ -10,9 +10,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.study.fit.afm_file import is_force_file, read_force_file
-from gradhesion.cli.study.fit.columns import PAUSE, LoopFileError, Raw, read_table
-from gradhesion.cli.study.rules.form import DataTable
+from gradhesion.cli.study.fit.columns import PAUSE, LoopFileError, Raw, read_raw
+from gradhesion.cli.study.rules.fit_form import DataTable
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.loops.measured import points as loop_points
 from gradhesion.core.loops.measured.averaging import MOST, averaged
@@ -39,8 +38,6 @@ class LoopFile:
     """How many points of the file each is the mean of."""
     file: str = ""
     """The name of the file, from the folder of the study; behind # which of its loops this is."""
-    through_machine: bool = False
-    """Whether `depth` is the displacement of the machine."""
     sha256: str = ""
     dropped: int = 0
     """Rows without a number that were left out."""
@@ -62,71 +59,45 @@ class LoopFile:
         return int(self.counts.sum())
 
     @property
-    def is_averaged(self) -> bool:
-        """Whether its points are means of several."""
-        return self.points > self.depth.size
-
-    @property
     def notes(self) -> list[str]:
         """What was left out of it, and what was averaged."""
         if self.problem:
             return [f"{self.file}: {self.problem}"]
-        sentences = [
-            f"{self.file}: {counted(count, 'row')} {what} {'was' if count == 1 else 'were'} left out"
-            for count, what in ((self.dropped, "without a number"), (self.paused, "of pauses"))
-            if count
-        ]
-        if self.is_averaged:
-            points = counted(self.points, "point")
-            sentences.append(f"{self.file}: {points} averaged along the path; {self.depth.size:,} kept")
-        return sentences
+        sentences = []
+        for count, what in ((self.dropped, "without a number"), (self.paused, "of pauses")):
+            if count:
+                sentences.append(f"{counted(count, 'row')} {what} {'was' if count == 1 else 'were'} left out")
+        if self.points > self.depth.size:
+            sentences.append(f"{counted(self.points, 'point')} averaged along the path; {self.depth.size:,} kept")
+        return [f"{self.file}: {sentence}" for sentence in sentences]
 
 
 def read_loops(
     folder: Path, table: DataTable, fitted: list[str], *, average: bool, through_machine: bool
 ) -> tuple[tuple[LoopFile, ...], LoopFileError | None]:
     """
-    Read all loops of a study, sorted by the names of their files.
+    Read all loops of a study, sorted by the names of their files; and say why none of them can be fitted.
 
-    Parameters
-    ----------
-    folder
-        Where the files are looked for.
-    table
-        Which files, and their columns.
-    fitted
-        The names of what is fitted, for which there must be points enough.
-    average
-        Whether many points are averaged.
-    through_machine
-        Whether depths are displacements of a machine.
-
-    Returns
-    -------
-    The loops, of a table one, of an instrument's file perhaps several; and why none of them can be fitted. One of
-    several that cannot is kept with its problem.
+    There must be points enough for what is `fitted`; one of several loops that cannot be is kept with its problem. Many
+    points are averaged if `average`; depths are displacements of a machine if `through_machine`.
     """
-    names, how = _names_of(folder, table.file), {"average": average, "through_machine": through_machine}
+    names = _names_of(folder, table.file)
     if not names or len(names) > MOST_FILES:
         what = f"{len(names):,} files are more than {MOST_FILES:,}" if names else "no file matches this pattern"
-        remedy = 'write the path from the folder of the study, as "curves/*.csv"'
-        return (), LoopFileError("file", f"{what}; {remedy}")
+        return (), LoopFileError("file", f'{what}; write the path from the folder of the study, as "curves/*.csv"')
     loops: list[LoopFile] = []
-    first: LoopFileError | None = None
+    errors: list[LoopFileError] = []
     for name in names:
-        path = folder / name
         try:
-            force = is_force_file(table.model_copy(update={"file": path.name}))
-            raws = read_force_file(path, table, through_machine=through_machine) if force else [read_table(path, table)]
-            own = [_loop(raw, name, table, fitted, **how) for raw in raws]
+            raws = read_raw(folder / name, table, through_machine=through_machine)
+            loops += [_loop(raw, name, table, fitted, average=average) for raw in raws]
         except LoopFileError as error:
-            first = first or error
-            own = [LoopFile(file=name, problem=str(error), sha256=_digest(path))]
-        loops += own
-    if first and all(loop.problem for loop in loops):
+            errors.append(error)
+            loops.append(LoopFile(file=name, problem=str(error), sha256=_digest(folder / name)))
+    if errors and all(loop.problem for loop in loops):
         several = f" (and so with each of the {counted(len(loops), 'loop')})"
-        words = str(first) if len(loops) == 1 else f"{loops[0].file}: {first}{several}"
-        return tuple(loops), LoopFileError(first.key, words)
+        words = str(errors[0]) if len(loops) == 1 else f"{loops[0].file}: {errors[0]}{several}"
+        return tuple(loops), LoopFileError(errors[0].key, words)
     return tuple(loops), None
 
 
@@ -159,9 +130,7 @@ def fingerprint(loops: Iterable[LoopFile]) -> str:
     return hashlib.sha256("".join(f"{name} {sha256}\n" for name, sha256 in own.items()).encode()).hexdigest()
 
 
-def _loop(
-    raw: Raw, file: str, table: DataTable, fitted: list[str], *, average: bool, through_machine: bool
-) -> LoopFile:
+def _loop(raw: Raw, file: str, table: DataTable, fitted: list[str], *, average: bool) -> LoopFile:
     """Leave rows out, tell the branches, average, and refuse what is no loop."""
     branch = np.zeros(raw.depth.size) if raw.branch is None else raw.branch
     numbers = np.zeros(raw.depth.size) if raw.cycle is None else raw.cycle
@@ -176,9 +145,13 @@ def _loop(
     if raw.branch is not None:
         unloading = branch[use] == 1.0
         rank = np.ones(depth.size, np.int32) if rank is None else rank
-    else:
-        _refuse_order(depth, rank)
+    elif loop_points.has_order(depth, rank):
         unloading, rank = loop_points.ways(depth, rank)
+    else:
+        turns = int(loop_points.ways(depth)[1].max())
+        what = f"the order of the points does not tell the branches ({turns:,} turns of {depth.size:,} points)"
+        remedy = 'name a column that has them, branch = "branch", or sort the rows as they were measured'
+        raise LoopFileError("file", f"{what}; {remedy}")
     cycle = rank.astype(np.int64) if raw.cycle is None else cycle
     if table.which is not None:
         own = unloading == (table.which == "unloading")
@@ -187,15 +160,16 @@ def _loop(
         depth, load, unloading, rank, cycle = (row[own] for row in (depth, load, unloading, rank, cycle))
     found = noise_of(depth, load, unloading, rank)
     kept = averaged(depth, load, unloading, rank, found, most=MOST if average else depth.size)
-    first = dict(zip(rank.tolist(), cycle.tolist(), strict=True)) if kept.depth.size < depth.size else {}
+    if kept.depth.size < depth.size:
+        number_of = dict(zip(rank.tolist(), cycle.tolist(), strict=True))
+        cycle = np.array([number_of[one] for one in kept.cycle.tolist()], np.int64)
     loop = LoopFile(
         depth=kept.depth,
         load=kept.load,
         unloading=kept.unloading,
-        cycle=np.array([first[one] for one in kept.cycle.tolist()], np.int64) if first else cycle,
+        cycle=cycle,
         counts=kept.counts,
         file=f"{file}#{raw.of}" if raw.of else file,
-        through_machine=through_machine,
         sha256=raw.sha256,
         dropped=int(np.count_nonzero(~sound & ~paused)),
         paused=int(np.count_nonzero(paused)),
@@ -206,30 +180,20 @@ def _loop(
     return loop
 
 
-def _refuse_order(depth: NDArray[np.float64], cycle: NDArray[np.int32] | None) -> None:
-    """Refuse points whose order tells no branches."""
-    if not loop_points.has_order(depth, cycle):
-        turns = int(loop_points.ways(depth)[1].max())
-        what = f"the branches cannot be recognised from the order of the points ({turns:,} turns of the depth among "
-        remedy = 'name a column that has them, branch = "branch", or sort the rows as they were measured'
-        raise LoopFileError("file", f"{what}{depth.size:,} points); {remedy}")
-
-
 def _refuse_faults(loop: LoopFile, table: DataTable) -> None:
     """Refuse points without contact, and with a sign that is wrong."""
     fault = fault_of(loop.depth, loop.load, loop.noise[1] / np.sqrt(loop.counts), loop.unloading)
     depth = table.depths or "indentation"
     if fault == "straight":
-        words = "the load is linear in the depth within its noise: the data show no contact"
-        raise LoopFileError("load", f"{words}; name a file or a column that does")
+        raise LoopFileError("load", "the data show no contact, but a linear load; name another file or column")
     if fault == "depth":
-        words = "the load rises towards the shallowest points, so that the sign of the depth is wrong: it grows into "
-        raise LoopFileError(depth, f"{words}the half-space; write {_turned(depth, table)}")
+        words = "the load rises towards the shallowest points, but depth grows into the half-space: its sign is wrong"
+        raise LoopFileError(depth, f"{words}; write {_turned(depth, table)}")
     if fault:
-        where, more = ("deepest", "") if fault == "load" else ("shallowest", ", as is that of the depth")
-        words = f"the load falls towards the {where} points and is farthest from the base line there, so that its sign "
-        turned = " and ".join(_turned(key, table) for key in (("load", depth) if more else ("load",)))
-        raise LoopFileError("load", f"{words}is wrong{more}: positive loads press; write {turned}")
+        where, keys = ("deepest", ("load",)) if fault == "load" else ("shallowest", ("load", depth))
+        words = f"the load falls towards the {where} points, but positive loads press: its sign is wrong"
+        more = ", as is that of the depth" if len(keys) > 1 else ""
+        raise LoopFileError("load", f"{words}{more}; write {' and '.join(_turned(key, table) for key in keys)}")
 
 
 def _turned(key: str, table: DataTable) -> str:
@@ -249,5 +213,4 @@ def _refuse_few(loop: LoopFile, fitted: list[str]) -> None:
         raise LoopFileError("file", f"{words}; measure more points, or fix some")
     for row, values in (("depth", loop.depth), ("load", loop.load)):
         if np.ptp(values) == 0.0:
-            words = f"all values of the {row} are the same, so that there is no loop; name another column"
-            raise LoopFileError("file", words)
+            raise LoopFileError("file", f"all values of the {row} are the same; name another column")

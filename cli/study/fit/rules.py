@@ -2,12 +2,12 @@
 
 from typing import Any, Final
 
-from gradhesion.cli.study.fit.afm_file import is_force_file
+from gradhesion.cli.study.fit.columns import is_force_file
 from gradhesion.cli.study.rules.asked import Asked, Found, home
-from gradhesion.cli.study.rules.edge import rate, toughness, works
-from gradhesion.cli.study.rules.form import Form, Range
+from gradhesion.cli.study.rules.form import Form
+from gradhesion.cli.study.rules.inputs import SOFT, inputs, rate, together, toughness, waves, works
+from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import line_of, required
-from gradhesion.cli.study.rules.scenes import inputs, waves
 from gradhesion.core.problem.inputs import INPUTS
 
 LINEAR: Final = ("k", "nu", "indentation_max", "closing_ratio", "toughness_amplitude", "exponent")
@@ -18,6 +18,8 @@ ONE_NUMBER: Final = ("E_star", "E", "c0", "nu")
 """What acts on a loop through one number."""
 _SPEEDS: Final = ("speed", "reference_speed")
 """The speeds whose ratio counts."""
+_DEPTHS: Final = ("indentation", "displacement")
+"""The columns of depths, of the contact or of a machine."""
 
 
 def control_of(form: Form) -> str:
@@ -38,18 +40,21 @@ def broken(asked: Asked) -> Found:
     for table in ("data", "physical"):
         if table not in asked.data:
             yield table, required(table)
-    rules = (inputs, waves, _profile, _columns, _machine, works, toughness, rate, _searched)
-    for rule in rules if asked.right("kind") and "physical" in asked.data else ():
+    if not asked.right("kind") or "physical" not in asked.data:
+        return
+    yield from together(asked, "physical", "toughness")
+    for rule in (inputs, waves, _profile, _columns, _machine, works, toughness, rate, _searched):
         yield from rule(asked)
 
 
 def _profile(asked: Asked) -> Found:
     """Check that the punch is one that a loop is drawn of."""
     for name in ("file", "spectrum", "sha256", "terms", "up_to"):
-        if asked.has("profile", name):
-            words = "a fit needs harmonics; write the table that `gradhesion profile FILE.csv` prints instead"
-            several = "a spectrum draws many punches, and a loop belongs to one; give its harmonics"
-            yield f"profile.{name}", several if name == "spectrum" else words
+        if asked.has(f"profile.{name}"):
+            yield (
+                f"profile.{name}",
+                "a loop has one punch, given by harmonics; write those of `gradhesion profile FILE.csv`",
+            )
     if asked.form.profile.exponent == "fit":
         yield "profile.exponent", "there is no file to fit it to; write a number"
 
@@ -59,85 +64,63 @@ def _columns(asked: Asked) -> Found:
     data, noise = asked.form.data, asked.form.fit.noise
     if data is None:
         return
-    columns = [name for name in ("indentation", "displacement") if asked.has("data", name)]
-    alone = is_force_file(data) and not columns and not asked.has("data", "load")
+    columns = [name for name in _DEPTHS if asked.has(f"data.{name}")]
+    alone = is_force_file(data) and not columns and not asked.has("data.load")
     if not alone and not columns:
-        yield (
-            "data.indentation",
-            f"the column of the depths is required; write for example {line_of(('data', 'indentation'))}",
-        )
-    if not alone and not asked.has("data", "load"):
+        yield "data.indentation", required("data", "indentation")
+    if not alone and not asked.has("data.load"):
         yield "data.load", required("data", "load")
     if len(columns) == 2:
         yield "data.displacement", "indentation gives the depths already; remove one of the two"
-    if data.leave_out and not asked.has("data", "branch") and not alone:
-        yield (
-            "data.leave_out",
-            f"rows are left out by the words of a column; write for example {line_of(('data', 'branch'))}",
-        )
-    depth = columns[0] if columns else "displacement" if control_of(asked.form) == "machine" else "indentation"
-    if (
-        noise is not None
-        and (columns or alone)
-        and [name for name in ("indentation", "displacement") if getattr(noise, name)] != [depth]
-    ):
+    if data.leave_out and not asked.has("data.branch") and not alone:
+        yield "data.leave_out", f"rows are left out by the words of a column; write {line_of('data', 'branch')}"
+    depth = columns[0] if columns else _DEPTHS[control_of(asked.form) == "machine"]
+    if noise and (columns or alone) and [name for name in _DEPTHS if getattr(noise, name)] != [depth]:
         yield "fit.noise", f"the data have {depth}; give the noise of {depth} and of load, and of nothing else"
 
 
 def _machine(asked: Asked) -> Found:
     """Check that what drives the cycle is what the data have, and that a machine has its stiffness."""
     spring, control = "spring_constant", control_of(asked.form)
-    columns = [name for name in ("indentation", "displacement") if asked.has("data", name)]
-    if asked.has("loading", "machine_stiffness"):
-        words = "a ratio, where [physical] has units; give spring_constant there and remove it"
-        yield "loading.machine_stiffness", words
+    columns = [name for name in _DEPTHS if asked.has(f"data.{name}")]
+    if asked.has("loading.machine_stiffness"):
+        yield "loading.machine_stiffness", "a ratio; give spring_constant under [physical] instead"
     if len(columns) == 2 or not asked.right("loading.control"):
         return
-    if "loading" in asked.data and control == "machine" and columns == ["indentation"]:
-        words = "through a machine the data have its displacement; name that column displacement, or remove this"
-        yield "loading.control", words
-    elif "loading" in asked.data and control != "machine" and columns == ["displacement"]:
-        words = 'a displacement is that of a machine; write control = "machine", or name a column indentation'
-        yield "loading.control", words
+    if "loading" in asked.data and columns == [_DEPTHS[control != "machine"]]:
+        yield "loading.control", "a machine, and nothing else, has a column of its displacement; change one of the two"
     elif control == "machine" and not asked.given(spring):
-        words = f"the displacement of a machine is depth + load/stiffness; write for example {INPUTS[spring].example}"
-        yield home(spring), f"{words}, or a range that is searched"
+        yield home(spring), f"a machine has a stiffness, or a range of it; write for example {INPUTS[spring].example}"
     elif control != "machine" and asked.given(spring):
-        words = "the data have depths, on which a machine has no effect; remove it, or name a column displacement"
-        yield home(spring), words
+        yield home(spring), "a machine has no effect on depths; remove it, or name a column displacement"
 
 
 def _searched(asked: Asked) -> Found:
     """Check that something is searched, within sensible ends, and that a loop can tell it apart."""
     given = given_in(asked.form)
     for name, entry in given.items():
-        at = home(name) if name in INPUTS else f"rate.{name}"
-        table, _, key = at.partition(".")
+        table, key = (INPUTS[name].table, name) if name in INPUTS else ("rate", name)
+        at = f"{table}.{key}"
         if isinstance(entry, list):
-            words = "a fit has no axes: a number is fixed, a range { start, stop } is searched; write one of them"
-            yield at, words
-        elif isinstance(entry, Range):
-            if {*asked.data[table][key]} != {"start", "stop"}:
-                yield at, "a searched range has start and stop, and nothing else; remove the other keys"
-            elif name in NUMBER_ALONE:
-                yield at, f"no loop depends on it; give it as a number, {INPUTS[name].example}"
-            elif entry.start >= entry.stop:
-                words = "the stop of a searched range is above its start; exchange the two, or give a number"
-                yield at, words
-            elif entry.start <= 0.0 and name not in LINEAR:
-                yield at, "it is searched on a logarithmic scale; begin the range above 0"
+            yield at, "a fit has no axes: write a number, which is fixed, or a range { start, stop }, which is searched"
+        elif not isinstance(entry, Range):
+            continue
+        elif {*asked.data[table][key]} != {"start", "stop"}:
+            yield at, "a searched range has start and stop, and nothing else; remove the other keys"
+        elif name in NUMBER_ALONE:
+            yield at, f"no loop depends on it; give it as a number, {INPUTS[name].example}"
+        elif entry.start >= entry.stop:
+            yield at, "the stop of a searched range is above its start; exchange the two, or give a number"
+        elif entry.start <= 0.0 and name not in LINEAR:
+            yield at, "it is searched on a logarithmic scale; begin the range above 0"
     free = [name for name, entry in given.items() if isinstance(entry, Range)]
     if not free and asked.right("parameters", "physical"):
-        words = "no parameter is fitted; give a range to one, as "
-        yield "physical", words + 'E_star = { start = "0.1 GPa", stop = "10 GPa" }'
-    stiff = [name for name in free if name in ONE_NUMBER]
-    for name in stiff[1:]:
-        words = f"a loop cannot determine both {stiff[0]} and {name}: it depends on E_star, c0 and nu through one "
-        yield home(name), words + "number; give all but one of them as numbers"
+        yield "physical", 'nothing is fitted; write for example E_star = { start = "0.1 GPa", stop = "10 GPa" }'
+    first, *others = [name for name in free if name in ONE_NUMBER] or [""]
+    for name in others:
+        yield home(name), f"a loop cannot tell {first} and {name} apart, which act through one number; fix one"
     if {*_SPEEDS} <= {*free}:
-        words = "a loop depends on the ratio of the two speeds alone; give one of them as a number"
-        yield home(_SPEEDS[1]), words
+        yield home(_SPEEDS[1]), "a loop depends on the ratio of the two speeds alone; give one of them as a number"
     k = given.get("k")
     if (k.stop if isinstance(k, Range) else k) == 1.0 and given.get("nu") != 0.5:
-        words = "with k = 1 and nu other than 0.5 the surface has no stiffness; use nu = 0.5, or stay below 1"
-        yield "parameters.k", words
+        yield "parameters.k", SOFT

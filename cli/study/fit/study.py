@@ -3,14 +3,14 @@
 import hashlib
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from gradhesion.cli.study.fit.loop_file import LoopFile, fingerprint, read_loops
 from gradhesion.cli.study.fit.rules import NUMBER_ALONE, control_of, given_in
 from gradhesion.cli.study.rules.asked import Asked
-from gradhesion.cli.study.rules.form import Range
+from gradhesion.cli.study.rules.form import Form
+from gradhesion.cli.study.rules.inputs import shape_of
+from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import Mistake
-from gradhesion.cli.study.rules.scenes import shape_of
 from gradhesion.cli.study.text.source import Source
 from gradhesion.cli.study.text.written import toml_of, with_fingerprint
 from gradhesion.cli.tables.columns import changed
@@ -105,50 +105,56 @@ class FitStudy:
         for loop in self.loops:
             sentences += loop.notes
             if not self.noise_is_given and not loop.problem:
-                noise = "{:.3g} nm, {:.3g} nN".format(*(1e9 * one for one in loop.noise))
-                words = f"{loop.file}: noise estimated from differences of neighbours: {noise}"
+                depth, load = (1e9 * one for one in loop.noise)
+                words = f"{loop.file}: noise estimated from differences of neighbours: {depth:.3g} nm, {load:.3g} nN"
                 sentences.append(f"{words}; give it under [fit] where it is known")
         return tuple(sentences)
 
 
-def fit_from(source: Source, asked: Asked) -> FitStudy | Mistake:
-    """Read the loops of a fit whose keys are right; a mistake where there is none to be fitted."""
-    form = asked.form
-    table, noise, given, control = form.data, form.fit.noise, given_in(form), control_of(form)
-    assert table is not None  # noqa: S101 (the rules ask for it)
+def loops_of(folder: Path, asked: Asked) -> tuple[tuple[LoopFile, ...], list[Mistake]]:
+    """Read the loops that a fit names in its table [data], which is right; and what is wrong with them."""
+    table, form = asked.form.data, asked.form
+    assert table is not None  # noqa: S101 (it is right)
+    fitted = [name for name, entry in given_in(form).items() if isinstance(entry, Range)]
+    fitted += Offsets(**dict(form.fit.offsets)).names
+    through_machine = control_of(form) == "machine"
+    loops, error = read_loops(folder, table, fitted, average=form.fit.average, through_machine=through_machine)
+    if error:
+        return loops, [Mistake(("data", error.key), asked.at(("data", error.key)), str(error))]
+    sha256 = fingerprint(loops)
+    if table.sha256 in ("", sha256):
+        return loops, []
+    several = table.file not in {loop.file.partition("#")[0] for loop in loops}
+    words = changed(sha256, table.sha256, "remove sha256", several=several)
+    return loops, [Mistake(("data", "file"), table.file, words)]
+
+
+def fit_of(source: Source, form: Form, loops: tuple[LoopFile, ...]) -> FitStudy:
+    """Make the study of a fit from a form that is right, and its loops."""
+    noise, given = form.fit.noise, given_in(form)
     free = {name: (entry.start, entry.stop) for name, entry in given.items() if isinstance(entry, Range)}
     fixed = {name: float(entry) for name, entry in given.items() if isinstance(entry, int | float)}
-    offsets = Offsets(**dict(form.fit.offsets))
-    own = {"average": form.fit.average, "through_machine": control == "machine"}
-    loops, error = read_loops(source.folder, table, [*free, *offsets.names], **own)
-    sha256 = fingerprint(loops) if loops else ""
-    if error:
-        return Mistake(("data", error.key), asked.at(("data", error.key)), str(error))
-    if table.sha256 and table.sha256 != sha256:
-        several = table.file not in {loop.file.partition("#")[0] for loop in loops}
-        return Mistake(("data", "file"), table.file, changed(sha256, table.sha256, "remove sha256", several=several))
-    data, text = with_fingerprint(source.data, source.text, ("data",), sha256)
     exponent = fixed.pop("exponent", 0.0) or sum(free.get("exponent", ())) / 2.0
-    made: dict[str, Any] = {"rate": form.rate.made(exponent=exponent)} if form.rate else {}
+    data, text = with_fingerprint(source.data, source.text, ("data",), fingerprint(loops))
     return FitStudy(
         name=source.name,
         title=form.title or source.name,
         text=text or toml_of(data),
-        file=table.file,
+        file=data["data"]["file"],
         loops=loops,
         fixed={name: value for name, value in fixed.items() if name not in NUMBER_ALONE},
         free=free,
-        offsets=offsets,
+        offsets=Offsets(**dict(form.fit.offsets)),
         average=form.fit.average,
         given_noise=None if noise is None else (noise.indentation or noise.displacement or 0.0, noise.load),
         intervals=form.fit.intervals,
         starts=form.fit.starts,
         profile=shape_of(form.profile),
-        loading=Loading(control=control),
+        loading=Loading(control=control_of(form)),
         toughness=form.toughness.made() if form.toughness else None,
+        rate=form.rate.made(exponent=exponent) if form.rate else None,
         adhesion_range=fixed.get("adhesion_range"),
         folder=source.folder,
-        **made,
     )
 
 

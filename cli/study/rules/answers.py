@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from gradhesion.cli.names.outputs import OF_LINEAR, SI, SPREAD, SPREADABLE
+from gradhesion.cli.names.outputs import OF_LINEAR, SI
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,16 +88,3 @@ class Uncertainty:
     def __bool__(self) -> bool:
         """Report whether anything is uncertain."""
         return bool(self.deviations)
-
-    def linear(self, outputs: tuple[str, ...], *, exact: bool) -> tuple[str, ...]:
-        """Name the outputs whose deviation is known by sensitivities."""
-        return tuple(name for name in outputs if name in OF_LINEAR) if self and exact else ()
-
-    def spreads(self, outputs: tuple[str, ...], *, exact: bool) -> tuple[str, ...]:
-        """Name the variables that a dataset has beside its outputs."""
-        linear = self.linear(outputs, exact=exact)
-        if not self.samples:
-            return tuple(f"{name}_std" for name in linear)
-        known = [name for name in outputs if self and name in SPREADABLE]
-        ways = {name: [way for way in SPREAD if way != "std_linear" or name in linear] for name in known}
-        return tuple(f"{name}_{way}" for name in known for way in ways[name])

@@ -9,14 +9,12 @@ from typing import Any, Final
 import numpy as np
 from pydantic import ValidationError
 
-from gradhesion.cli.names import curves
 from gradhesion.cli.study.rules.axes import Values
 from gradhesion.cli.study.rules.form import KINDS, Form
 from gradhesion.cli.study.rules.mistakes import Mistake, mistakes_of
-from gradhesion.cli.study.text.places import Path, dotted
+from gradhesion.cli.study.text.written import Path, dotted, steps_of
 from gradhesion.cli.terminal.wording import nearest
 from gradhesion.core.problem.inputs import INPUTS
-from gradhesion.core.problem.outputs import CURVES
 
 Found = Iterator[tuple[str, str]]
 """Dotted keys, and what is wrong with each."""
@@ -71,17 +69,12 @@ class Asked:
     @property
     def lists_solvers(self) -> bool:
         """Whether there is a list of solvers, which stand side by side."""
-        return self.has("method", "solver") and isinstance(self.data["method"]["solver"], list)
+        return isinstance(self.at(("method", "solver")), list)
 
     @property
     def axes(self) -> dict[str, Values]:
         """The values of the inputs that are not searched."""
         return {name: values for name, values in self.values.items() if name not in self.over}
-
-    def has(self, table: str, key: str) -> bool:
-        """Report whether a key is there, right or wrong."""
-        own = self.data.get(table)
-        return isinstance(own, Mapping) and key in own
 
     def at(self, path: Path) -> Any:
         """Give what is written at a key; None if it is not there."""
@@ -91,14 +84,18 @@ class Asked:
             value = value[step] if inside else value.get(step) if isinstance(value, Mapping) else None
         return value
 
+    def has(self, key: str) -> bool:
+        """Report whether a key is there, right or wrong."""
+        return self.at(steps_of(key)) is not None
+
     def given(self, *names: str) -> list[str]:
         """List those of some inputs that are there, right or wrong."""
-        return [name for name in names if self.has(INPUTS[name].table, name)]
+        return [name for name in names if self.has(home(name))]
 
     def meant(self, *names: str) -> bool:
         """Report whether one of some inputs is there, perhaps misspelt or in the wrong table."""
         there = {mistake.meant for mistake in self.mistakes}
-        return bool(self.given(*names)) or any((INPUTS[name].table, name) in there for name in names)
+        return bool(self.given(*names)) or any(steps_of(home(name)) in there for name in names)
 
     def of(self, group: str) -> list[str]:
         """List the inputs of a group that are there."""
@@ -121,8 +118,7 @@ class Asked:
     @property
     def turns(self) -> list[str]:
         """What gives where cycles turn before the rim; a fit turns where its data do."""
-        own = self.of("turn")
-        return own or (["indentation_max"] if self.kind == "fit" and self.units else [])
+        return self.of("turn") or (["indentation_max"] if self.kind == "fit" and self.units else [])
 
     @property
     def ends(self) -> bool:
@@ -178,8 +174,3 @@ def foreign_to(kind: str) -> dict[str, str]:
 def home(name: str) -> str:
     """Write an input with its table."""
     return f"{INPUTS[name].table}.{name}"
-
-
-def curve_of(name: str) -> str:
-    """Name the curve that an output is, or is a variable of; empty for another."""
-    return name if name in CURVES else curves.curve_of(name) or ""

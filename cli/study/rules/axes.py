@@ -6,7 +6,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.study.rules.form import Entry, Range
+from gradhesion.cli.study.rules.form import Entry
+from gradhesion.cli.study.rules.keys import Range
 from gradhesion.core.problem.inputs import INPUTS
 
 Values = float | NDArray[np.float64]
@@ -26,15 +27,17 @@ def expanded(entry: Entry) -> Values:
     >>> expanded(Range(start=0.01, stop=1.0, num=3, spacing="log"))
     array([0.01, 0.1 , 1.  ])
     """
-    if isinstance(entry, Range):
-        if entry.num is None:  # searched
-            return np.array([entry.start, entry.stop]) + 0.0
-        values = (np.geomspace if entry.spacing == "log" else np.linspace)(entry.start, entry.stop, entry.num)
-        values = _shortest(values, np.abs(values) if entry.spacing == "log" else max(abs(entry.start), abs(entry.stop)))
-        values = np.clip(values, min(entry.start, entry.stop), max(entry.start, entry.stop))
-        values[0], values[-1] = entry.start, entry.stop
-        return np.asarray(values + 0.0)  # no negative zeros
-    return np.array(entry, dtype=np.float64) + 0.0 if isinstance(entry, list) else float(entry) + 0.0
+    if not isinstance(entry, Range):
+        return np.array(entry, dtype=np.float64) + 0.0 if isinstance(entry, list) else float(entry) + 0.0
+    ends = np.array([entry.start, entry.stop]) + 0.0  # no negative zeros
+    if entry.num is None:  # searched
+        return ends
+    spaced = np.geomspace if entry.spacing == "log" else np.linspace
+    values = spaced(ends[0], ends[1], entry.num)
+    values = _shortest(values, np.abs(values) if entry.spacing == "log" else np.abs(ends).max())
+    values = np.clip(values, ends.min(), ends.max())
+    values[0], values[-1] = ends
+    return np.asarray(values + 0.0)
 
 
 def _shortest(values: NDArray[np.float64], size: NDArray[np.float64] | float) -> NDArray[np.float64]:
@@ -62,27 +65,25 @@ def range_mistakes(name: str, entry: Entry, *, searched: bool) -> Iterator[tuple
         yield at, f"more than {MOST_VALUES:,} values in one list; split the study"
     if not isinstance(entry, Range):
         return
-    start, stop = entry.start, entry.stop
     if entry.num is None and not searched:
         yield f"{at}.num", "this key is required; write for example num = 50"
     elif entry.num and entry.num > MOST_VALUES:
         yield f"{at}.num", f"more than {MOST_VALUES:,} values in one axis; split the study"
-    elif entry.num == 1 and start != stop:
+    elif entry.num == 1 and entry.start != entry.stop:
         yield f"{at}.num", "one value cannot be at both start and stop; use num = 2 or more, or a list of one value"
-    elif start == stop and entry.num != 1 and not searched:
-        yield at, f"start and stop are the same, so that the value repeats; write [{start:g}] or another stop"
-    elif entry.spacing == "log" and min(start, stop) <= 0.0:
-        end = "start" if start <= 0.0 else "stop"
+    elif entry.start == entry.stop and entry.num != 1 and not searched:
+        yield at, "start and stop are the same, so that the value repeats; write a list of one value or another stop"
+    elif entry.spacing == "log" and min(entry.start, entry.stop) <= 0.0:
+        end = "start" if entry.start <= 0.0 else "stop"
         yield f"{at}.{end}", 'log spacing needs values > 0; raise it, or use spacing = "linear"'
 
 
 def repeated(name: str, values: Values) -> Iterator[tuple[str, str]]:
     """Check that an axis has no value twice."""
-    if isinstance(values, np.ndarray):
-        unique, counts = np.unique(values, return_counts=True)
-        if np.any(counts > 1):
-            value = float(unique[np.argmax(counts > 1)])
-            first, second = np.flatnonzero(values == value)[:2].tolist()
-            unit = "" if INPUTS[name].unit == "1" else f" {INPUTS[name].unit}"
-            words = f"the axis repeats the value {value!r}{unit} (items {first} and {second}); remove one"
-            yield f"{INPUTS[name].table}.{name}", words
+    unique, counts = np.unique(np.atleast_1d(values), return_counts=True)
+    if counts.max(initial=1) > 1:
+        value = float(unique[counts.argmax()])
+        first, second, *_ = np.flatnonzero(values == value).tolist()
+        unit = "" if INPUTS[name].unit == "1" else f" {INPUTS[name].unit}"
+        words = f"the axis repeats the value {value!r}{unit} (items {first} and {second}); remove one"
+        yield f"{INPUTS[name].table}.{name}", words

@@ -9,7 +9,7 @@ from gradhesion.cli.names.outputs import OF_LINEAR, SI, SPREADABLE
 from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.rules.asked import Asked, Found, home
 from gradhesion.cli.study.rules.form import Optimum
-from gradhesion.cli.study.rules.mistakes import line_of
+from gradhesion.cli.study.rules.mistakes import line_of, required
 from gradhesion.cli.terminal.wording import did_you_mean, nearest, shown
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.names import SENSITIVITIES
@@ -32,10 +32,8 @@ def uncertain(asked: Asked) -> Found:
     for name, one in own.items():
         at, values = f"uncertainty.{name}", np.atleast_1d(asked.values.get(name, 1.0))
         if not asked.meant(name):
-            kin = next((other for other in form.entries if INPUTS[other].gives == INPUTS[name].gives), "")
-            near = kin or nearest(name, [*form.entries])
-            remedy = f'use "{near}"' if near else f"name one that it gives, {', '.join(form.entries)}"
-            yield at, f"the study gives no {name} that could be uncertain; {remedy}, or remove this key"
+            kin = next((other for other in form.entries if INPUTS[other].gives == INPUTS[name].gives), name)
+            yield at, f"the study gives no {name}; {did_you_mean(kin, [*form.entries])}, or remove this key"
         elif name in asked.values:
             if one.relative and np.any(values == 0.0):
                 yield at, f"{name} is 0 in some scene, and a percentage of 0 is 0; give a number instead"
@@ -43,16 +41,14 @@ def uncertain(asked: Asked) -> Found:
                 yield at, f"{name} is inf in some scene, which has no deviation; use finite values, or remove this key"
             if one.uniform and np.any((values < one.low) | (values > one.high)):
                 yield at, f'some scene has {name} outside of it; widen it, or give a standard deviation such as "5 %"'
-    if form.profile.spectrum and {*form.outputs} & {*OF_LINEAR}:
-        words = "standard deviations apply to one punch, but a spectrum draws many; remove [uncertainty]"
-        yield "uncertainty", words
-    spread = {*form.outputs} & {*SPREADABLE}
-    linear = spread & {*OF_LINEAR} if form.method.solver == ["exact"] and form.rate is None else ()
+    spread, linear = {*form.outputs} & {*SPREADABLE}, {*form.outputs} & {*OF_LINEAR}
+    if form.profile.spectrum and linear:
+        yield "uncertainty", "a spectrum draws many punches, and deviations are of one; remove one of the two"
+    known = linear and form.method.solver == ["exact"] and form.rate is None
     if own and form.outputs and not spread:
         yield "outputs", f"none of these has a spread; add for example {', '.join(map(shown, OF_LINEAR))}"
-    if own and spread and not table.samples and not linear and asked.right("outputs", "uncertainty.samples"):
-        words = "no sensitivity of the outputs is known, so that their spread needs samples; write samples = 1024"
-        yield "uncertainty.samples", f"{words} under [uncertainty]"
+    if own and spread and not table.samples and not known and asked.right("outputs", "uncertainty.samples"):
+        yield "uncertainty.samples", "without sensitivities of the outputs it needs samples; write samples = 1024"
 
 
 def search(asked: Asked) -> Found:
@@ -60,7 +56,7 @@ def search(asked: Asked) -> Found:
     table, method = asked.form.optimum, asked.form.method
     if asked.kind != "optimum" or table is None:
         if asked.kind == "optimum" and "optimum" not in asked.data:
-            yield "optimum", f"this table is required; write for example {line_of(('optimum',))}"
+            yield "optimum", required("optimum")
         return
     yield from _goals(asked, table.goals)
     if asked.right("optimum.over"):
@@ -73,18 +69,17 @@ def search(asked: Asked) -> Found:
             elif word == "maximum" and table.require.minimum.get(name, value) > value:
                 yield f"optimum.require.maximum.{name}", "the maximum is below the minimum; exchange the two"
     if table.require.one_disc and (method.solver != ["exact"] or not method.check_contact):
-        words = 'this needs solver = "exact" and check_contact = true; change [method], or remove this key'
-        yield "optimum.require.one_disc", words
+        yield "optimum.require.one_disc", "this needs the exact solver and check_contact = true; change [method]"
     if asked.lists_solvers:
         yield "method.solver", "an optimum has one solver; choose one of these"
 
 
 def _goals(asked: Asked, goals: list[tuple[str, str]]) -> Found:
     """Check that one goal or two are named, each an output with one value a scene."""
-    right = asked.right("optimum.maximise", "optimum.minimise")
+    ways = ("optimum.maximise", "optimum.minimise")
     meant = {("optimum", "maximise"), ("optimum", "minimise")} & {mistake.meant for mistake in asked.mistakes}
-    if not goals and right and not meant:
-        yield "optimum.maximise", f"there is no goal; write for example {line_of(('optimum', 'maximise'))}"
+    if not goals and asked.right(*ways) and not meant:
+        yield ways[0], f"there is no goal; write for example {line_of('optimum', 'maximise')}"
     if len(goals) > 2:
         yield f"optimum.{goals[2][0]}", "at most two goals are possible; remove the others"
     known = [*SPREADABLE, "contact_slope", *(name + SI for name in SPREADABLE if name in UNITS and asked.units)]
@@ -92,18 +87,15 @@ def _goals(asked: Asked, goals: list[tuple[str, str]]) -> Found:
         if name in [other for _, other in goals[:i]]:
             yield f"optimum.{way}", f"{shown(name)} is named twice; remove one of the two"
         elif name not in known:
-            counts = name in OUTPUTS and OUTPUTS[name].is_count
-            words = "a count changes in steps and has no optimum; " if counts else ""
-            yield f"optimum.{way}", f"{shown(name)} cannot be a goal; {words}{did_you_mean(name, known)}"
+            yield f"optimum.{way}", f"{shown(name)} cannot be a goal (counts cannot); {did_you_mean(name, known)}"
 
 
 def _over(asked: Asked, table: Optimum) -> Found:
     """Check that all that is searched has bounds, and that the other axes have values."""
     if not table.over:
-        yield "optimum.over", f"no input is searched; write for example {line_of(('optimum', 'over'))}"
+        yield "optimum.over", f"no input is searched; write for example {line_of('optimum', 'over')}"
     for i, name in enumerate(table.over):
-        at, own = f"optimum.over[{i}]", asked.data.get(INPUTS[name].table) if name in INPUTS else None
-        entry = own.get(name) if isinstance(own, Mapping) else None
+        at, entry = f"optimum.over[{i}]", asked.at((INPUTS[name].table, name)) if name in INPUTS else None
         if name in table.over[:i]:
             yield at, "this input is named twice; remove one of the two"
         elif entry is None and not (name in INPUTS and asked.meant(name)):
@@ -111,17 +103,14 @@ def _over(asked: Asked, table: Optimum) -> Found:
             remedy = f'did you mean "{near}"?' if near else f"add {name} = {{ start = .., stop = .. }}"
             yield at, f"the study gives no {name} to search; {remedy}"
         elif entry is not None and (not isinstance(entry, Mapping) or "num" in entry):
-            words = f"a searched input has bounds without num, not {home(name)} = {shown(entry)}"
-            yield at, f"{words}; write {name} = {{ start = .., stop = .. }}, or remove it here"
+            yield at, f"a searched input has two bounds; write {home(name)} = {{ start = .., stop = .. }}, without num"
         elif name in asked.values and np.ptp(np.asarray(asked.values[name])) == 0.0:
             yield home(name), "the bounds are the same; write another stop, or a number"
     if len(table.over) > MOST_SEARCHED:
         yield "optimum.over", f"at most {MOST_SEARCHED} inputs are searched at once; fix the others"
     elif (2 * table.resolution - 1) ** len(table.over) > MOST_POINTS:
         most = int(0.5 * (1 + MOST_POINTS ** (1.0 / len(table.over))))
-        words = f"a sweep over {len(table.over)} inputs has a resolution of at most {most}; use that or less"
-        yield "optimum.resolution", words
+        yield "optimum.resolution", f"with {len(table.over)} searched inputs it is at most {most}; use that or less"
     for name, values in asked.axes.items():
         if not asked.points and isinstance(values, np.ndarray) and values.size == 1:
-            words = f"an axis of one value cannot be combined with searched inputs; write {name} = {values[0]!s}"
-            yield home(name), words
+            yield home(name), f"beside searched inputs an axis has several values; write {name} = {values[0]!s}"

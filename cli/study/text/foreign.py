@@ -85,16 +85,9 @@ def _text(unit: Any) -> str:
 
 def as_written(value: Any, path: tuple[str, ...] = (), *, bare: bool = True) -> Any:
     """
-    Turn a value made in Python into what TOML would give: quantities are texts, as "25 um".
+    Turn a value made in Python into what TOML would give: quantities are texts, as "25 um"; all else stays as it is.
 
-    Parameters
-    ----------
-    value
-        A number, a text, a quantity, an array of some, or lists and mappings of them; all else stays as it is.
-    path
-        The keys of a study that lead to it.
-    bare
-        Whether quantities without a dimension become numbers.
+    `path` has the keys of a study that lead to it; quantities without a dimension become numbers if `bare`.
 
     >>> as_written({"A": np.float64(0.1), "k": (0.0, np.array([0.5]))})
     {'A': 0.1, 'k': [0.0, [0.5]]}

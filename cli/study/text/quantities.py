@@ -50,12 +50,7 @@ _POWER: Final = re.compile(r"([^\W\d_])([+-]?\d)")
 
 def si_value(value: object, name: str) -> float:
     """
-    Give a quantity of [physical] in its unit in SI; an infinite one needs no unit.
-
-    Raises
-    ------
-    ValueError
-        It is no number with a unit of the right dimension, or out of range; the message says what to write.
+    Give a quantity in its unit in SI; an infinite one needs no unit. ValueError says what to write instead.
 
     >>> si_value("1 um", "R"), si_value("20 mJ/m^2", "work_of_adhesion"), si_value("20 mN m-1", "work_of_adhesion")
     (1e-06, 0.02, 0.02)
@@ -70,9 +65,8 @@ def si_value(value: object, name: str) -> float:
         raise ValueError(f"{comma}; {_expected(name)}")
     result = float(Decimal(number) * (factor_of(written, name) if written else 1)) + 0.0
     if not key.admits(result):
-        allowed = f"{WORDS[key.unit]} with {key.allowed}" if key.bounds else f"{WORDS[key.unit]} that is finite"
         unpressed = '; for a turn at zero depth write indentation_max = "0 nm"' if name == "preload" else ""
-        raise ValueError(f"out of range; choose {allowed}{unpressed}")
+        raise ValueError(f"out of range; choose {WORDS[key.unit]} with {key.allowed}{unpressed}")
     return result
 
 
@@ -101,28 +95,23 @@ def _comma_in(text: str) -> str:
 
 def ratio_sentence(text: str, name: str) -> str:
     """Say that a quantity, or a number with a comma, stands where a ratio is expected; nothing if it is neither."""
-    written = _parts_of(text)[1]
     if comma := _comma_in(text):
         return f"{comma}, without quotes"
+    written = _parts_of(text)[1]
     return f'"{written}" is not a unit of this quantity; {_expected(name)}' if written else ""
 
 
 def _expected(name: str) -> str:
     """Say what is expected of a key, and under which other one a quantity would stand."""
     key = QUANTITIES[name]
-    sentence = f"{WORDS[key.unit]} is expected; write for example {key.example}"
     others = [one for one in PHYSICAL.values() if key.unit == "1" and one.gives == name]
-    return f"{sentence}, or give {others[0].name} in {others[0].unit}" if len(others) == 1 else sentence
+    instead = f", or give {others[0].name} in {others[0].unit}" if len(others) == 1 else ""
+    return f"{WORDS[key.unit]} is expected; write for example {key.example}{instead}"
 
 
 def in_si(numbers: NDArray[Any], written: str, name: str) -> NDArray[np.float64]:
     """
-    Give numbers in some unit in that of a key in a dataset, of which a ratio has none; their range is not checked.
-
-    Raises
-    ------
-    ValueError
-        The unit is not known, or has another dimension; the message says what to write.
+    Give numbers in some unit in that of a key, of which a ratio has none; their range is not checked.
 
     >>> in_si(np.array([1.0, 25.0]), "um", "R"), in_si(np.array([5.0]), "percent", "A")
     (array([1.0e-06, 2.5e-05]), array([0.05]))
@@ -132,32 +121,22 @@ def in_si(numbers: NDArray[Any], written: str, name: str) -> NDArray[np.float64]
 
 
 def factor_of(written: str, name: str) -> Decimal:
-    """
-    Report how many of the unit of a key another unit is.
-
-    Raises
-    ------
-    ValueError
-        It is not known, or has another dimension; the message says what to write.
-    """
+    """Report how many of the unit of a key another unit is; ValueError where it is unknown or of another dimension."""
     factor = factor_between(written, QUANTITIES[name].unit)
-    if not factor:
-        like = [usual for usual in _USUAL if usual.lower() == written.lower() and usual != written]
-        meant = f', did you mean "{like[0]}"?' if like else ""
-        unknown = f'the unit "{written}" is not known{meant}'
-        problem = unknown if factor is None else f'"{written}" is not a unit of this quantity{meant}'
-        raise ValueError(f"{problem}; {_expected(name)}")
-    return factor
+    if factor:
+        return factor
+    meant = next(
+        (f', did you mean "{one}"?' for one in _USUAL if one.lower() == written.lower() and one != written), ""
+    )
+    problem = f'the unit "{written}" is not known' if factor is None else f'"{written}" is not a unit of this quantity'
+    raise ValueError(f"{problem}{meant}; {_expected(name)}")
 
 
 def factor_of_column(found: Columns, name: str, key: str, written: str = "") -> Decimal:
     """
     Report how many of the unit of a key the unit of a column is: the one written in a study, or in the file.
 
-    Raises
-    ------
-    ColumnsError
-        There is none, it has another dimension, or the two differ; the message says what to write.
+    ColumnsError where there is none, it has another dimension, or the two differ.
     """
     of_file, own = found.units.get(name, ""), QUANTITIES[key].unit
     unit = written or of_file or (own if own == "1" else "")

@@ -12,9 +12,10 @@ from typing import Any, Final
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.files import kind_of
-from gradhesion.cli.study.text import places
-from gradhesion.cli.study.text.fitted import fitted_value
-from gradhesion.cli.terminal.wording import shown
+from gradhesion.cli.study.text.written import Path as Key
+from gradhesion.cli.study.text.written import lines_of
+from gradhesion.cli.terminal.wording import did_you_mean, shown
+from gradhesion.core.problem.status import ANOTHER_MINIMUM, FAILED, POOR_FIT
 
 MOST_BYTES: Final = 2**28
 """The longest study that is read: far above any that is meant as one."""
@@ -24,7 +25,9 @@ DEEP: Final = f"nested more than {_DEEPEST} deep; remove some levels"
 _DOTS: Final = re.compile(r"(?:[\w\"'-]+\s*\.\s*){100}")
 """A key far too deep: the parser takes a time that grows with the square of its length."""
 _COMMA: Final = re.compile(r"=\s*([+-]?\d+),(\d+)")
-_Lines = Callable[[], Mapping[places.Path, str]]
+_AT: Final = re.compile(r" ?\(at (?:line (\d+), column (\d+)|end of document)\)")
+"""Where the parser has found a mistake."""
+_Lines = Callable[[], Mapping[Key, str]]
 """Finds the file and the line of each key."""
 
 
@@ -36,7 +39,7 @@ class Source:
     data: dict[str, Any]
     text: str
     """The text that gives just this data, or nothing if there is none."""
-    place: Callable[[places.Path], str]
+    place: Callable[[Key], str]
     """Tells where a key comes from."""
     mistakes: tuple[str, ...] = ()
     """What was wrong with the overrides."""
@@ -45,16 +48,9 @@ class Source:
 
 
 def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) -> Source:
-    """
-    Read a study file and set what is overridden.
-
-    Raises
-    ------
-    StudyError
-        The file cannot be read, or is not TOML.
-    """
+    """Read a study file of at most so many bytes, and set what is overridden; StudyError where it is no TOML."""
     data, lines, text = _read(path, most, ())
-    sources: dict[places.Path, str] = {}
+    sources: dict[Key, str] = {}
     mistakes = []
     for override in overrides:
         try:
@@ -62,7 +58,7 @@ def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) ->
         except ValueError as error:
             mistakes.append(f"--set {override}: {error}")
 
-    def place(key: places.Path) -> str:
+    def place(key: Key) -> str:
         above = [key[:depth] for depth in range(len(key), 0, -1)]
         found = next((lines()[steps] for steps in above if steps in lines()), "")
         made = next((steps for steps in above if steps in sources), None)
@@ -83,17 +79,16 @@ def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) ->
 def _read(path: Path, most: int, above: tuple[Path, ...]) -> tuple[dict[str, Any], _Lines, str]:
     """Read the keys of a file and of what it includes, their places, and a text of just these keys if there is one."""
     text = _text(path, most)
-    deep = f"{path}: not a study, tables or lists are {DEEP}"
     try:
-        data = {} if _DOTS.search(text) else tomllib.loads(text)
+        data = None if _DOTS.search(text) else tomllib.loads(text)
     except RecursionError:
-        raise StudyError(deep) from None
+        data = None
     except ValueError as error:
         _check_kind(path)
         raise StudyError(_syntax_sentence(path, text, str(error))) from None
-    if _DOTS.search(text) or is_deep(data):
-        raise StudyError(deep)
-    lines = cache(lambda: {key: f"{path}:{line}" for key, line in places.lines_of(text).items()})
+    if data is None or is_deep(data):
+        raise StudyError(f"{path}: not a study, tables or lists are {DEEP}")
+    lines = cache(lambda: {key: f"{path}:{line}" for key, line in lines_of(text).items()})
     if "include" not in data:
         return data, lines, text
     where = f"{lines().get(('include',), path)}: include = {shown(data['include'])}"
@@ -107,23 +102,8 @@ def included(
     """
     Give the keys of a study with those of the one that it includes, and the places of these.
 
-    The keys of the study win; tables at the top are merged key by key, and all other values replaced.
-
-    Parameters
-    ----------
-    data, folder
-        The keys, with `include`, and where that file is looked for.
-    where
-        What a message begins with: the place of `include`, and its value.
-    above
-        The files that include this one.
-    most
-        Bytes of the longest study.
-
-    Raises
-    ------
-    StudyError
-        There is no such study, or it includes this one.
+    The keys of the study win; tables at the top are merged key by key, and all other values replaced. A message begins
+    with `where`, the place of `include`; `above` are the files that include this one.
     """
     name = data["include"]
     if not isinstance(name, str) or not name:
@@ -170,46 +150,32 @@ def _check_kind(path: Path) -> None:
 
 def _syntax_sentence(path: Path, text: str, problem: str) -> str:
     """Say where a text is not TOML, and show the line of what is meant as a study: any other file may hold secrets."""
-    at = re.search(r" ?\(at (?:line (\d+), column (\d+)|end of document)\)", problem)
+    at = _AT.search(problem)
     if not at:  # Python's own limit on integers
         return f"{path}: not valid TOML, a number of more than 4,300 digits; write it with an exponent, as 1e6"
-    lines = text.rstrip().split("\n")
+    lines, what = text.rstrip().split("\n"), problem[: at.start()]
     number = min(int(at[1] or len(lines)), len(lines))
     line = lines[number - 1].strip() if path.suffix == ".toml" else ""
-    comma, what = _COMMA.search(line), problem[: at.start()]
-    remedy = f"write a decimal point, {comma[1]}.{comma[2]}" if comma else "fix this line"
+    remedy = "fix this line"
+    if comma := _COMMA.search(line):
+        remedy = f"write a decimal point, {comma[1]}.{comma[2]}"
     if what.startswith(("Cannot overwrite", "Cannot declare")):
         remedy = "it is given twice, join the two or remove one"
-    column = f" (column {at[2]})" if at[2] else ""
-    within = f" in {shown(line)}" if line else ""
+    column, within = f" (column {at[2]})" if at[2] else "", f" in {shown(line)}" if line else ""
     return f"{path}:{number}: not valid TOML, {what[0].lower()}{what[1:]}{column}{within}; {remedy}"
 
 
-def _set(data: dict[str, Any], override: str) -> places.Path:
-    """
-    Set a key by its dotted path in place, and give that path.
-
-    Raises
-    ------
-    ValueError
-        It cannot be set; the message says why, and what to do.
-    """
+def _set(data: dict[str, Any], override: str) -> Key:
+    """Set a key by its dotted path in place, and give that path; ValueError says why it cannot be set."""
     key, equals, text = override.partition("=")
     steps, value = tuple(step.strip() for step in key.split(".")), text.strip()
     if not equals or not all(steps):
         raise ValueError("not of the form KEY=VALUE; write for example --set parameters.A=0.02")
     if steps[0] == "include":
         raise ValueError("a study is included by its file alone; write this at its top")
-    if value.endswith(".nc") and '"' not in value:
-        parsed: Any = fitted_value(Path(value), steps[-1])
-    else:
-        whole = _parsed(f"value = {value}")
-        if whole.keys() != {"value"}:
-            several = "," in value and _parsed(f"value = [{value}]").keys() == {"value"}
-            remedy = "write several values in brackets" if several else "quote strings"
-            right = f"[{value}]" if several else json.dumps(value, ensure_ascii=False)
-            raise ValueError(f"the value is not TOML; {remedy}, as in --set '{key}={right}'")
-        parsed = whole["value"]
+    parsed = (
+        _fitted_value(Path(value), steps[-1]) if value.endswith(".nc") and '"' not in value else _parsed(key, value)
+    )
     if len(steps) > _DEEPEST or is_deep(parsed):
         raise ValueError(DEEP)
     table: Any = data
@@ -222,23 +188,56 @@ def _set(data: dict[str, Any], override: str) -> places.Path:
     return steps
 
 
-def is_deep(data: Any) -> bool:
+def _parsed(key: str, value: str) -> Any:
+    """Parse the value of an override; ValueError where it is no TOML."""
+    for text, right in ((value, ""), (f"[{value}]", "write several values in brackets")):
+        try:
+            found = tomllib.loads(f"value = {text}")
+        except (ValueError, RecursionError):
+            continue
+        if right and found.keys() == {"value"}:
+            raise ValueError(f"the value is not TOML; {right}, as in --set '{key}={text}'")
+        if found.keys() == {"value"}:
+            return found["value"]
+    quoted = json.dumps(value, ensure_ascii=False)
+    raise ValueError(f"the value is not TOML; quote strings, as in --set '{key}={quoted}'")
+
+
+def _fitted_value(path: Path, key: str) -> float | str:
     """
-    Check whether tables and lists are nested more deeply than in any study, without going down them all.
+    Give the value of a key as a study writes it: in its unit if it has one.
+
+    ValueError where the file is no fit of one loop, or the fit has no such key, or is flagged.
+    """
+    import netCDF4  # noqa: PLC0415 (180 ms, which other studies do without)
+
+    try:
+        with netCDF4.Dataset(path) as file:
+            if not {"value", "parameter_units", "chi_square"} <= file.variables.keys():
+                raise ValueError("the dataset is not that of a fit; name one that a study of kind fit gave")
+            if "loop" in file.dimensions:
+                one = f"`gradhesion select {path} --at loop=0 -o one.nc`"
+                raise ValueError(f"fits of several loops; take one with {one}")
+            names, units = (list(map(str, file[name][:])) for name in ("parameter", "parameter_units"))
+            values, status, converged = file["value"][:].tolist(), int(file["status"][...]), int(file["converged"][...])
+    except OSError as error:
+        what = kind_of(path) or error.strerror or "it cannot be read"
+        raise ValueError(f"not the dataset of a fit ({what}); name one, or give a value") from None
+    if key not in names:
+        raise ValueError(f"the fit has no {key}; {did_you_mean(key, names)}")
+    if status & (FAILED | POOR_FIT | ANOTHER_MINIMUM) or not converged:
+        raise ValueError("the fit is flagged, as `gradhesion info` reports; give the value as a number if it will do")
+    value, unit = values[names.index(key)], units[names.index(key)]
+    return value if unit == "1" else f"{value!r} {unit}"
+
+
+def is_deep(data: Any, levels: int = _DEEPEST) -> bool:
+    """
+    Check whether tables and lists are nested more deeply than in any study.
 
     >>> is_deep({"parameters": {"k": [0.0, 0.5]}}), is_deep(eval(40 * '[' + 40 * ']'))
     (False, True)
     """
-    level = [data]
-    for _ in range(_DEEPEST):
-        nested = (one.values() if isinstance(one, Mapping) else one for one in level if isinstance(one, Mapping | list))
-        level = [item for items in nested for item in items if isinstance(item, Mapping | list)]
-    return bool(level)
-
-
-def _parsed(text: str) -> dict[str, Any]:
-    """Parse TOML; nothing of what is none."""
-    try:
-        return tomllib.loads(text)
-    except (ValueError, RecursionError):
-        return {}
+    items = data.values() if isinstance(data, Mapping) else data if isinstance(data, list) else ()
+    nested = (item for item in items if isinstance(item, Mapping | list))
+    return levels == 0 or any(is_deep(item, levels - 1) for item in nested)

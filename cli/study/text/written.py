@@ -1,4 +1,4 @@
-"""A study written as TOML, and with the fingerprint of a file that it names."""
+"""A study as TOML: where each key of a text stands, a study written, and with the fingerprint of a file it names."""
 
 import json
 import re
@@ -6,10 +6,61 @@ import tomllib
 from collections.abc import Mapping
 from typing import Any, Final
 
-from gradhesion.cli.study.text.places import Path, lines_of
+Path = tuple[str | int, ...]
+"""A key as the steps to it: `("parameters", "k", 3)` is item 3 of `parameters.k`."""
 
 _VALUE: Final = re.compile(r"""(?<==)(\s*)("[^"\\]*"|'[^']*')""")
 """A string behind its key."""
+_VEILED: Final = re.compile(
+    r'"""(?:\\.|[^\\])*?"""|\'\'\'.*?\'\'\'|"(?:\\.|[^"\\\n])*"|\'[^\'\n]*\'|#[^\n]*', re.DOTALL
+)
+"""Strings and comments, in which brackets and equals signs mean nothing."""
+_KEY: Final = r"\s*([\w-]+(?:\s*\.\s*[\w-]+)*)\s*"
+_HEADER: Final = re.compile(rf"\s*\[\[?{_KEY}\]")
+_ENTRY: Final = re.compile(rf"{_KEY}=")
+_STEPS: Final = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
+
+
+def dotted(path: Path) -> str:
+    """
+    Write a path as a message shows it.
+
+    >>> dotted(("parameters", "k", 3))
+    'parameters.k[3]'
+    """
+    return "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in path).removeprefix(".")
+
+
+def steps_of(path: str) -> Path:
+    """
+    Take a dotted key apart.
+
+    >>> steps_of("parameters.k[3]")
+    ('parameters', 'k', 3)
+    """
+    return tuple(int(item) if item else name for name, item in _STEPS.findall(path))
+
+
+def lines_of(text: str) -> dict[Path, int]:
+    r"""
+    Find the line (from 1) of each table and each key of a valid TOML text; those within a value are at its beginning.
+
+    >>> lines_of("layout = 'grid'\n[parameters]\nk = [\n  0.1,\n  0.2,\n]\nA = 0.3\n")
+    {('layout',): 1, ('parameters',): 2, ('parameters', 'k'): 3, ('parameters', 'A'): 7}
+    """
+    found: dict[Path, int] = {}
+    table: Path = ()
+    depth = 0
+    for number, line in enumerate(_VEILED.sub(lambda veiled: "\n" * veiled[0].count("\n"), text).split("\n"), 1):
+        header, entry = (_HEADER.match(line), _ENTRY.match(line)) if depth == 0 else (None, None)
+        if header:
+            path = table = tuple(header[1].replace(" ", "").split("."))
+        else:
+            path = (*table, *entry[1].replace(" ", "").split(".")) if entry else ()
+            depth += sum(map(line.count, "[{")) - sum(map(line.count, "]}"))
+        for steps in range(1, len(path) + 1):
+            found.setdefault(path[:steps], number)
+    return found
 
 
 def value_of(value: Any) -> str:

@@ -55,6 +55,15 @@ def test_it_is_an_axis_behind_the_radius_with_the_values_of_the_solver(key: str)
     assert dataset["status"].dtype == (np.int8 if key in ("load_max", "closing_ratio") else np.int16)
 
 
+def test_a_speed_has_no_independent_twin(gradhesion: Callable[..., Result], tmp_path: Path) -> None:
+    data = LAW | {"outputs": OUTPUTS, "parameters": SCENE | {"a_max_over_R": 0.5, "speed_over_reference": [0.05, 0.1]}}
+    (tmp_path / "speed.toml").write_text(study_from(data).text)
+    assert gradhesion("run", tmp_path / "speed.toml", "-o", tmp_path / "speed.nc").exit_code == 0
+    assert "0.6" in gradhesion("info", tmp_path / "speed.nc").stdout.partition("rate: ")[2]
+    assert gradhesion("verify", tmp_path / "speed.nc").exit_code == 2
+    assert gradhesion("plot", tmp_path / "speed.nc").exit_code == 0
+
+
 @pytest.mark.parametrize("key", [key for key in KEYS if key != "speed_over_reference"])
 def test_sensitivities_name_it_last_where_the_study_has_it_alone(key: str) -> None:
     values, more, _ = KEYS[key]
@@ -81,64 +90,6 @@ def test_a_quantity_gives_its_ratio(key: str) -> None:
     np.testing.assert_allclose(made["turning_radius_si"], 1e-3 * made["turning_radius"], rtol=1e-15)
     np.testing.assert_allclose(made["dissipated_energy_si"], 1e-6 * 0.05 * made["dissipated_energy"], rtol=1e-15)
     assert made["turning_radius_si"].attrs["units"] == "m"
-
-
-TEXT = """outputs = ["pull_off_force", "dissipated_energy"]
-[parameters]
-k = 0.0
-nu = 0.3
-modulus = 500.0
-lambda_over_R = 0.2
-A = 0.01
-"""
-RUNS: dict[str, tuple[str, str, int]] = {
-    "turn": ("indentation_max_over_R = { start = -0.01, stop = 0.1, num = 6 }", "indentation_max_over_R", 0),
-    "works": ("a_max_over_R = 0.5\nclosing_ratio = [0.0, 1.0]", "closing_ratio", 0),
-    "pattern": (
-        'a_max_over_R = 0.5\ntoughness_wavelength_over_R = [0.1, 0.2]\n[toughness]\nharmonics = [{ n = 1, sin = 0.2 }]\nof = "work"',
-        "toughness: w times 1 + t [0.2 sin(2 pi y)], y = r/lambda_t",
-        0,
-    ),
-    "speed": (
-        "a_max_over_R = 0.5\nspeed_over_reference = [0.05, 0.1]\n[rate]\nexponent = 0.6",
-        "rate: G = w_o [1 + (v/v*)^0.6] while the edge opens, G = w_c while it closes",
-        2,
-    ),
-}
-"""What a study has more, what `info` prints, and how `verify` ends: a speed has no independent twin."""
-
-
-@pytest.mark.parametrize("name", RUNS)
-def test_maps_are_run_described_verified_and_drawn(
-    name: str, gradhesion: Callable[..., Result], write_study: Callable[[str], Path]
-) -> None:
-    more, words, code = RUNS[name]
-    study = write_study(f"{TEXT}{more}\n")
-    output = study.with_suffix(".nc")
-    assert gradhesion("run", study, "-o", output, "--quiet").exit_code == 0
-    assert words in gradhesion("info", output).stdout
-    assert gradhesion("verify", output, "--sample", "2").exit_code == code
-    assert gradhesion("plot", output).exit_code == 0
-
-
-@pytest.mark.parametrize(
-    ("curves", "more"),
-    [
-        (
-            '["path", "equilibrium", "closing_equilibrium", "jumps"]',
-            "closing_ratio = 0.4\ntoughness_wavelength_over_R = 0.1\n[toughness]\nharmonics = [{ n = 1, cos = 0.3 }]",
-        ),
-        ('["path", "equilibrium"]', 'speed_over_reference = [0.0, 0.1]\n[rate]\nexponent = 0.6\nclosing = "same"'),
-    ],
-)
-def test_curves_are_drawn_and_explored(
-    curves: str, more: str, gradhesion: Callable[..., Result], write_study: Callable[[str], Path]
-) -> None:
-    text = TEXT.replace('["pull_off_force", "dissipated_energy"]', curves)
-    study = write_study(f'kind = "curve"\n{text}a_max_over_R = 0.5\n{more}\n')
-    output = study.with_suffix(".nc")
-    for command in (["run", study, "-o", output], ["plot", output], ["explore", output]):
-        assert gradhesion(*command).exit_code == 0
 
 
 def test_curves_turn_where_the_cycle_does() -> None:

@@ -30,16 +30,16 @@ a_max_over_R = inf
 [method]
 solver = "exact"
 """
-NOT_TOML = {  # what is replaced, by what, and the line that is named
-    "no equals sign": ("kind = ", "kind ", 2),
-    "decimal comma": ("nu = 0.3", "nu = 0,3", 8),
-    "decimal comma in a range": ("start = 0.1", "start = 0,1", 11),
-    "key twice": ("nu = 0.3", "nu = 0.3\nnu = 0.4", 9),
-    "table twice": ("nu = 0.3", "nu = 0.3\n[parameters]", 9),
-    "unfinished": ("R = inf", "R = [", None),
-    "nested too deeply": ("R = inf", "R = " + 3000 * "[", None),
-    "digits without end": ("R = inf", "R = " + 5000 * "1", None),
-}
+NOT_TOML: list[tuple[str, str, int | None]] = [  # what is replaced, by what, and the line that is named
+    ("kind = ", "kind ", 2),
+    ("nu = 0.3", "nu = 0,3", 8),
+    ("start = 0.1", "start = 0,1", 11),
+    ("nu = 0.3", "nu = 0.3\nnu = 0.4", 9),
+    ("nu = 0.3", "nu = 0.3\n[parameters]", 9),
+    ("R = inf", "R = [", None),
+    ("R = inf", "R = " + 3000 * "[", None),
+    ("R = inf", "R = " + 5000 * "1", None),
+]
 LINES = {  # what is replaced, by what, the key of the mistake and its line
     "at the top": ('kind = "map"', 'kind = "mop"', "kind", 2),
     "in a list at the top": ('["pull_off_force"]', '["delta_max", "delta_max"]', "outputs[1]", 4),
@@ -54,22 +54,11 @@ LINES = {  # what is replaced, by what, the key of the mistake and its line
     "too many scenes": ("nu = 0.3", "nu = { start = 0, stop = 0.4, num = 1000000000 }", "parameters.nu.num", 8),
     "behind a list over lines": ("k = [0.0, 0.5]\nnu = 0.3", "k = [\n 0.0, # ]\n 0.5,\n]\nnu = 0.7", "parameters.nu", 11),
 }  # fmt: skip
-OVERRIDES = {
-    "parameters.k": "",
-    "=3": "",
-    "parameters..k=3": "",
-    "layout=points": "",
-    "parameters.k=": "",
-    "parameters.k=0.1\nA=3": "",
-    "title.x=3": "",
-    'include="base.toml"': "",
-    "parameters.kk=0.1": "parameters.kk",
-    "parameters.k=2": "parameters.k",
-    "parameters.lambda_over_R={start=1, stop=2, num=0}": "parameters.lambda_over_R.num",
-    "parameters.lambda_over_R.num=0": "parameters.lambda_over_R.num",
-    "nothing.at.all=1": "nothing",
-}
-"""Wrong overrides, and the keys at which they are refused; empty for what is no override."""
+OVERRIDES = {"": ("parameters.k", "=3", "parameters..k=3", "layout=points", "parameters.k=", "parameters.k=0.1\nA=3",
+                  "title.x=3", 'include="base.toml"'),
+             "parameters.kk": ("parameters.kk=0.1",), "parameters.k": ("parameters.k=2",), "nothing": ("nothing.at.all=1",),
+             "parameters.lambda_over_R.num": ("parameters.lambda_over_R={start=1, stop=2, num=0}", "parameters.lambda_over_R.num=0")}  # fmt: skip
+"""Wrong overrides by the keys at which they are refused; empty for what is no override."""
 
 
 @pytest.fixture
@@ -90,9 +79,10 @@ def refused(
     return run
 
 
-@pytest.mark.parametrize("name", NOT_TOML)
-def test_what_is_not_toml_is_refused_at_its_line(name: str, refused: Callable[..., list[str]]) -> None:
-    old, new, line = NOT_TOML[name]
+@pytest.mark.parametrize(("old", "new", "line"), NOT_TOML)
+def test_what_is_not_toml_is_refused_at_its_line(
+    old: str, new: str, line: int | None, refused: Callable[..., list[str]]
+) -> None:
     assert old in GOOD
     (sentence,) = refused(GOOD.replace(old, new, 1))
     assert sentence.startswith(f"study.toml:{line}: " if line else "study.toml")
@@ -122,9 +112,8 @@ def test_a_thousand_mistakes_do_not_flood_the_screen(refused: Callable[..., list
     assert "970 more mistakes" in lines[-1]
 
 
-@pytest.mark.parametrize("override", OVERRIDES)
-def test_a_wrong_override_is_named_by_its_own_text(override: str, refused: Callable[..., list[str]]) -> None:
-    key = OVERRIDES[override]
+@pytest.mark.parametrize(("key", "override"), [(key, one) for key, own in OVERRIDES.items() for one in own])
+def test_a_wrong_override_is_named_by_its_own_text(key: str, override: str, refused: Callable[..., list[str]]) -> None:
     (line,) = refused(GOOD, "--set", override)
     assert line.startswith(f"--set {printable_line(override)}: {key}")
     assert ";" in line

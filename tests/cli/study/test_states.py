@@ -65,6 +65,6 @@ def test_in_units() -> None:
 def test_words_and_picture(tmp_path: Path) -> None:
     dataset = compute(study(["pressure", "surface", "path"]))
     dataset.to_netcdf(tmp_path / "x.nc")
-    assert "pressure: 96 points per state" in "\n".join(described(dataset, tmp_path / "x.nc"))
+    assert "96 points per state" in "\n".join(described(dataset, tmp_path / "x.nc"))
     with xarray.open_dataset(tmp_path / "x.nc") as again:
         assert again["state"].values.tolist()[0] == "turning_point"

@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.study.rules.axes import expanded
-from gradhesion.cli.study.rules.form import Range
+from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.study.text.places import lines_of
+from gradhesion.cli.study.text.written import lines_of
 from gradhesion.cli.study.tiling import Tiling, size_of, tile
 
 
@@ -80,22 +80,14 @@ def test_windows_text_is_text(study_file: Path) -> None:
     assert same(load_study(study_file), plain)
 
 
-def test_what_is_left_out_has_its_default(data: dict[str, Any]) -> None:
+def test_what_python_gives_and_what_is_left_out(data: dict[str, Any]) -> None:
     del data["title"]
+    data["outputs"] = ["delta_max", "pull_off_force"]
+    data["parameters"] |= {"k": np.array([0.1, 0.2]), "nu": np.float64(0.3), "A": (0.1,)}
     study = study_from(data, name="mine")
     assert (study.title, study.kind, study.layout, study.method.solver) == ("mine", "map", "grid", "exact")
-
-
-def test_outputs_come_in_the_order_of_the_dataset(data: dict[str, Any]) -> None:
-    data["outputs"] = ["delta_max", "pull_off_force"]
-    assert study_from(data).outputs == ("pull_off_force", "delta_max")
-
-
-def test_numbers_of_numpy_are_numbers(data: dict[str, Any]) -> None:
-    data["parameters"] |= {"k": np.array([0.1, 0.2]), "nu": np.float64(0.3), "A": (0.1,)}
-    study = study_from(data)
-    assert study.sizes["k"] == 2
-    assert study.sizes["A"] == 1, "an axis of one value stays an axis"
+    assert study.outputs == ("pull_off_force", "delta_max"), "in the order of the dataset"
+    assert (study.sizes["k"], study.sizes["A"]) == (2, 1), "an axis of one value stays an axis"
 
 
 def test_points_broadcast_what_is_fixed(data: dict[str, Any]) -> None:
@@ -107,11 +99,7 @@ def test_points_broadcast_what_is_fixed(data: dict[str, Any]) -> None:
     assert {name: float(values.item()) for name, values in block.items()} == {
         "k": 0.31, "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.013, "lambda_over_R": 0.1, "A": 0.3, "a_max_over_R": 2.0,
     }  # fmt: skip
-
-
-def test_points_of_numbers_alone_are_one_scene(data: dict[str, Any]) -> None:
-    data["layout"] = "points"
-    data["parameters"] |= {"k": 0.1, "lambda_over_R": 0.1, "A": 0.3, "a_max_over_R": 1.0}
+    data["parameters"] |= {"k": 0.1, "lambda_over_R": 0.1, "a_max_over_R": 1.0}
     assert study_from(data).sizes == {"scene": 1}
 
 

@@ -53,25 +53,7 @@ def keys_of(refused: StudyError) -> list[str]:
     return sorted(key[1] for key in found if key and key[1] != "data.file")
 
 
-BOUNDS = {
-    "k": ("-0.001", "1.001"), "nu": ("-1.0", "0.5000000001"), "modulus": ("0.0", "-5"), "c0_over_R": ("0", "-1e-300"),
-    "lambda_over_R": ("0.0", "-1"), "A": ("-1e-9", "-inf"), "a_max_over_R": ("0", "-3"),
-}  # fmt: skip
 SCENE = {"k": 0.5, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1, "A": 0.1}
-
-
-@pytest.mark.parametrize("name", BOUNDS)
-@pytest.mark.parametrize(
-    ("form", "more"), [("{}", ""), ("[{}]", "[0]"), ("{{ start = {}, stop = 0.4, num = 2 }}", ".start")]
-)
-def test_each_bound_of_each_parameter(name: str, form: str, more: str) -> None:
-    for value in BOUNDS[name]:
-        own = tomllib.loads(f"{name} = {form.format(value)}")
-        with pytest.raises(StudyError) as refused:
-            any_from({"outputs": ["pull_off_force"], "parameters": SCENE | own})
-        assert keys_of(refused.value) == [f"parameters.{name}{more}"]
-    closed = {"k": 1.0, "nu": 0.5} if name in ("k", "nu") else {}
-    any_from({"outputs": ["pull_off_force"], "parameters": SCENE | closed})
 
 
 @pytest.mark.parametrize(

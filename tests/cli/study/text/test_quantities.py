@@ -74,33 +74,7 @@ def test_the_shortest_text_of_a_double_is_scaled_and_rounded_once(number: float,
         assert found == float(f"{digits}e{int(power) + exponent}")
 
 
-PIECES = st.sampled_from(
-    [
-        "1",
-        "m",
-        "/",
-        "*",
-        "^",
-        "**",
-        "-2",
-        " ",
-        "k",
-        "Pa",
-        "(",
-        ")",
-        "inf",
-        "e5",
-        "deg",
-        "'",
-        "\\",
-        "é",
-        "²",
-        "\n",
-        "_",
-        ".",
-        ",",
-    ]
-)
+PIECES = st.sampled_from(["m", "k", "Pa", "inf", "e5", "deg", "**", "-2", *"1/*^ ()'\\é²\n_.,"])
 
 
 @given(text=st.one_of(st.lists(PIECES, max_size=12).map("".join), st.text(max_size=12)))

@@ -1,0 +1,232 @@
+"""What a study takes from files: points, whose columns are parameters, and the measured heights of a punch."""
+
+import math
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.cli.names.outputs import OUTPUTS, SI
+from gradhesion.cli.study.rules.asked import REQUIRED
+from gradhesion.cli.study.rules.axes import MOST_VALUES, Values
+from gradhesion.cli.study.rules.mistakes import Mistake, line_of
+from gradhesion.cli.study.text.quantities import factor_of_column, scaled, si_value
+from gradhesion.cli.study.text.written import Path as Key
+from gradhesion.cli.study.text.written import value_of, with_fingerprint
+from gradhesion.cli.tables.columns import Columns, ColumnsError, changed
+from gradhesion.cli.tables.reading import read_columns
+from gradhesion.cli.terminal.wording import did_you_mean, shown
+from gradhesion.core.problem.inputs import INPUTS
+
+if TYPE_CHECKING:
+    from gradhesion.core.answers.profile_fit import FittedProfile
+
+COMMENT: Final = "a column of "
+"""How the comment of a coordinate begins that is a column of a file."""
+HEIGHTS: Final = ("r", "height")
+"""The columns of a measured profile."""
+TERMS: Final = 16
+"""Harmonics that are fitted where a study does not say how many."""
+_OURS: Final = frozenset({*OUTPUTS, *(name + SI for name in OUTPUTS), "status"})
+"""Names that a dataset has, and a file of points may not."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FromFile:
+    """What a study takes from one file; nothing where it names none."""
+
+    key: Key = ()
+    """The key, or the table with `file`, that names it."""
+    file: str = ""
+    sha256: str = ""
+    inputs: Mapping[str, Values] = field(default_factory=dict)
+    """The inputs that it gives and that are right, in SI units."""
+    wrong: tuple[str, ...] = ()
+    """Those that it gives, or would give, and that are not."""
+    mistakes: tuple[Mistake, ...] = ()
+    fit: "FittedProfile | None" = None
+    """What was fitted to heights."""
+    dropped: int = 0
+    """Rows without a number that were left out."""
+
+    @property
+    def unread(self) -> bool:
+        """Whether the file could not be read, so that what it would give is not missing."""
+        return bool(self.mistakes) and not self.file
+
+    def beside(self, data: Mapping[str, Any]) -> dict[str, Any]:
+        """
+        Give the keys of a study with one valid value for each input that the file gives.
+
+        So that all that is known of a key is asked of what the study gives beside the file.
+        """
+        whole = dict(data)
+        if self.key == ("parameters", "points"):
+            whole["layout"] = "points" if data.get("layout") == "grid" else data.get("layout", "points")
+        for name in (*self.inputs, *self.wrong):
+            own = INPUTS[name]
+            value = float(np.ravel(self.inputs[name])[0]) if name in self.inputs else REQUIRED.get(name, 1.0)
+            written = f"{value!r} {own.unit}" if own.table == "physical" and np.isfinite(value) else value
+            table = whole.get(own.table, {})
+            if isinstance(table, Mapping):
+                whole[own.table] = {name: written, **table}
+        return whole
+
+    def stored(self, data: Mapping[str, Any], text: str) -> tuple[dict[str, Any], str]:
+        """Give the keys and the text of a study with the fingerprint of the file; no text where it is to be made."""
+        return with_fingerprint(data, text, self.key, self.sha256) if self.file else (dict(data), text)
+
+
+def points_of(
+    data: Mapping[str, Any], folder: Path, columns: Mapping[str, NDArray[np.float64]] | None = None
+) -> FromFile:
+    """Read the points of a study from a file in a folder, unless the columns of that are given."""
+    key, table = ("parameters", "points"), data.get("parameters")
+    written = table.get("points") if isinstance(table, Mapping) else None
+    named = {"file": written} if isinstance(written, str) else written
+    if not isinstance(named, Mapping) or not named.get("file") or not {*named} <= {"file", "sha256"}:
+        return FromFile()  # their form is refused
+    file, expected = named["file"], named.get("sha256", "")
+    if not isinstance(file, str) or not isinstance(expected, str):
+        return FromFile()
+    if columns is not None:
+        return FromFile(key=key, file=file, sha256=expected, inputs=columns)
+    try:
+        found = read_columns(folder / file)
+    except ColumnsError as error:
+        return FromFile(key=key, mistakes=(Mistake(key, written, str(error)),))
+    if expected and expected != found.sha256:
+        sentence = changed(found.sha256, expected, f"write points = {value_of(file)}")
+        return FromFile(key=key, mistakes=(Mistake(key, written, sentence),))
+    sentences, own, wrong = [*_mistakes(data, found)], {}, []
+    for name in (name for name in found.values if name in INPUTS):
+        try:
+            own[name] = _column(name, found)
+        except ColumnsError as error:
+            sentences.append(str(error))
+            wrong.append(name)
+    mistakes = tuple(Mistake(key, written, sentence) for sentence in sentences)
+    return FromFile(key=key, file=file, sha256=found.sha256, inputs=own, wrong=tuple(wrong), mistakes=mistakes)
+
+
+def _mistakes(data: Mapping[str, Any], found: Columns) -> Iterator[str]:
+    """Check that the columns are parameters, each given once, and that the study has points."""
+    for name in found.values:
+        if name in _OURS:
+            yield f"its column {shown(name)} is an output, not a parameter; leave it out"
+        elif name not in INPUTS:
+            yield f"its column {shown(name)} is not a parameter; {did_you_mean(name, tuple(INPUTS))}"
+        elif isinstance(table := data.get(INPUTS[name].table), Mapping) and name in table:
+            yield f"{name} is given under [{INPUTS[name].table}] and as a column of the file; keep one of the two"
+    if data.get("layout", "points") == "grid":
+        yield 'the rows of a file are points, but layout = "grid"; write layout = "points" or leave it out'
+    if found.rows > MOST_VALUES:
+        yield f"the file has {found.rows:,} rows, but at most {MOST_VALUES:,} are read; split it"
+
+
+def _column(name: str, found: Columns) -> NDArray[np.float64]:
+    """Give a column in the unit of its key; ColumnsError where it has no such unit, or is out of range."""
+    key, given = INPUTS[name], found.values[name]
+    values = scaled(given, factor_of_column(found, name, name))
+    rows = np.flatnonzero(~key.admits(values))
+    if rows.size:
+        place, value = found.place(int(rows[0])), float(given[rows[0]])
+        more = f", and {rows.size - 1:,} more rows are as well" if rows.size > 1 else ""
+        if np.isnan(value):
+            raise ColumnsError(f"{place}: {name} is missing (NaN){more}; give it, or remove the row")
+        raise ColumnsError(f"{place}: {name} = {value!r} is out of range{more}; choose a value with {key.allowed}")
+    return values
+
+
+def measured_in(data: Mapping[str, Any], folder: Path) -> FromFile:
+    """Fit the profile of a study, if it comes from a file, which is looked for in a folder."""
+    table = data.get("profile")
+    file = table.get("file") if isinstance(table, Mapping) else None
+    if not isinstance(table, Mapping) or not isinstance(file, str) or not file:
+        return FromFile()
+    united = isinstance(data.get("physical"), Mapping)
+    terms, exponent, expected = table.get("terms", TERMS), table.get("exponent", 2.0), table.get("sha256", "")
+    up_to, mistakes = _up_to(data, table), [*_mistakes_beside(data, table)]
+    told = {INPUTS[str(one.path[-1])].gives for one in mistakes if one.path[-1] in INPUTS}
+    names = ("R", "wavelength", "amplitude") if united else ("lambda_over_R", "A")
+    gives = tuple(name for name in names if INPUTS[name].gives not in told - {"modulus"})
+    numbers = isinstance(terms, int) and (exponent == "fit" or isinstance(exponent, int | float))
+    fit: Any = None
+    sha256, dropped = "", 0
+    try:
+        if up_to is not None and numbers and isinstance(expected, str):  # else refused by its form, or missing
+            places, heights, sha256, dropped = read_profile(folder / file)
+            if expected and expected != sha256:
+                raise ColumnsError(changed(sha256, expected, "remove sha256"))
+            fit = fitted(places, heights, up_to=up_to, terms=terms, exponent=exponent)
+    except ValueError as error:
+        mistakes.append(Mistake(("profile", "file"), file, str(error)))
+    if mistakes or fit is None:
+        return FromFile(wrong=gives, mistakes=tuple(mistakes))
+    found = {"R": fit.radius, "wavelength": fit.wavelength, "amplitude": fit.amplitude}
+    found |= {"lambda_over_R": fit.wavelength / fit.radius, "A": fit.amplitude / fit.wavelength}
+    inputs = {name: found[name] for name in gives}
+    return FromFile(key=("profile",), file=file, sha256=sha256, inputs=inputs, fit=fit, dropped=dropped)
+
+
+def _mistakes_beside(data: Mapping[str, Any], table: Mapping[str, Any]) -> Iterator[Mistake]:
+    """Check what stands beside the file: nothing that comes from the fit, and up to where it is fitted."""
+    for key in INPUTS.values():
+        own = data.get(key.table)
+        if isinstance(own, Mapping) and key.name in own and (key.gives in ("lambda_over_R", "A") or key.name == "R"):
+            sentence = "this comes from the fit of the profile; remove it, or remove file under [profile]"
+            yield Mistake((key.table, key.name), own[key.name], sentence)
+    if "up_to" not in table and _up_to(data, table) is None:
+        sentence = "unless a_max is one finite length, a profile needs the distance up to which it is fitted"
+        yield Mistake(("profile", "up_to"), None, f"{sentence}; write for example {line_of('profile', 'up_to')}")
+
+
+def _up_to(data: Mapping[str, Any], table: Mapping[str, Any]) -> float | None:
+    """Find the distance up to which a profile is fitted: that of the study, or the radius of its punch."""
+    physical = data.get("physical")
+    rim = physical.get("a_max") if isinstance(physical, Mapping) else None
+    try:
+        value = si_value(table.get("up_to", rim), "up_to" if "up_to" in table else "a_max")
+    except ValueError:
+        return None
+    return value if math.isfinite(value) else None
+
+
+def fitted(
+    r: NDArray[np.float64], heights: NDArray[np.float64], *, up_to: float | None, terms: int, exponent: float | str
+) -> "FittedProfile":
+    """Fit a profile in metres; ValueError says why it cannot be fitted, and what to do."""
+    from gradhesion.core.answers.profile_fit import fit_profile  # noqa: PLC0415 (500 ms for SciPy)
+
+    power = None if isinstance(exponent, str) else float(exponent)
+    return fit_profile(r, heights, up_to=up_to, terms=terms, exponent=power)
+
+
+def exponent_of(text: str) -> float | str:
+    """
+    Read the power of a punch: a number above 1, or "fit"; ValueError where it is neither.
+
+    >>> exponent_of("2.5"), exponent_of("fit")
+    (2.5, 'fit')
+    """
+    with suppress(ValueError):
+        if text == "fit" or 1.0 < float(text) < math.inf:
+            return text if text == "fit" else float(text)
+    raise ValueError('a power is a finite number above 1, or "fit"')
+
+
+def read_profile(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float64], str, int]:
+    """Read places and heights in m, the fingerprint of the file, and how many rows without numbers were left out."""
+    found = read_columns(path, only=HEIGHTS)
+    for name in (name for name in HEIGHTS if name not in found.values):
+        near = did_you_mean(name, (*found.values, *found.others)).replace("did you mean", "rename")
+        raise ColumnsError(f"there is no column {shown(name)}, and a profile has {' and '.join(HEIGHTS)}; {near}")
+    r, height = (found.values[name] * float(factor_of_column(found, name, "up_to")) for name in HEIGHTS)
+    sound = np.isfinite(r) & np.isfinite(height)
+    if not sound.any():
+        raise ColumnsError("no row has two numbers; name a file with r and height in each row")
+    return r[sound], height[sound], found.sha256, int(np.count_nonzero(~sound))

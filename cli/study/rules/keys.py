@@ -1,0 +1,193 @@
+"""What the tables of a study are made of: keys with a meaning and an example, of inputs and of classes of the core."""
+
+import dataclasses
+import math
+import re
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Final, Literal, Union, get_args, get_type_hints
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, WithJsonSchema, create_model
+
+from gradhesion.cli.study.rules.answers import Deviation
+from gradhesion.cli.study.text.quantities import ratio_sentence, si_value
+from gradhesion.core.problem.inputs import INPUTS, Input
+from gradhesion.core.problem.profile import MOST_HARMONICS
+
+DATA: Final = "data"
+"""What stands for the deepest point of the data of a fit, where the cycle turns."""
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+_PERCENTAGE: Final = re.compile(r"\s*([+-]?(?:\d{1,20}\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*%\s*")
+
+
+class Table(BaseModel):
+    """A table of a study: no unknown keys, no silent conversions."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, defer_build=True)
+
+
+def said(about: str | None, example: str, default: Any = ..., **limits: Any) -> Any:
+    """Declare a key: what it is about, a value that would do, as TOML has it, and what holds where it is left out."""
+    return Field(default, description=about, examples=[example], **limits)
+
+
+def named(name: str, **keys: Any) -> Any:
+    """Make a table of keys, each with its type and what is said of it."""
+    return create_model(name, __base__=Table, **keys)
+
+
+def read_by(read: Any, schema: Mapping[str, Any], kind: Any = Any) -> Any:
+    """Make the type of a value that a function reads, which raises ValueError with a sentence."""
+    return Annotated[
+        kind, BeforeValidator(lambda value: value if value is None else read(value)), WithJsonSchema({**schema})
+    ]
+
+
+def quantity(name: str) -> Any:
+    """Make the type of a quantity, which becomes a number in SI units."""
+    return read_by(lambda value: si_value(value, name), {"type": "string"}, float)
+
+
+class OfCore(Table):
+    """A table whose keys are the settings of a class of the core."""
+
+    made_as: ClassVar[type]
+
+    def made(self, **instead: Any) -> Any:
+        """Make what it says, with some values in the place of its own."""
+        own = {one.name: getattr(self, one.name) for one in dataclasses.fields(self.made_as)} | instead
+        given = {name: value for name, value in own.items() if value is not None}
+        waves = {name: tuple(one.made() for one in value) for name, value in given.items() if isinstance(value, list)}
+        return self.made_as(**given | waves)
+
+
+def table_of(kind: type, **more: Any) -> Any:
+    """Make the table of a study whose keys are the settings of a class of the core, and perhaps `more`."""
+    hints, own = get_type_hints(kind), {}
+    for one in dataclasses.fields(kind):
+        hint, default, limits = hints[one.name], one.default, dict(one.metadata["bounds"])
+        if items := get_args(hint):
+            hint, limits = list[table_of(items[0])], {"min_length": 1, "max_length": MOST_HARMONICS}  # type: ignore[misc]
+        elif one.metadata["choices"]:
+            hint = Literal[one.metadata["choices"]]
+        elif hint is float:
+            limits["allow_inf_nan"] = False
+        if default is None or (items and default is not dataclasses.MISSING):
+            hint, default, limits = Annotated[hint, Field(**limits)] | None, None, {}
+        default = ... if default is dataclasses.MISSING else default
+        own[one.name] = (hint, said(one.metadata["about"], one.metadata["example"], default, **limits))
+    made: Any = create_model(kind.__name__, __base__=OfCore, __doc__=str(kind.__doc__).partition("\n")[0], **own | more)
+    made.made_as = kind
+    return made
+
+
+# The inputs: a number, a list or a range for each.
+
+
+class Range(Table):
+    """An axis by its ends and its number of values, or the ends between which an input is searched."""
+
+    start: float
+    stop: float
+    num: int | None = said(
+        "the number of values, required unless the input is searched",
+        "50",
+        None,
+        ge=1,
+        json_schema_extra={"type": "integer", "minimum": 1},
+    )
+    spacing: Literal["linear", "log"] = said("whether differences or ratios of neighbours are equal", '"log"', "linear")
+
+
+class File(Table):
+    """A file with its fingerprint."""
+
+    file: str = said(
+        "path of a file, relative to the folder of the study; for loops, several with * or ?", '"tip.csv"', min_length=1
+    )
+    sha256: str = said("SHA-256 of the file; a file that differs is refused", '"0a1b..."', "", pattern="^[0-9a-f]{64}$")
+
+
+def tagged(**forms: Any) -> Any:
+    """Make the type of a value of several forms (plain, list, table), told apart before any is tried."""
+
+    def form_of(value: object) -> str:
+        return "table" if isinstance(value, Mapping | Table) else "list" if isinstance(value, list) else "plain"
+
+    own: Any = Union[tuple(Annotated[form, Tag(name)] for name, form in forms.items())]  # noqa: UP007 (at run time)
+    return Annotated[own, Discriminator(form_of)]
+
+
+def range_of(own: Input, number: Any) -> Any:
+    """Make the table of a range of a number."""
+    start, stop = ((number, said(f"the {which} value", own.value)) for which in ("first", "last"))
+    return create_model(f"Range_{own.name}", __base__=Range, start=start, stop=stop)
+
+
+def input_key(own: Input) -> tuple[Any, Any]:
+    """Make the key of an input: a number, a list of numbers, or a range table; quantities become numbers in SI."""
+    number: Any
+    if own.table == "physical":
+        schema = Field(json_schema_extra={"type": ["string", "number"]})
+        number = Annotated[float, BeforeValidator(lambda value: si_value(value, own.name)), schema]
+    else:
+        limits: dict[str, Any] = {"strict": True, "allow_inf_nan": own.infinite, **own.bounds}
+        number = Annotated[float, Field(**limits)]
+    plain = number
+    if own.name == "indentation_max":
+        plain = Annotated[
+            float | Literal["data"],
+            BeforeValidator(lambda value: value if value == DATA else si_value(value, own.name)),
+        ]
+    ends = range_of(own, Annotated[number, Field(allow_inf_nan=False)])
+    forms = tagged(plain=plain, list=Annotated[list[number], Field(min_length=1)], table=ends)
+    return forms, said(own.about, own.value, ... if own.name in ("k", "nu") else None)
+
+
+# How far they may be off.
+
+
+def deviation_of(value: object, name: str) -> Deviation:
+    """
+    Read the deviation of an input; ValueError says what to write instead of what is none.
+
+    >>> deviation_of("5 %", "modulus").deviation, deviation_of("20 nm", "c0").deviation
+    (0.05, 2e-08)
+    >>> nu = deviation_of({"low": 0.28, "high": 0.32}, "nu")
+    >>> nu.uniform, nu.low, nu.high
+    (True, 0.28, 0.32)
+    """
+    if isinstance(value, Deviation):
+        return value
+    own = INPUTS[name]
+    forms = f'write for example {name} = "5 %", a standard deviation in its unit, or {{ low = .., high = .. }}'
+
+    def number(one: object) -> float:
+        plain = isinstance(one, int | float) and not isinstance(one, bool)
+        if own.table == "physical" and not plain:
+            return si_value(one, name)
+        if own.table == "physical":
+            raise ValueError(f"a number without a unit; {forms}")
+        if not plain:
+            raise ValueError((isinstance(one, str) and ratio_sentence(one, name)) or f"not a deviation; {forms}")
+        return float(one)  # type: ignore[arg-type]
+
+    if isinstance(value, Mapping):
+        if {*value} != {"low", "high"}:
+            raise ValueError(f"a uniform distribution has both low and high, and nothing else; {forms}")
+        low, high = number(value["low"]), number(value["high"])
+        if not (low < high < math.inf and own.admits(low) and own.admits(high)):
+            raise ValueError(f"out of range; choose low below high with {own.allowed}, both finite")
+        return Deviation(low=low, high=high, uniform=True)
+    low = own.bounds.get("ge", own.bounds.get("gt", -math.inf))
+    share = _PERCENTAGE.fullmatch(value) if isinstance(value, str) else None
+    deviation = float(share[1]) / 100.0 if share else number(value)
+    if not 0.0 < deviation < math.inf or (share and deviation > 1.0):
+        raise ValueError(f"a deviation is above 0 and finite, a percentage at most 100; {forms}, or remove this key")
+    return Deviation(deviation=deviation, relative=share is not None, low=low, high=own.bounds.get("le", math.inf))
+
+
+def deviation_key(own: Input) -> tuple[Any, Any]:
+    """Make the key of the deviation of an input."""
+    schema = {"type": ["number", "string", "object"]}
+    kind = read_by(lambda value: deviation_of(value, own.name), schema, Deviation | None)
+    return kind, said(f"uncertainty of {own.name}: {own.about}", '"5 %"', None)
