@@ -77,8 +77,7 @@ def __getattr__(name: str) -> Any:
     else:
         if name not in _HOME_OF:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        from gradhesion.cli.installation import checked
-        from gradhesion.cli.terminal.room import refuse_without_threads
+        from gradhesion.cli.installation import checked, refuse_without_threads
 
         refuse_without_threads()
         with checked():

@@ -1,4 +1,4 @@
-"""What a user should know of a dataset that is written: cells whose answers may not hold, as a share of all."""
+"""What a user should know of a dataset that is written: cells whose answers may not hold, and doubts about a fit."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -7,73 +7,83 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.coordinates import coordinates
-from gradhesion.cli.dataset.read.waves import STEEPEST, steepness
+from gradhesion.cli.dataset.describe import variables
+from gradhesion.cli.dataset.read.model_range import STEEPEST, steepness, tabor_warnings
+from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Tiling
 from gradhesion.cli.terminal.amounts import counted, percent
+from gradhesion.cli.work.solve.fitting import range_words, tabor_of
 from gradhesion.core.answers.flags import ANSWER_FLAGS
-from gradhesion.core.closed.reach import SMALL, depends_on_contact
+from gradhesion.core.closed.reach import SMALL, depends_on_contact, is_steep, slopes_of
+from gradhesion.core.loops.fitted import FittedLoop
+from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.problem.profile import rows_of
 from gradhesion.core.problem.status import FLAGS
 
-CONE: Final = "the punch is a cone of slope 1, which is not small, at every contact radius of {}"
+_CONE: Final = "the punch is a cone of slope 1, which is not small, at every contact radius of {}"
 """What is said once of a study of a cone."""
-
-
-MANY: Final = 0.1
+_MANY: Final = 0.1
 """The share of scenes from which on it is said that they are not one disc."""
-NOT_ONE_DISC: Final = "loading_contact_not_one_disc"
+_NOT_ONE_DISC: Final = "loading_contact_not_one_disc"
+_CLEAR: Final = 6.0
+"""Standard deviations of a tilt that noise does not make: the points of the base line were chosen as level ones."""
+
+
+_SAID: Final = {
+    "steep": (
+        f"contact reaches slopes of the punch above {SMALL:g} (a > R) in {{share}}, which are not small; bound it with "
+        "a_max_over_R or indentation_max_over_R"
+    ),
+    "waves": f"the waves have slopes above {STEEPEST:g} in {{share}}, which are not small; lower A",
+    _NOT_ONE_DISC: (
+        "contact on loading is not one disc in {share}: values of loading are doubtful there; lower A, or look at "
+        "johnson_alpha"
+    ),
+    "resolution_too_coarse": (
+        "a sweep finer than the resolution finds another optimum in {share}, and there may be others; raise "
+        "resolution = {resolution} under [optimum]"
+    ),
+    "nothing_feasible": (
+        "no point meets the requirements in {share}, which have no optimum; require less, or widen the bounds"
+    ),
+    "linear_deviation_off": (
+        "the linear standard deviation is off in {share}: a kink lies within the spread of the inputs, or the value "
+        "bends; draw samples there, with samples = 1024 under [uncertainty]"
+    ),
+    "samples_differ": (
+        "the linear and the sampled standard deviation differ by more than a tenth in {share}: a kink lies within the "
+        "spread of the inputs, or the value bends; use the samples"
+    ),
+}
+"""What is said of a share of the scenes, most of it by the flag."""
 
 
 def flagged_in(status: NDArray[np.integer]) -> dict[str, int]:
     """Count the cells that have each flag that there is something to say of."""
-    flags = ANSWER_FLAGS | {NOT_ONE_DISC: FLAGS[NOT_ONE_DISC]}
+    flags = ANSWER_FLAGS | {_NOT_ONE_DISC: FLAGS[_NOT_ONE_DISC]}
     return {name: int(np.count_nonzero(status.astype(np.int16) & bit)) for name, bit in flags.items()}
 
 
 def cautions(study: Study, flagged: Mapping[str, int], steep: int = 0) -> Iterator[str]:
     """Say of each flag in what share of the cells it is set, and what to do; and how many contacts are `steep`."""
     if study.is_cone and depends_on_contact(study.solved):
-        yield CONE.format(f"all of {counted(study.scenes, 'scene')}")
-    elif steep:
-        yield (
-            f"contact reaches slopes of the punch above {SMALL:g} (a > R) in {_share(steep, study)}, which are not "
-            "small; bound it with a_max_over_R or indentation_max_over_R"
-        )
-    if count := _steep_waves(study):
-        yield f"the waves have slopes above {STEEPEST:g} in {_share(count, study)}, which are not small; lower A"
-    if (apart := flagged.get(NOT_ONE_DISC, 0)) >= MANY * study.scenes:
-        yield (
-            f"contact on loading is not one disc in {_share(apart, study)}: values of loading are doubtful there; "
-            "lower A, or look at johnson_alpha"
-        )
-    if coarse := flagged.get("resolution_too_coarse", 0):
-        yield (
-            f"a sweep finer than the resolution finds another optimum in {_share(coarse, study)}, and there may be "
-            f"others; raise resolution = {study.search.resolution} under [optimum]"
-        )
-    if nothing := flagged.get("nothing_feasible", 0):
-        yield (
-            f"no point meets the requirements in {_share(nothing, study)}, which have no optimum; require less, or "
-            "widen the bounds"
-        )
-    if off := flagged.get("linear_deviation_off", 0):
-        what, remedy = "linear standard deviation is off", "draw samples there, with samples = 1024 under [uncertainty]"
-        if study.uncertainty.samples:
-            what, remedy = "linear and the sampled standard deviation differ by more than a tenth", "use the samples"
-        where = f"in {_share(off, study)}: a kink lies within the spread of the inputs, or the value bends"
-        yield f"the {what} {where}; {remedy}"
-
-
-def _share(count: int, study: Study) -> str:
-    """Say how many scenes of a study something is true of."""
-    return f"{count:,} of {counted(study.scenes, 'scene')} ({percent(count, study.scenes)})"
+        yield _CONE.format(f"all of {counted(study.scenes, 'scene')}")
+        steep = 0
+    counts = {"steep": steep, "waves": _steep_waves(study), **flagged}
+    if counts.get(_NOT_ONE_DISC, 0) < _MANY * study.scenes:
+        counts[_NOT_ONE_DISC] = 0
+    if study.uncertainty.samples:
+        counts["samples_differ"] = counts.pop("linear_deviation_off", 0)
+    for name, sentence in _SAID.items():
+        if count := counts.get(name):
+            share = f"{count:,} of {counted(study.scenes, 'scene')} ({percent(count, study.scenes)})"
+            yield sentence.format(share=share, resolution=study.search.resolution)
 
 
 def _steep_waves(study: Study) -> int:
     """Count the scenes whose waves are steep; 0 where the study asks for their slope itself, or searches A."""
-    amplitude = coordinates(study).get("A")
+    amplitude = variables(study).get("A")
     if amplitude is None or "wave_slope" in study.variables:
         return 0
     _, _, profiles = study.apart(tuple(slice(0, size) for size in study.shape))
@@ -84,3 +94,23 @@ def _steep_waves(study: Study) -> int:
         values = amplitude.made(block) if amplitude.made else np.asarray(amplitude.values)[block]
         steep += sum(int(np.count_nonzero(values * slope > STEEPEST)) for slope in slopes)
     return steep * study.scenes // (math.prod(sizes) * len(slopes))
+
+
+def cautions_of_fit(study: FitStudy, found: FittedLoop) -> Iterator[str]:
+    """Say where a fitted cycle leaves the range of the model, and what its loop cannot tell apart."""
+    if study.profile.exponent == 1.0:
+        yield _CONE.format("the loop")
+    elif is_steep(slopes_of(np.array(found.turning_radius), study.profile)):
+        yield (
+            f"contact reaches a = {found.turning_radius:.3g} R, where the punch has a slope above {SMALL:g}, which is "
+            "not small: the fitted values may be off"
+        )
+    yield from tabor_warnings(tabor_of(study, found), range_words(study))
+    line = found.base_line
+    if line and OFFSETS[2] not in found.names and abs(line.slope) > _CLEAR * line.slope_deviation:
+        deviations = abs(line.slope) / line.slope_deviation
+        yield (
+            f"the base line is tilted by {line.slope:.3g} N/m, {deviations:.0f} standard deviations: write "
+            "offsets = { slope = true } under [fit]"
+        )
+    yield from found.alike

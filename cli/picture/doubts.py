@@ -10,9 +10,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.read import doubtful
-from gradhesion.cli.dataset.read.doubtful import doubts_of
-from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by
+from gradhesion.cli.dataset.read import model_range
+from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by, doubts_of
 from gradhesion.cli.names.outputs import BEST, ON_BOUND
 from gradhesion.core.answers.flags import FLAG_WORDS, FLAGS
 
@@ -47,7 +46,7 @@ _LOOKS: Final = (("////", "o", 3.5), ("\\\\\\\\", "s", 5.5), ("xxxx", "D", 7.0),
 DOUBTS: Final = tuple(
     Doubt(words=FLAG_WORDS[name], hatch=hatch, mark=mark, size=size, bit=FLAGS[name])
     for name, (hatch, mark, size) in zip(
-        (name for name, bit in FLAGS.items() if bit & doubtful.DOUBTS), _LOOKS, strict=True
+        (name for name, bit in FLAGS.items() if bit & model_range.DOUBTS), _LOOKS, strict=True
     )
 )
 """Every flag that makes values doubtful."""

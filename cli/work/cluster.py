@@ -11,6 +11,7 @@ import tempfile
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
+from importlib.util import find_spec
 from itertools import islice
 from pathlib import Path
 from typing import Any, Final
@@ -30,21 +31,9 @@ LEAST: Final = 16
 
 
 def require_dask() -> None:
-    """
-    Make sure that Dask is there.
-
-    Raises
-    ------
-    MissingExtraError
-        It is not.
-    """
-    try:
-        import cryptography  # noqa: F401, PLC0415 (for a cluster of this machine that is closed to others)
-        import distributed  # noqa: F401, PLC0415 (half a second, and not always there)
-    except ModuleNotFoundError:
-        raise MissingExtraError(
-            "--engine dask needs Dask: install it with `pip install dask distributed cryptography`"
-        ) from None
+    """Make sure that Dask is there (MissingExtraError)."""
+    if not (find_spec("distributed") and find_spec("cryptography")):  # which closes a cluster of this machine to others
+        raise MissingExtraError("--engine dask needs Dask: pip install dask distributed cryptography")
 
 
 def on_cluster(scheduler: str | None = None, workers: int | None = None, *, quiet: bool = False) -> Engine:
@@ -63,23 +52,22 @@ def on_cluster(scheduler: str | None = None, workers: int | None = None, *, quie
                 left.append(number)
             else:
                 yield number, values, True
-        if left:
-            with ExitStack() as stack:
-                stack.enter_context(_silent())
-                client = stack.enter_context(_client(scheduler, workers, len(left)))
-                if not quiet and not client.nthreads():
-                    messages.say("--engine dask: the scheduler has no workers yet; waiting for them")
-                try:
-                    yield from _solved(client, parts.study, left)
-                except GradhesionError:
-                    raise
-                except Exception as error:
-                    # Dask has a dozen exceptions for a lost scheduler, a worker that dies, and what cannot be loaded.
-                    interrupts.check()
-                    raise OutputError(
-                        f"--engine dask: {type(error).__name__}: {error}; finished blocks are kept, and the same "
-                        "command resumes once there is a cluster with enough memory"
-                    ) from error
+        if not left:
+            return
+        with _silent(), _client(scheduler, workers, len(left)) as client:
+            if not quiet and not client.nthreads():
+                messages.say("--engine dask: the scheduler has no workers yet; waiting for them")
+            try:
+                yield from _solved(client, parts.study, left)
+            except GradhesionError:
+                raise
+            except Exception as error:
+                # Dask has a dozen exceptions for a lost scheduler, a worker that dies, and what cannot be loaded.
+                interrupts.check()
+                raise OutputError(
+                    f"--engine dask: {type(error).__name__}: {error}; finished blocks are kept, and the same "
+                    "command resumes once there is a cluster with enough memory"
+                ) from error
 
     return engine
 
@@ -108,14 +96,7 @@ def _solved(client: Any, study: Study, numbers: Sequence[int]) -> Solved:
 
 
 def solve_there(study: Study, number: int, needed: dict[str, Any]) -> tuple[int, Results]:
-    """
-    Solve a block, as a worker does, on one thread.
-
-    Raises
-    ------
-    ClusterError
-        The worker has other versions than are needed, which may round another way.
-    """
+    """Solve a block, as a worker does, on one thread; ClusterError where its versions may round another way."""
     if (own := versions()) != needed:
         differing = ", ".join(name for name in own if own[name] != needed.get(name))
         raise ClusterError(
@@ -128,14 +109,7 @@ def solve_there(study: Study, number: int, needed: dict[str, Any]) -> tuple[int,
 
 @contextmanager
 def _client(scheduler: str | None, workers: int | None, most: int) -> Iterator[Any]:
-    """
-    Make a client of a scheduler, or of workers on this machine, `most` of them.
-
-    Raises
-    ------
-    ClusterError
-        It does not answer, or they cannot be started.
-    """
+    """Make a client of a scheduler, or of workers on this machine, `most` of them; ClusterError if that fails."""
     from distributed import Client  # noqa: PLC0415
 
     with ExitStack() as stack:

@@ -29,14 +29,7 @@ _begun: Final[set[Path | None]] = set()
 
 
 def prepare(study: Study | None = None) -> None:
-    """
-    Where no process has compiled this version of the solver, say that it takes a while, and compile it for a study.
-
-    Raises
-    ------
-    CompilerError
-        The environment says that nothing is to be compiled.
-    """
+    """Where no process has compiled this version of the solver, say that it takes a while, and do so for a study."""
     refuse_without_compiler()
     folder = place().folder
     if folder in _begun or (folder and (folder / _MARK).exists()):
@@ -51,14 +44,7 @@ def prepare(study: Study | None = None) -> None:
 
 
 def refuse_without_compiler() -> None:
-    """
-    Make sure that kernels are compiled: as plain Python they take hours.
-
-    Raises
-    ------
-    CompilerError
-        The environment says that they are not to be.
-    """
+    """Make sure that kernels are compiled: as plain Python they take hours (CompilerError)."""
     if numba.config.DISABLE_JIT:
         raise CompilerError("NUMBA_DISABLE_JIT is set, but the solver needs the compiler; unset it")
 

@@ -70,13 +70,6 @@ def test_the_file_says_what_shape_and_control_it_is_of(
     assert f"control: {'displacement through a machine' if control == 'machine' else control}" in told
 
 
-def test_the_envelopes_of_any_shape_stand_beside_the_exact_solution(shaped: Callable[..., dict[str, Any]]) -> None:
-    study = shaped("displacement", method={"solver": ["exact", "envelope"]})
-    force = compute(study_from(study))["pull_off_force"].sel(A=0.023)
-    ratio = force.sel(solver="exact") / force.sel(solver="envelope")
-    assert 0.5 < float(ratio.min()) < float(ratio.max()) < 1.0
-
-
 def test_the_defaults_written_out_are_the_defaults(data: dict[str, Any]) -> None:
     plain = compute(study_from(data))
     profile = {"exponent": 2.0, "harmonics": [{"n": 1, "cos": 1, "sin": 0}]}
@@ -97,9 +90,3 @@ def test_curves_of_any_shape_and_control_are_drawn(shaped: Callable[..., dict[st
         assert int(dataset["status"][i]) == status
         for name in ("load", "path_indentation", "path_branch", "smooth_load"):
             np.testing.assert_array_equal(dataset[name][i].values[: found[name].size], found[name])
-
-
-@pytest.mark.parametrize("amplitudes", [{}, {"cos": 0.3}, {"sin": 0.2}, {"cos": 0.3, "sin": 0.2}])
-def test_a_wave_is_the_same_in_a_study_and_in_python(amplitudes: dict[str, float], data: dict[str, Any]) -> None:
-    read = study_from(data | {"profile": {"harmonics": [{"n": 3} | amplitudes]}})
-    assert read.profile.harmonics == (Harmonic(n=3, **amplitudes),)

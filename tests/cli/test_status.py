@@ -44,7 +44,7 @@ def test_running_stopped_and_complete(
         return real_solve(*arguments, **options)
 
     with monkeypatch.context() as patch:
-        patch.setattr("gradhesion.cli.work.solve.given.solve", spying)
+        patch.setattr("gradhesion.cli.work.solve.scenes.solve", spying)
         assert gradhesion("run", study_file, "-o", output).exit_code == 1
     (running,) = seen
     assert running.items() >= {"state": "running", "blocks": 6, "scenes": 24}.items()
