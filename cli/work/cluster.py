@@ -109,13 +109,30 @@ def solve_there(study: Study, number: int, needed: dict[str, Any]) -> tuple[int,
 
 @contextmanager
 def _client(scheduler: str | None, workers: int | None, most: int) -> Iterator[Any]:
-    """Make a client of a scheduler, or of workers on this machine, `most` of them; ClusterError if that fails."""
-    from distributed import Client  # noqa: PLC0415
+    """
+    Make a client of a scheduler, or of `most` processes of one thread on this machine; ClusterError if that fails.
+
+    These listen on the loopback interface alone, and to those alone who have a certificate that is made here: on a
+    machine with several users the others cannot run code as this one.
+    """
+    from dask.system import CPU_COUNT  # noqa: PLC0415
+    from distributed import Client, LocalCluster, Security  # noqa: PLC0415
 
     with ExitStack() as stack:
         try:
             if scheduler is None:
-                address = stack.enter_context(_workers_here(workers, most))
+                here = LocalCluster(
+                    n_workers=min(workers or CPU_COUNT, most),
+                    threads_per_worker=1,
+                    host="127.0.0.1",
+                    security=Security.temporary(),
+                    dashboard_address=None,
+                    local_directory=tempfile.gettempdir(),
+                    memory_limit=None,  # as for threads, that is for the system
+                    silence_logs=logging.CRITICAL,
+                    preload="import signal; signal.signal(signal.SIGINT, signal.SIG_IGN)",  # Ctrl-C is for the command
+                )
+                address: Any = stack.enter_context(here)
             else:
                 address = scheduler if "://" in scheduler else json.loads(Path(scheduler).read_bytes())["address"]
             client = stack.enter_context(Client(address, set_as_default=False))
@@ -125,29 +142,6 @@ def _client(scheduler: str | None, workers: int | None, most: int) -> Iterator[A
                 "scheduler --scheduler-file FILE` and name FILE, or use --engine threads"
             ) from error
         yield client
-
-
-def _workers_here(workers: int | None, most: int) -> Any:
-    """
-    Start as many processes of one thread as are asked for, or as this machine has cores, but `most`.
-
-    They listen on the loopback interface alone, and to those alone who have a certificate that is made here: on a
-    machine with several users the others cannot run code as this one.
-    """
-    from dask.system import CPU_COUNT  # noqa: PLC0415
-    from distributed import LocalCluster, Security  # noqa: PLC0415
-
-    return LocalCluster(
-        n_workers=min(workers or CPU_COUNT, most),
-        threads_per_worker=1,
-        host="127.0.0.1",
-        security=Security.temporary(),
-        dashboard_address=None,
-        local_directory=tempfile.gettempdir(),
-        memory_limit=None,  # as for threads, that is for the system
-        silence_logs=logging.CRITICAL,
-        preload="import signal; signal.signal(signal.SIGINT, signal.SIG_IGN)",  # Ctrl-C is for the command
-    )
 
 
 @contextmanager

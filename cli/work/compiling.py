@@ -14,7 +14,6 @@ from filelock import FileLock
 
 from gradhesion.cli.errors import CompilerError
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.work.solve.blocks import solve_block
 from gradhesion.core import place
@@ -39,8 +38,14 @@ def prepare(study: Study | None = None) -> None:
     with alone():
         if study is not None and study.kind == "map":  # the first and the last of its scenes, of others nothing
             first, last = study.tiling[0], study.tiling[len(study.tiling) - 1]
-            _try_to_solve(study, tuple(slice(part.start, part.start + 1) for part in first))
-            _try_to_solve(study, tuple(slice(part.stop - 1, part.stop) for part in last))
+            for scene in (
+                tuple(slice(part.start, part.start + 1) for part in first),
+                tuple(slice(part.stop - 1, part.stop) for part in last),
+            ):
+                with suppress(
+                    Exception
+                ):  # which is raised again, and reported, when the block is solved for its values
+                    solve_block(study, scene, 1)
 
 
 def refuse_without_compiler() -> None:
@@ -55,12 +60,6 @@ def say_why() -> None:
         messages.say(place().why)
 
 
-def _try_to_solve(study: Study, block: Block) -> None:
-    """Solve a block; what is raised there is raised, and reported, when the block is solved for its values."""
-    with suppress(Exception):
-        solve_block(study, block, 1)
-
-
 @contextmanager
 def alone() -> Iterator[None]:
     """Compile while no other process of this version does."""
@@ -71,6 +70,6 @@ def alone() -> Iterator[None]:
                 stack.enter_context(FileLock(folder / "lock"))
         yield
         _begun.add(folder)
-        if folder is not None:
-            with suppress(OSError):
+        with suppress(OSError):
+            if folder is not None:
                 (folder / _MARK).touch()

@@ -33,11 +33,9 @@ class Selection:
     fixed: Mapping[str, int] = field(default_factory=dict)
     """The item at which each of some axes is fixed."""
     parts: Mapping[str, NDArray[np.intp]] = field(default_factory=dict)
-    """The items that are left of each of some axes."""
+    """The items that are left of each of some axes, or of the scenes of points."""
     between: tuple[Between, ...] = ()
     """Axes fixed at a value between two items."""
-    scenes: NDArray[np.intp] | None = None
-    """The scenes that are left of a dataset of points."""
     over: Mapping[str, str] = field(default_factory=dict)
     """The reduction of each of some axes, in the order in which they are done."""
 
@@ -63,9 +61,8 @@ class Selection:
 
     def _cut(self, dataset: xarray.Dataset) -> xarray.Dataset:
         """Fix axes of what has a value a scene."""
-        narrow = dataset.isel({axis: one for axis, one in {**self.fixed, **self.parts}.items() if axis in dataset.dims})
-        narrow = narrow.isel({one.axis: [*one.items] for one in self.between})
-        return narrow if self.scenes is None else narrow.isel({SCENE: self.scenes})
+        items = {**self.fixed, **self.parts, **{one.axis: [*one.items] for one in self.between}}
+        return dataset.isel({axis: one for axis, one in items.items() if axis in dataset.dims})
 
     def taken(self, values: xarray.DataArray, status: xarray.DataArray) -> Taken:
         """Interpolate and reduce a variable of a narrowed dataset, with its status; scenes without a value are NaN."""
@@ -109,7 +106,6 @@ def selection_of(
     fixed: dict[str, int] = {}
     parts: dict[str, NDArray[np.intp]] = {}
     between: list[Between] = []
-    scenes: NDArray[np.intp] | None = None
     named: set[str] = set()
     for option, axis, text in _wishes(dataset, "--at", at, named):
         if axis == SOLVER:
@@ -122,14 +118,14 @@ def selection_of(
         if points and axis not in dataset["status"].dims:
             if interpolate:
                 raise DatasetError(f"{option}: points cannot be interpolated; leave --interpolate out")
-            scenes = left if scenes is None else np.intersect1d(scenes, left)
+            parts[SCENE] = np.intersect1d(parts.get(SCENE, left), left)
         elif ":" in text:
             parts[axis] = left
         elif interpolate and not np.isinf(value) and abs(values[nearest] - value) > SAME * abs(value):
             between.append(_between(values, axis, value))
         else:
             fixed[axis] = nearest
-    if scenes is not None and not scenes.size:
+    if not parts.get(SCENE, np.zeros(1)).size:
         raise DatasetError(f"--at {' --at '.join(at)}: no scene has all these values; leave one of them out")
     if interpolate and not at:
         raise DatasetError("--interpolate: there is nothing to interpolate; add --at AXIS=VALUE")
@@ -143,7 +139,7 @@ def selection_of(
         if how.startswith("arg") and any(other.startswith("arg") for other in reductions.values()):
             raise DatasetError(f"{option}: the place of an extreme is already requested; reduce by max, min or mean")
         reductions[axis] = how
-    return Selection(fixed=fixed, parts=parts, between=tuple(between), scenes=scenes, over=reductions)
+    return Selection(fixed=fixed, parts=parts, between=tuple(between), over=reductions)
 
 
 def nearest_values(dataset: xarray.Dataset, at: Sequence[str]) -> list[str]:
