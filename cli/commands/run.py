@@ -162,8 +162,7 @@ def _engine(study: "Study", engine: str, scheduler: str | None, threads: int | N
 
 def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> None:
     """Fit the loops of a study, write what is found, and say what is doubtful (FitDoubtfulError)."""
-    from gradhesion.cli.dataset.cautions import cautions_of_fit
-    from gradhesion.cli.dataset.fits import dataset_of, refuse_size
+    from gradhesion.cli.dataset.fits import cautions_of_fit, dataset_of, refuse_size
     from gradhesion.cli.dataset.select import write_dataset
     from gradhesion.cli.disk import refuse_existing
     from gradhesion.cli.work.compiling import prepare
@@ -182,8 +181,8 @@ def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> 
 
     about = {fit.loop.file: path if study.is_of_one else f"{path}: {fit.loop.file}" for fit in fits}
     if not quiet:
-        size = bytes_in_words(path.stat().st_size)
-        messages.say(f"{path}: fitted in {seconds:.1f} s, {size}: {_found(study, fits)}")
+        took = f"fitted in {seconds:.1f} s, {bytes_in_words(path.stat().st_size)}"
+        messages.say(f"{path}: {_done(study, fits, took)}")
         said = [(fit.loop.file, one) for fit in fits if fit.found for one in cautions_of_fit(study, fit.found)]
         for sentence in _first([f"{about[file]}: {one}" for file, one in said]):
             messages.say(sentence)
@@ -192,16 +191,16 @@ def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> 
         raise FitDoubtfulError(_first([f"{about[file]}: {one}" for file, one in doubts]))
 
 
-def _found(study: "FitStudy", fits: Sequence["Fit"]) -> str:
+def _done(study: "FitStudy", fits: Sequence["Fit"], took: str) -> str:
     """Say what was found: the values of one loop, or the medians of several."""
     found = [fit.found for fit in fits if fit.found is not None]
     medians = {name: statistics.median(one.values[name] for one in found) for name in found[0].values}
     values = ", ".join(f"{name} = {value:.4g}" for name, value in medians.items())
     reduced = [one.reduced_chi_square for one in found]
     if study.is_of_one:
-        return f"{counted(study.loop.depth.size, 'point')}: {values}; reduced chi square {reduced[0]:.3g}"
+        return f"{counted(study.loop.depth.size, 'point')} {took}: {values}; reduced chi square {reduced[0]:.3g}"
     span = f"{min(reduced):.3g} to {max(reduced):.3g}"
-    return f"{len(found):,} of {counted(len(fits), 'loop')}: medians {values}; reduced chi square {span}"
+    return f"{len(found):,} of {counted(len(fits), 'loop')} {took}: medians {values}; reduced chi square {span}"
 
 
 def _first(sentences: Sequence[str]) -> list[str]:

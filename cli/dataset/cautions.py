@@ -1,4 +1,4 @@
-"""What a user should know of a dataset that is written: cells whose answers may not hold, and doubts about a fit."""
+"""What a user should know of a dataset that is written: cells whose answers may not hold, as a share of all."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -8,28 +8,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.describe import variables
-from gradhesion.cli.dataset.read.model_range import STEEPEST, steepness, tabor_warnings
-from gradhesion.cli.study.fit.study import FitStudy
+from gradhesion.cli.dataset.read.model_range import STEEPEST, steepness
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Tiling
 from gradhesion.cli.terminal.amounts import counted, percent
-from gradhesion.cli.work.solve.fitting import range_words, tabor_of
 from gradhesion.core.answers.flags import ANSWER_FLAGS
-from gradhesion.core.closed.reach import SMALL, depends_on_contact, is_steep, slopes_of
-from gradhesion.core.loops.fitted import FittedLoop
-from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
+from gradhesion.core.closed.reach import SMALL, depends_on_contact
 from gradhesion.core.problem.profile import rows_of
 from gradhesion.core.problem.status import FLAGS
 
-_CONE: Final = "the punch is a cone of slope 1, which is not small, at every contact radius of {}"
+CONE: Final = "the punch is a cone of slope 1, which is not small, at every contact radius of {}"
 """What is said once of a study of a cone."""
 _MANY: Final = 0.1
 """The share of scenes from which on it is said that they are not one disc."""
 _NOT_ONE_DISC: Final = "loading_contact_not_one_disc"
-_CLEAR: Final = 6.0
-"""Standard deviations of a tilt that noise does not make: the points of the base line were chosen as level ones."""
-
-
 _SAID: Final = {
     "steep": (
         f"contact reaches slopes of the punch above {SMALL:g} (a > R) in {{share}}, which are not small; bound it with "
@@ -68,7 +60,7 @@ def flagged_in(status: NDArray[np.integer]) -> dict[str, int]:
 def cautions(study: Study, flagged: Mapping[str, int], steep: int = 0) -> Iterator[str]:
     """Say of each flag in what share of the cells it is set, and what to do; and how many contacts are `steep`."""
     if study.is_cone and depends_on_contact(study.solved):
-        yield _CONE.format(f"all of {counted(study.scenes, 'scene')}")
+        yield CONE.format(f"all of {counted(study.scenes, 'scene')}")
         steep = 0
     counts = {"steep": steep, "waves": _steep_waves(study), **flagged}
     if counts.get(_NOT_ONE_DISC, 0) < _MANY * study.scenes:
@@ -94,23 +86,3 @@ def _steep_waves(study: Study) -> int:
         values = amplitude.made(block) if amplitude.made else np.asarray(amplitude.values)[block]
         steep += sum(int(np.count_nonzero(values * slope > STEEPEST)) for slope in slopes)
     return steep * study.scenes // (math.prod(sizes) * len(slopes))
-
-
-def cautions_of_fit(study: FitStudy, found: FittedLoop) -> Iterator[str]:
-    """Say where a fitted cycle leaves the range of the model, and what its loop cannot tell apart."""
-    if study.profile.exponent == 1.0:
-        yield _CONE.format("the loop")
-    elif is_steep(slopes_of(np.array(found.turning_radius), study.profile)):
-        yield (
-            f"contact reaches a = {found.turning_radius:.3g} R, where the punch has a slope above {SMALL:g}, which is "
-            "not small: the fitted values may be off"
-        )
-    yield from tabor_warnings(tabor_of(study, found), range_words(study))
-    line = found.base_line
-    if line and OFFSETS[2] not in found.names and abs(line.slope) > _CLEAR * line.slope_deviation:
-        deviations = abs(line.slope) / line.slope_deviation
-        yield (
-            f"the base line is tilted by {line.slope:.3g} N/m, {deviations:.0f} standard deviations: write "
-            "offsets = { slope = true } under [fit]"
-        )
-    yield from found.alike

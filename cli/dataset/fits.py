@@ -1,13 +1,15 @@
-"""The dataset of fits: values with intervals, correlations, the data, the fitted path and residuals."""
+"""The dataset of fits: values with intervals, correlations, the data, the fitted path, residuals; and doubts."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gradhesion.cli.dataset.cautions import CONE
 from gradhesion.cli.dataset.dataset import driven_in_words, origin
 from gradhesion.cli.dataset.describe import flags_of
+from gradhesion.cli.dataset.read.model_range import tabor_warnings
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.names.fits import (
     FIT,
@@ -27,8 +29,9 @@ from gradhesion.cli.study.shape_words import rate_in_words, shape_in_words
 from gradhesion.cli.terminal.amounts import bytes_in_words
 from gradhesion.cli.work.compiling import prepare
 from gradhesion.cli.work.solve.fitting import Fit, fits_of, range_words, tabor_of
-from gradhesion.core.closed.reach import is_steep, slopes_of
+from gradhesion.core.closed.reach import SMALL, is_steep, slopes_of
 from gradhesion.core.loops.fitted import FittedLoop
+from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.status import FLAGS, NO_VALUE, OF_FITS
 
@@ -50,6 +53,8 @@ _BYTES: Final = 45
 """Of a measured point, in all of its variables."""
 _MOST: Final = 2**30
 """Bytes of points side by side."""
+_CLEAR: Final = 6.0
+"""Standard deviations of a tilt that noise does not make: the points of the base line were chosen as level ones."""
 
 
 def compute_fit(study: FitStudy) -> "xarray.Dataset":
@@ -211,3 +216,23 @@ def side_by_side(rows: Sequence[Row]) -> Row:
             place: tuple[int | slice, ...] = (i, *(slice(size) for size in values.shape))
             stacked[name][place] = values
     return stacked
+
+
+def cautions_of_fit(study: FitStudy, found: FittedLoop) -> Iterator[str]:
+    """Say where a fitted cycle leaves the range of the model, and what its loop cannot tell apart."""
+    if study.profile.exponent == 1.0:
+        yield CONE.format("the loop")
+    elif is_steep(slopes_of(np.array(found.turning_radius), study.profile)):
+        yield (
+            f"contact reaches a = {found.turning_radius:.3g} R, where the punch has a slope above {SMALL:g}, which is "
+            "not small: the fitted values may be off"
+        )
+    yield from tabor_warnings(tabor_of(study, found), range_words(study))
+    line = found.base_line
+    if line and OFFSETS[2] not in found.names and abs(line.slope) > _CLEAR * line.slope_deviation:
+        deviations = abs(line.slope) / line.slope_deviation
+        yield (
+            f"the base line is tilted by {line.slope:.3g} N/m, {deviations:.0f} standard deviations: write "
+            "offsets = { slope = true } under [fit]"
+        )
+    yield from found.alike

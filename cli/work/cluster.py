@@ -11,7 +11,6 @@ import tempfile
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
-from importlib.util import find_spec
 from itertools import islice
 from pathlib import Path
 from typing import Any, Final
@@ -32,8 +31,11 @@ LEAST: Final = 16
 
 def require_dask() -> None:
     """Make sure that Dask is there (MissingExtraError)."""
-    if not (find_spec("distributed") and find_spec("cryptography")):  # which closes a cluster of this machine to others
-        raise MissingExtraError("--engine dask needs Dask: pip install dask distributed cryptography")
+    try:
+        import cryptography  # noqa: F401, PLC0415 (for a cluster of this machine that is closed to others)
+        import distributed  # noqa: F401, PLC0415 (half a second, and not always there)
+    except ModuleNotFoundError:
+        raise MissingExtraError("--engine dask needs Dask: pip install dask distributed cryptography") from None
 
 
 def on_cluster(scheduler: str | None = None, workers: int | None = None, *, quiet: bool = False) -> Engine:

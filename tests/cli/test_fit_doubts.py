@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import gradhesion as gr
-from gradhesion.cli.dataset.cautions import cautions_of_fit
+from gradhesion.cli.dataset.fits import cautions_of_fit
 from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.work.solve.fitting import doubts_of
 from gradhesion.core.loops.fitted import FittedLoop, OtherMinimum

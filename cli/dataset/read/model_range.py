@@ -4,10 +4,9 @@ import math
 import tomllib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read.reader import is_turned, tiling_of
@@ -23,6 +22,9 @@ from gradhesion.core.problem.names import CONTACT_SLOPE, RANGE
 from gradhesion.core.problem.profile import Harmonic, Profile, rows_of, swings
 from gradhesion.core.problem.status import DOUBTFUL
 
+if TYPE_CHECKING:
+    import xarray
+
 DOUBTS: Final = DOUBTFUL | LINEAR_DEVIATION_OFF | RESOLUTION_TOO_COARSE
 """All bits that cast doubt on some variable."""
 SHORT_RANGED: Final = 5.0
@@ -35,10 +37,11 @@ STEEPEST: Final = 0.5
 """A slope of waves that is no longer small: a linear half-space errs by about its square."""
 
 
-def doubts_of(variable: str, dataset: xarray.Dataset) -> int:
+def doubts_of(variable: str, dataset: "xarray.Dataset") -> int:
     """
     Give the bits that cast doubt on a variable of a dataset, whatever it says of its output.
 
+    >>> import xarray
     >>> none = xarray.Dataset()
     >>> doubts_of("dissipated_energy_si", none) == doubts_of("path_load", none) == DOUBTFUL
     True
@@ -89,7 +92,7 @@ LIMITS: Final = {
 """By the validity number."""
 
 
-def beyond_by(number: str, dataset: xarray.Dataset, block: Block = ()) -> xarray.DataArray | None:
+def beyond_by(number: str, dataset: "xarray.Dataset", block: Block = ()) -> "xarray.DataArray | None":
     """Report which scenes of a dataset, or a block of them, a validity number puts beyond its limit; None: unknown.
 
     The slope of the contact is known of every scene: what is not marked is within its limit.
@@ -105,12 +108,12 @@ def beyond_by(number: str, dataset: xarray.Dataset, block: Block = ()) -> xarray
     return None
 
 
-def is_cone(dataset: xarray.Dataset) -> bool:
+def is_cone(dataset: "xarray.Dataset") -> bool:
     """Report whether the punch of a dataset is a cone, whose slope is 1 at every radius."""
     return str(dataset.attrs.get("profile", "")).partition(" ")[0] == "r"
 
 
-def slope_warnings(dataset: xarray.Dataset) -> Iterator[str]:
+def slope_warnings(dataset: "xarray.Dataset") -> Iterator[str]:
     """Say in one line how many scenes reach slopes of the punch that are not small, if any does."""
     scenes = counted(dataset["status"].size, "scene")
     if is_cone(dataset):
@@ -147,7 +150,7 @@ def steepness(rows: NDArray[np.float64]) -> float:
     return 2.0 * math.pi * max(swings(-1.0, tuple(map(tuple, rows.tolist())))) if len(rows) else 0.0
 
 
-def steep_waves(dataset: xarray.Dataset) -> int:
+def steep_waves(dataset: "xarray.Dataset") -> int:
     """Count the scenes whose waves are steep; 0 where that is not known: without a study, or of random waves."""
     if "study" not in dataset.attrs or "A" not in dataset.coords:
         return 0

@@ -5,9 +5,7 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Final
-
-import xarray
+from typing import TYPE_CHECKING, Final
 
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.files import is_file, kind_of
@@ -22,12 +20,15 @@ from gradhesion.cli.study.tiling import CHUNK, Tiling
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.names import TURNS
 
+if TYPE_CHECKING:
+    import xarray
+
 MOST: Final = 2**22
 """Cells that are read at a time, whatever chunks a file has."""
 
 
 @contextmanager
-def opened(path: Path) -> Iterator[xarray.Dataset]:
+def opened(path: Path) -> Iterator["xarray.Dataset"]:
     """Open a dataset of ours, not loaded, its axes not indexed; DatasetError if it is missing, damaged or not ours."""
     with found(path, kept=False) as dataset:
         try:
@@ -39,7 +40,7 @@ def opened(path: Path) -> Iterator[xarray.Dataset]:
             raise DatasetError(f"{path}: is damaged ({error}); write it again with `gradhesion run`") from error
 
 
-def found(path: Path, *, kept: bool) -> xarray.Dataset:
+def found(path: Path, *, kept: bool) -> "xarray.Dataset":
     """
     Open a dataset; it is the caller's to close.
 
@@ -56,6 +57,8 @@ def found(path: Path, *, kept: bool) -> xarray.Dataset:
     DatasetError
         The file is missing, damaged or none in NetCDF; the message says what it is instead.
     """
+    import xarray  # noqa: PLC0415 (450 ms that `run` does not need)
+
     kind = kind_of(path)
     if not is_file(path):
         what = f"is not a file, but {kind or 'cannot be read'}" if os.path.lexists(path) else "does not exist"
@@ -71,7 +74,7 @@ def found(path: Path, *, kept: bool) -> xarray.Dataset:
         ) from error
 
 
-def check_ours(dataset: xarray.Dataset, path: Path | str = "this") -> None:
+def check_ours(dataset: "xarray.Dataset", path: Path | str = "this") -> None:
     """Check that a dataset is one of this program; DatasetError says what is missing."""
     missing = [f"the attribute {name}" for name in ("title", "source") if name not in dataset.attrs]
     if "status" not in dataset:
@@ -84,14 +87,14 @@ def check_ours(dataset: xarray.Dataset, path: Path | str = "this") -> None:
         raise DatasetError(f"{path}: is not a dataset of gradhesion; name one that `gradhesion run` wrote ({lack})")
 
 
-def check_form(dataset: xarray.Dataset, path: Path | str) -> None:
+def check_form(dataset: "xarray.Dataset", path: Path | str) -> None:
     """Check that a dataset is ours, and all that else relies on; DatasetError says which is not as we write it."""
     check_ours(dataset, path)
     for fault in _faults(dataset):
         raise DatasetError(f"{path}: was changed or is damaged ({fault}); write it again with `gradhesion run`")
 
 
-def _faults(dataset: xarray.Dataset) -> Iterator[str]:
+def _faults(dataset: "xarray.Dataset") -> Iterator[str]:
     """Say what the scenes lack, the curves of which the counts do not add up, and what a fit lacks."""
     status = dataset["status"]
     if status.dtype.kind not in "iu":
@@ -115,7 +118,7 @@ def _faults(dataset: xarray.Dataset) -> Iterator[str]:
         yield from (f"it has no {name}" for name in needed if name not in dataset.variables)
 
 
-def study_text(dataset: xarray.Dataset, path: Path | str) -> str:
+def study_text(dataset: "xarray.Dataset", path: Path | str) -> str:
     """Give the text of the study in a dataset; DatasetError where it has none, as those of named dimensions."""
     if not {"study", "study_sha256"} <= dataset.attrs.keys():
         raise DatasetError(
@@ -125,36 +128,36 @@ def study_text(dataset: xarray.Dataset, path: Path | str) -> str:
     return str(dataset.attrs["study"])
 
 
-def is_fit(dataset: xarray.Dataset) -> bool:
+def is_fit(dataset: "xarray.Dataset") -> bool:
     """Report whether a dataset is that of a fit."""
     return "chi_square" in dataset.variables
 
 
-def refuse_fit(dataset: xarray.Dataset, what: str, path: Path | str = "the dataset") -> None:
+def refuse_fit(dataset: "xarray.Dataset", what: str, path: Path | str = "the dataset") -> None:
     """Refuse a fit where scenes are wanted (DatasetError)."""
     if is_fit(dataset):
         raise DatasetError(f"{path}: contains a fit, and {what} needs scenes; `gradhesion plot` draws it")
 
 
-def has_curves(dataset: xarray.Dataset) -> bool:
+def has_curves(dataset: "xarray.Dataset") -> bool:
     """Report whether a dataset is that of a curve study."""
     return any(extent in dataset.dims for extent in EXTENTS.values()) or any(
         name in dataset for name in RAGGED.values()
     )
 
 
-def is_turned(dataset: xarray.Dataset) -> bool:
+def is_turned(dataset: "xarray.Dataset") -> bool:
     """Report whether the cycles of a dataset turn at a depth or a load, so that loading decides on all that follows."""
     return any(name in dataset.coords for name in TURNS)
 
 
-def tiling_of(variable: xarray.DataArray) -> Tiling:
+def tiling_of(variable: "xarray.DataArray") -> Tiling:
     """Cut a variable into blocks of the chunks that it has in its file."""
     chunk = variable.encoding.get("chunksizes") or (CHUNK,)
     return Tiling(variable.shape, max(1, min(math.prod(chunk), MOST)))
 
 
-def in_own_units(dataset: xarray.Dataset) -> xarray.Dataset:
+def in_own_units(dataset: "xarray.Dataset") -> "xarray.Dataset":
     """
     Give a dataset with plain numbers in the units of our files, whether it was quantified or its units were changed.
 
