@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.cautions import cautions, flagged_in
 from gradhesion.cli.dataset.describe import steep_contact, variables
-from gradhesion.cli.names.curves import is_ragged
+from gradhesion.cli.names.curves import INTEGERS, is_ragged
 from gradhesion.cli.names.scenes import REFERENCES, STEEP
 from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.study.shape_words import profile_table, rate_in_words, shape_in_words, toughness_in_words
@@ -57,18 +57,16 @@ def _joined(study: Study, parts: Iterable[Part]) -> dict[str, NDArray[Any]]:
     whole: dict[str, NDArray[Any]] = {}
     for block, values in parts:
         for name, part in values.items():
-            if name in whole:
-                pass
-            elif is_ragged(name):
-                whole[name] = np.concatenate([one[name] for _, one in parts])
-            else:
+            if is_ragged(name):
+                continue
+            if name not in whole:
                 every = [part] if study.in_blocks else [one[name] for _, one in parts]
-                further = np.max([one.shape[len(block) :] for one in every], axis=0).astype(int)
-                blank = blank_of(name) if part.dtype.kind == "f" or blank_of(name) == -1 else 0
-                whole[name] = np.full((*study.shape, *further), blank, part.dtype)
-            if not is_ragged(name):
-                whole[name][within(name, block, part)] = part
-    return whole
+                longest = np.max([one.shape[len(block) :] for one in every], axis=0).astype(int)
+                blank = blank_of(name) if part.dtype.kind == "f" or name in INTEGERS else 0
+                whole[name] = np.full((*study.shape, *longest), blank, part.dtype)
+            whole[name][within(name, block, part)] = part
+    ragged = [name for name in study.variables if is_ragged(name)]
+    return whole | {name: np.concatenate([values[name] for _, values in parts]) for name in ragged}
 
 
 def assembled(study: Study, found: Mapping[str, NDArray[Any]], history: str) -> "xarray.Dataset":

@@ -177,7 +177,7 @@ def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
     file.setncatts(attributes(study, history))
     described = variables(study)
     sizes = study.sizes | {name: len(labels) for name, labels in study.labels.items()}
-    sizes |= {STATE: np.size(described[STATE].values)} if STATE in described else {}  # type: ignore[arg-type]
+    sizes |= {STATE: np.asarray(described[STATE].values).size} if STATE in described else {}
     for name, size in sizes.items():
         file.createDimension(name, size)
     for name, variable in described.items():

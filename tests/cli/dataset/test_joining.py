@@ -128,6 +128,17 @@ def test_what_cannot_be_joined_is_told(
     assert not output.exists()
 
 
+def test_another_toughness_is_told(gradhesion: Call, written: Callable[..., Path], tmp_path: Path) -> None:
+    scene = {"k": 0.0, "lambda_over_R": 0.2, "a_max_over_R": 0.5, "toughness_wavelength_over_R": 0.3}
+    one, other = (
+        written(str(A), parameters=scene | {"A": A}, toughness={"harmonics": [{"n": 1, "cos": cos}]})
+        for A, cos in ((0.0, 0.1), (0.02, 0.2))
+    )
+    result = gradhesion("merge", one, other, "-o", tmp_path / "joined.nc")
+    assert (result.exit_code, result.stderr.count("\n")) == (2, 1)
+    assert "toughness" in result.stderr
+
+
 LIES = ["nu = 0.29", "not TOML", "[" * 5000, "outputs = []", 'kind = "map"', "a.b.c = 1"]
 
 

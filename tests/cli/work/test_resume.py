@@ -17,15 +17,11 @@ from gradhesion.cli.work.folder import Parts, claimed, folder_of
 from gradhesion.cli.work.solve.scenes import solve as real_solve
 from tests.faults.trials import values_of
 
+pytestmark = pytest.mark.usefixtures("small_blocks")
+
 Call = Callable[..., Result]
 SOLVE = "gradhesion.cli.work.solve.scenes.solve"
 BLOCKS = 6
-
-
-@pytest.fixture(autouse=True)
-def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Cut the small study of 24 scenes into 6 blocks."""
-    monkeypatch.setenv("GRADHESION_CHUNK", "2")
 
 
 @pytest.fixture
