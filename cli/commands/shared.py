@@ -18,11 +18,18 @@ OF_PICTURES: Final = (".png", ".svg", ".pdf")
 """How the names of files end."""
 
 A_PATH: Final = click.Path(path_type=Path)
-overriding = click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a key of the study; repeatable.")  # fmt: skip # noqa: E501
+overriding = click.option(
+    "--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a key of the study; repeatable."
+)
 overwriting = click.option("--overwrite", is_flag=True, help="Replace an existing file.")
 quietly = click.option("--quiet", is_flag=True, help="Print errors only.")
 as_json = click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
-choosing = click.option("--at", multiple=True, metavar="AXIS=VALUE", help="Fix an axis at its nearest value, or cut it: A=0.01:0.05; repeatable.")  # fmt: skip # noqa: E501
+choosing = click.option(
+    "--at",
+    multiple=True,
+    metavar="AXIS=VALUE",
+    help="Fix an axis at its nearest value, or cut it: A=0.01:0.05; repeatable.",
+)
 
 
 def example(*calls: str) -> str:
