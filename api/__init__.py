@@ -16,13 +16,7 @@ import sys
 from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
-    from gradhesion.cli.errors import (
-        DatasetError,
-        GradhesionError,
-        MissingExtraError,
-        OutputError,
-        StudyError,
-    )
+    from gradhesion.cli.errors import DatasetError, GradhesionError, MissingExtraError, OutputError, StudyError
     from gradhesion.cli.names.curves import CURVES
     from gradhesion.cli.names.outputs import OUTPUTS
     from gradhesion.cli.study.study import Study
@@ -77,8 +71,7 @@ def __getattr__(name: str) -> Any:
     else:
         if name not in _HOME_OF:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        from gradhesion.cli.installation import checked
-        from gradhesion.cli.terminal.room import refuse_without_threads
+        from gradhesion.cli.installation import checked, refuse_without_threads
 
         refuse_without_threads()
         with checked():

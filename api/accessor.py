@@ -5,8 +5,7 @@ from typing import Any
 import numpy as np
 import xarray
 
-from gradhesion.cli.dataset.read.doubtful import doubts_of
-from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by, is_cone
+from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by, doubts_of, is_cone
 from gradhesion.cli.dataset.read.reader import check_ours
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.terminal.wording import did_you_mean

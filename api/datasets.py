@@ -7,15 +7,13 @@ from typing import TYPE_CHECKING
 import xarray
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
-from gradhesion.cli.dataset.read.own_units import in_own_units
-from gradhesion.cli.dataset.read.reader import check_ours, found, opened
-from gradhesion.cli.dataset.read.soundness import check_form
+from gradhesion.cli.dataset.read.reader import check_form, check_ours, found, in_own_units, opened
 from gradhesion.cli.errors import DatasetError, StudyError
 from gradhesion.cli.installation import checked
 from gradhesion.names import as_keywords
 
 if TYPE_CHECKING:
-    from gradhesion.cli.dataset.verify.recompute import Recomputed
+    from gradhesion.cli.dataset.verify import Recomputed
 
 Data = xarray.Dataset | str | Path
 """A dataset, or the path of its file."""
@@ -42,7 +40,6 @@ def open_dataset(file: str | Path) -> xarray.Dataset:
     """
     dataset = found(Path(file), kept=True)
     try:
-        check_ours(dataset, Path(file))
         check_form(dataset, Path(file))
     except BaseException:
         dataset.close()
@@ -88,7 +85,7 @@ def verify(dataset: Data, *, sample: int = 20, seed: int | None = None) -> "Reco
             f"gr.verify: sample = {sample}, seed = {seed}: a sample of 1 scene or more, a seed of 0 or more"
         )
     with checked():
-        from gradhesion.cli.dataset.verify.recompute import recompute  # noqa: PLC0415 (python-flint)
+        from gradhesion.cli.dataset.verify import recompute  # noqa: PLC0415 (python-flint)
     path = Path(dataset) if isinstance(dataset, str | Path) else Path("the dataset")
     with as_keywords(), data_of(dataset) as values:
         return recompute(values, path, sample=sample, seed=seed, progress=lambda _: nullcontext(lambda _: None))

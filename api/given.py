@@ -12,7 +12,7 @@ from gradhesion.cli.errors import StudyError
 from gradhesion.cli.names.outputs import OUTPUTS, PARAMETER, PHYSICAL_PARAMETER
 from gradhesion.cli.names.scenes import SCENE, SOLVER
 from gradhesion.cli.study.reading import study_from, text_of
-from gradhesion.cli.study.rules.axes import Values, repeated
+from gradhesion.cli.study.rules.axes import repeated
 from gradhesion.cli.study.rules.scenes import MOST_SCENES
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.text.foreign import as_written
@@ -69,7 +69,11 @@ class Given:
         short = {name: self._ends(name, array) for name, array in self.arrays.items()}
         if not self.is_grid and "k" in short:  # whether k = 1 meets nu = 1/2 is asked of each scene instead
             short["k"] = list(dict.fromkeys(0.5 if value == 1.0 else value for value in short["k"]))
-            self._check_stiffness()
+            k, nu = (self.arrays.get(name, self.fixed.get(name)) for name in ("k", "nu"))
+            known = not self.mistakes and isinstance(nu, float | xarray.DataArray)
+            if known and bool(np.any((k == 1.0) & (nu != 0.5))):
+                sentence = "with k = 1 and nu other than 0.5 the surface has no stiffness; use nu = 0.5 there"
+                self.refuse("k = 1.0", sentence)
         try:
             study = study_from(self._data({name: ends for name, ends in short.items() if ends}), self.caller)
         except StudyError as error:
@@ -86,10 +90,14 @@ class Given:
 
         Of points all of them are arrays over all points.
         """
-        found = {
-            name: self.arrays[name] if name in self.arrays else _named(name, values)
-            for name, values in study.parameters.items()
-        }
+        found: dict[str, float | xarray.DataArray] = {}
+        for name, values in study.parameters.items():
+            if name in self.arrays:
+                found[name] = self.arrays[name]
+            elif isinstance(values, float):
+                found[name] = values
+            else:
+                found[name] = xarray.DataArray(values, dims=(name,), coords={name: values})
         if not self.is_points:
             return found
         points = next(iter(self.arrays.values()))
@@ -137,14 +145,6 @@ class Given:
         known = {*HOMES.values(), *(one.table for one in INPUTS.values())}
         return f"{self.caller}: {rest}" if dot and table in known else sentence
 
-    def _check_stiffness(self) -> None:
-        """Check that the surface has a stiffness in every scene."""
-        k, nu = (self.arrays.get(name, self.fixed.get(name)) for name in ("k", "nu"))
-        if self.mistakes or not isinstance(nu, float | xarray.DataArray):
-            return
-        if bool(np.any((k == 1.0) & (nu != 0.5))):
-            self.refuse("k = 1.0", "with k = 1 and nu other than 0.5 the surface has no stiffness; use nu = 0.5 there")
-
 
 def given_in(
     caller: str,
@@ -154,18 +154,9 @@ def given_in(
     threads: object = None,
 ) -> Given:
     """
-    Take the arguments of a call apart.
+    Take the arguments of a call apart, which is named in messages: parameters in a mapping, and as keywords.
 
-    Parameters
-    ----------
-    caller
-        The function that is called, for messages.
-    parameters, more
-        Parameters by name, in a mapping and as keywords; these stand in the place of those in the mapping.
-    settings
-        The arguments that stand for keys of a study: outputs, profile, control, solver, check_contact, title, kind.
-    threads
-        The number of threads, 1 or more, or None.
+    These stand in the place of those in the mapping; `settings` are the arguments that stand for other keys of a study.
     """
     given = Given(caller=caller, settings=_settings(settings))
     table: Any = {} if parameters is None else parameters
@@ -263,11 +254,6 @@ def is_monotone(values: Any) -> bool:
     """Report whether values rise or fall throughout."""
     steps = np.diff(values)
     return bool(np.all(steps > 0.0) or np.all(steps < 0.0))
-
-
-def _named(name: str, values: Values) -> float | xarray.DataArray:
-    """Give the axis of a study its dimension."""
-    return values if isinstance(values, float) else xarray.DataArray(values, dims=(name,), coords={name: values})
 
 
 def _with_unit(name: str, value: Any) -> Any:

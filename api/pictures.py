@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
-from gradhesion.cli.dataset.read.soundness import is_fit, refuse_fit
+from gradhesion.cli.dataset.read.reader import is_fit, refuse_fit
 from gradhesion.cli.disk import replacement, writing
 from gradhesion.cli.errors import DatasetError, OutputError
 from gradhesion.cli.installation import checked

@@ -8,17 +8,15 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.dataset import attributes, variables, with_steep_contact
+from gradhesion.cli.dataset.dataset import attributes, with_steep_contact
+from gradhesion.cli.dataset.describe import Variable, variables
 from gradhesion.cli.dataset.read.model_range import slope_warnings
-from gradhesion.cli.dataset.variable import Variable
-from gradhesion.cli.names.outputs import PHYSICAL_PARAMETER, SI, labels_of
+from gradhesion.cli.names.outputs import labels_of
 from gradhesion.cli.names.scenes import REALISATION, SOLVER, STEEP
-from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import messages
-from gradhesion.cli.work.solve.given import driven_by, physical_of, solved_by
-from gradhesion.core import PARAMETERS
-from gradhesion.core.closed.reduced import parameters_from, scales_in_si, sources_of
+from gradhesion.cli.work.solve.scenes import scenes_from, solve_given
+from gradhesion.core.closed.reduced import sources_of
 from gradhesion.core.problem.inputs import INPUTS
 
 Arrays = Mapping[str, float | xarray.DataArray]
@@ -44,38 +42,25 @@ def solved(study: Study, parameters: Arrays, threads: int | None = None) -> xarr
     """
     sizes = sizes_of(parameters)
     arrays = {name: _along(sizes, value) for name, value in parameters.items()}
-    scenes = arrays if arrays.keys() >= {*PARAMETERS} else parameters_from(arrays)
-    found = _outputs(study, scenes, threads)
+    scenes = scenes_from(arrays)
+    whole = tuple(slice(0, size) for size in study.shape)
+    watch = study.may_reach(scenes["a_max_over_R"])
+    found = solve_given(study, arrays, whole, threads, watch=watch, scenes=scenes)
     steep = found.pop(STEEP, np.zeros(1, np.int8))
-    if study.in_si:
-        scales = scales_in_si(arrays["R"], arrays["work_of_adhesion"])
-        if study.spectrum is not None:
-            scales = {unit: scale[..., None] for unit, scale in scales.items()}
-        found |= {name + SI: found[name] * scales[UNITS[name]] for name in study.in_si}
-    if PHYSICAL_PARAMETER in study.labels:
-        found |= physical_of(study, arrays, found)
     described = variables(study)
     apart = {*sizes, *study.labels, SOLVER, REALISATION}
     beside = [name for name in described if name not in found and name not in apart]
+    front, last = ([one] if one in described else [] for one in (SOLVER, REALISATION))
     made = {}
     for name, variable in described.items():
-        own, values = variable.dimensions, found.get(name)
-        if values is not None:
-            own = (
-                *(one for one in (SOLVER,) if one in described),
-                *sizes,
-                *(one for one in (REALISATION,) if one in described),
-                *(one for one in (labels_of(name),) if one),
-            )
-        elif name in arrays:
-            own = tuple(dim for dim in sizes if dim in _dims(parameters[name]))
-            values = arrays[name].reshape([sizes[dim] for dim in own])
-        elif name in scenes:
-            sources = [parameters[source] for source in sources_of(name, parameters)]
-            own = tuple(dim for dim in sizes if any(dim in _dims(source) for source in sources))
-            values = scenes[name].reshape([sizes[dim] for dim in own])
-        else:
-            values = variable.values
+        own, values = [*variable.dimensions], variable.values
+        if name in found:
+            own, values = [*front, *sizes, *last, *filter(None, [labels_of(name)])], found[name]
+        elif name in scenes or name in arrays:
+            sources = [name] if name in arrays else sources_of(name, parameters)
+            varying = {dim for source in sources for dim in _dims(parameters[source])}
+            own = [dim for dim in sizes if dim in varying]
+            values = (arrays if name in arrays else scenes)[name].reshape([sizes[dim] for dim in own])
         made[name] = _as_read(variable, own, np.asarray(values), beside if name in found else [])
     about = attributes(study, "computed in memory")
     if not study.text:
@@ -96,7 +81,7 @@ def _say_once(sentences: tuple[str, ...]) -> None:
         messages.say(f"gr.solve: {sentence}")
 
 
-def _as_read(variable: Variable, dims: tuple[str, ...], values: NDArray[Any], beside: list[str]) -> xarray.Variable:
+def _as_read(variable: Variable, dims: list[str], values: NDArray[Any], beside: list[str]) -> xarray.Variable:
     """Give a variable as xarray reads it from a file, by CF: what is said of its cells stands in `encoding`."""
     plain = {key: value for key, value in variable.attributes.items() if key != "coordinates"}
     encoding: dict[str, Any] = {} if variable.blank is None else {"_FillValue": values.dtype.type(variable.blank)}
@@ -129,16 +114,6 @@ def _along(sizes: Mapping[str, int], value: float | xarray.DataArray) -> NDArray
         return np.full((1,) * len(sizes), value)
     values = value.transpose(*(dim for dim in sizes if dim in value.dims)).values
     return np.asarray(values).reshape([value.sizes.get(dim, 1) for dim in sizes])
-
-
-def _outputs(study: Study, scenes: Mapping[str, NDArray[np.float64]], threads: int | None) -> dict[str, NDArray[Any]]:
-    """Solve the scenes, by one solver or by each of several."""
-    settings: dict[str, Any] = {"check_contact": study.method.check_contact, "threads": threads}
-    settings |= {**driven_by(study), "watch": study.may_reach(scenes["a_max_over_R"])}
-    solvers = study.method.solver
-    requested = (solvers,) if isinstance(solvers, str) else solvers
-    *_, profiles = study.apart(tuple(slice(0, size) for size in study.shape))
-    return solved_by(scenes, study, requested, profiles, **settings)
 
 
 def _other_coordinates(parameters: Arrays, dataset: xarray.Dataset) -> dict[str, xarray.DataArray]:

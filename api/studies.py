@@ -100,15 +100,11 @@ def run(
         study = load(study, set=set)
     elif set:
         study = any_from(_changed(tomllib.loads(study.text), _checked(set)), folder=study.folder)
-    if isinstance(study, FitStudy):
-        with checked():
-            from gradhesion.cli.dataset.fits.fit import compute_fit  # noqa: PLC0415 (the compiler, for which `load` has no use)
+    with checked():  # of what needs the compiler, for which `load` has no use
+        from gradhesion.cli.dataset.dataset import compute  # noqa: PLC0415
+        from gradhesion.cli.dataset.fits import compute_fit  # noqa: PLC0415
 
-        return compute_fit(study)
-    with checked():
-        from gradhesion.cli.dataset.dataset import compute  # noqa: PLC0415 (the compiler, as above)
-
-    return compute(study, threads=threads)
+    return compute_fit(study) if isinstance(study, FitStudy) else compute(study, threads=threads)
 
 
 def _checked(changes: Any) -> Mapping[str, Any]:

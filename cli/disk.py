@@ -72,14 +72,7 @@ def replacement(path: Path, *, overwrite: bool) -> Iterator[Path]:
 
 
 def refuse_existing(path: Path, *, overwrite: bool) -> None:
-    """
-    Refuse to replace what is not a file, or was not to be replaced.
-
-    Raises
-    ------
-    OutputError
-        It is there.
-    """
+    """Refuse to replace what is not a file, or was not to be replaced (OutputError)."""
     with writing(path):
         exists, is_file = path.exists(), path.is_file()
     if exists and not is_file:

@@ -1,11 +1,12 @@
-"""Packages that are missing or of a version that does not serve: looked for only where something has failed."""
+"""What the packages and the environment allow: packages are looked for only where something has failed."""
 
+import os
 import re
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from gradhesion.cli.errors import MissingExtraError
+from gradhesion.cli.errors import CompilerError, MissingExtraError
 
 
 def unmet() -> list[tuple[str, str, str]]:
@@ -54,23 +55,36 @@ def misfit(error: BaseException) -> MissingExtraError | None:
     needs = ", ".join(
         f"{owner} needs {needed} ({f'{there} is' if there else 'not'} installed)" for owner, needed, there in wanting
     )
-    remedy = " ".join([sys.executable or "python", "-m pip install", *(f'"{needed}"' for _, needed, _ in wanting)])
-    return MissingExtraError(f"{symptom}: {needs}; run {remedy}")
+    remedy = " ".join(f'"{needed}"' for _, needed, _ in wanting)
+    return MissingExtraError(f"{symptom}: {needs}; run {sys.executable or 'python'} -m pip install {remedy}")
 
 
 @contextmanager
 def checked() -> Iterator[None]:
-    """
-    Have imports that fail in the block name the packages that do not serve.
-
-    Raises
-    ------
-    MissingExtraError
-        A package is missing, or its version is none that is needed.
-    """
+    """Have imports that fail in the block name the packages that do not serve (MissingExtraError)."""
     try:
         yield
     except (ImportError, AttributeError, TypeError) as error:
         if (found := misfit(error)) is not None:
             raise found from error
         raise
+
+
+def refuse_without_threads() -> None:
+    """
+    Make sure that the compiler may have a thread: numba fails at its import otherwise, or prints a traceback.
+
+    An empty number is that of a shell variable which is not set; it is removed.
+
+    Raises
+    ------
+    CompilerError
+        The environment says that it may not.
+    """
+    number = os.environ.get("NUMBA_NUM_THREADS", "").strip()
+    if not number:
+        os.environ.pop("NUMBA_NUM_THREADS", None)
+    elif not number.isdecimal() or int(number) < 1:
+        raise CompilerError(
+            f"NUMBA_NUM_THREADS = {number}: the number of threads is a whole number from 1 on; change it, or unset it"
+        )

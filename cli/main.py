@@ -10,7 +10,6 @@ from typing import Any, Final, NoReturn
 
 import click
 
-from gradhesion.cli.commands.completion import completion
 from gradhesion.cli.commands.explore import explore
 from gradhesion.cli.commands.info import info
 from gradhesion.cli.commands.init import init
@@ -20,15 +19,13 @@ from gradhesion.cli.commands.plot import plot
 from gradhesion.cli.commands.profile import profile
 from gradhesion.cli.commands.run import run
 from gradhesion.cli.commands.select import select
+from gradhesion.cli.commands.setup import completion, schema, warmup
 from gradhesion.cli.commands.status import status
-from gradhesion.cli.commands.validate import schema, validate
+from gradhesion.cli.commands.validate import validate
 from gradhesion.cli.commands.verify import verify
-from gradhesion.cli.commands.warmup import warmup
 from gradhesion.cli.errors import GradhesionError, OutputError
-from gradhesion.cli.installation import misfit
+from gradhesion.cli.installation import misfit, refuse_without_threads
 from gradhesion.cli.terminal import interrupts, messages
-from gradhesion.cli.terminal.output import complain, open_streams
-from gradhesion.cli.terminal.room import refuse_without_threads
 
 INTERRUPTED = 130
 UNHEARD = 141
@@ -45,12 +42,8 @@ SET_UP: Final = (warmup, completion, schema)
 """Commands for an installation, a shell and an editor, each needed once if at all: they have one line together."""
 
 EXITS: Final = (
-    (0, "success"),
-    (2, "wrong command, study or dataset"),
-    (3, "failed or doubtful scenes"),
-    (4, "the output cannot be written"),
-    (INTERRUPTED, "interrupted"),
-    (UNHEARD, "the reader of the output has closed it"),
+    "0 success, 2 wrong command, study or dataset, 3 failed or doubtful scenes, 4 the output cannot be written, "
+    f"{INTERRUPTED} interrupted, {UNHEARD} the reader of the output has closed it"
 )
 """The exit codes in short."""
 
@@ -80,15 +73,14 @@ class Commands(click.Group):
 
     def format_commands(self, _context: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the sections, and in short what stands beside them: help fits a screen."""
-        width = len("Exit codes:")
+        width = len("Exit codes:") - 2
         for words, commands in SECTIONS.items():
             with formatter.section(words):
-                rows = [(f"{one.name:{width - 2}}", one.get_short_help_str(formatter.width)) for one in commands]
-                formatter.write_dl(rows)
+                formatter.write_dl(
+                    [(f"{one.name:{width}}", one.get_short_help_str(formatter.width)) for one in commands]
+                )
         formatter.write_paragraph()
-        set_up = ", ".join(str(command.name) for command in SET_UP)
-        exits = ", ".join(f"{code} {words}" for code, words in EXITS)
-        formatter.write_dl([("Set up:", set_up), ("Exit codes:", exits)])
+        formatter.write_dl([("Set up:", ", ".join(str(one.name) for one in SET_UP)), ("Exit codes:", EXITS)])
 
 
 @click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
@@ -107,7 +99,7 @@ for _commands in (*SECTIONS.values(), SET_UP):
 
 def main() -> NoReturn:
     """Run the command line, and leave with the exit code of how it went."""
-    open_streams()
+    messages.open_streams()
     interrupts.listen()
     try:
         code = cli.main(prog_name="gradhesion", standalone_mode=False) or 0
@@ -147,6 +139,6 @@ def _code_of(error: BaseException) -> int:
     if isinstance(error, click.ClickException):
         text = io.StringIO()
         error.show(text)
-        complain(text.getvalue().rstrip())
+        messages.complain(text.getvalue().rstrip())
         return error.exit_code
     raise error

@@ -114,10 +114,7 @@ def _sections() -> Iterator[str]:
         ("variable", "meaning"),
         [
             [code(f"{BEST}X"), "the output at the optimum, or the place of the optimum"],
-            [
-                code(f"{BEST}X_sensitivity"),
-                "of a force or an energy as the goal: its sensitivities at the optimum",
-            ],
+            [code(f"{BEST}X_sensitivity"), "of a force or an energy as the goal: its sensitivities at the optimum"],
             [code(ON_BOUND), "the bounds at which the optimum lies, as flags; 0: none"],
         ],
     )

@@ -75,10 +75,7 @@ def _sections() -> Iterator[str]:
         "remedy; the command line prints the same sentences."
     )
     errors = ("GradhesionError", "StudyError", "DatasetError", "OutputError", "MissingExtraError")
-    yield table(
-        ("error", "raised when"),
-        ([code(f"gr.{name}"), _first(getattr(gradhesion, name))] for name in errors),
-    )
+    yield table(("error", "raised when"), ([code(f"gr.{name}"), _first(getattr(gradhesion, name))] for name in errors))
     yield "## Arrays: gradhesion.core"
     for name in ("solve", "validity", "draw_curves", "Loading", "doubts_about"):
         yield from _of("core", name, getattr(core, name))

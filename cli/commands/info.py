@@ -1,26 +1,21 @@
 """`gradhesion info`: what a dataset holds, in words or as a table."""
 
+from contextlib import ExitStack
 from pathlib import Path
 
 import click
 
-from gradhesion.cli.terminal.examples import example
-from gradhesion.cli.terminal.output import show, show_block
+from gradhesion.cli.commands.shared import A_PATH, choosing, example
+from gradhesion.cli.terminal.messages import show, show_block
+
+TO_CSV = "info outputs/study.nc --format csv > study.csv"
 
 
-@click.command(
-    epilog=example("info outputs/study.nc", "info outputs/study.nc --format csv > study.csv", "info a.nc b.nc")
-)
-@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(path_type=Path))
-@click.option(
-    "--at", multiple=True, metavar="AXIS=VALUE", help="Only of this value of an axis, or range LOW:HIGH; repeatable."
-)
-@click.option(
-    "--format", "form", type=click.Choice(["words", "csv"]), default="words", help="A summary, or all values."
-)
-@click.option(
-    "--variable", "variables", multiple=True, metavar="NAME", help="With csv: a variable or curve; repeatable."
-)
+@click.command(epilog=example("info outputs/study.nc", TO_CSV, "info a.nc b.nc"))
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=A_PATH)
+@choosing
+@click.option("--format", "form", type=click.Choice(["words", "csv"]), default="words", help="A summary or all values.")
+@click.option("--variable", "variables", multiple=True, metavar="NAME", help="With csv: a variable; repeatable.")
 @click.option("--jumps", is_flag=True, help="List the jumps of all scenes instead, as CSV.")
 def info(files: tuple[Path, ...], at: tuple[str, ...], form: str, variables: tuple[str, ...], jumps: bool) -> None:
     """Describe a dataset, or print it as CSV.
@@ -29,10 +24,8 @@ def info(files: tuple[Path, ...], at: tuple[str, ...], form: str, variables: tup
     scenes, the scenes that failed or are doubtful, and the origin of the dataset. Several files are fits of the same
     data, which are compared.
     """
-    from contextlib import ExitStack
-
-    from gradhesion.cli.dataset.read.reader import opened
-    from gradhesion.cli.dataset.read.soundness import is_fit
+    from gradhesion.cli.dataset.read.reader import is_fit, opened
+    from gradhesion.cli.dataset.select import selected
     from gradhesion.cli.words.table import fits_tabled, jumps_listed, tabled
     from gradhesion.cli.words.words import described
 
@@ -43,22 +36,16 @@ def info(files: tuple[Path, ...], at: tuple[str, ...], form: str, variables: tup
     file = files[0]
     with ExitStack() as stack:
         datasets = [stack.enter_context(opened(each)) for each in files]
-        dataset = datasets[0]
-        if at:
-            from gradhesion.cli.dataset.select import selected
-
-            dataset = selected(dataset, at)
-        if jumps or (form == "csv" and not is_fit(dataset)):
-            for block in jumps_listed(dataset, file) if jumps else tabled(dataset, file, variables):
+        dataset = selected(datasets[0], at) if at else datasets[0]
+        if jumps or form == "csv":
+            of_values = fits_tabled(dataset) if is_fit(dataset) else tabled(dataset, file, variables)
+            for block in jumps_listed(dataset, file) if jumps else of_values:
                 show_block(block)
-        elif form == "csv":
-            for block in fits_tabled(dataset):
-                show_block(block)
-        else:
-            lines = described(dataset, file)
-            if len(files) > 1 or is_fit(dataset):
-                from gradhesion.cli.words.fit_words import fits_compared, fits_described
+            return
+        lines = described(dataset, file)
+        if len(files) > 1 or is_fit(dataset):
+            from gradhesion.cli.words.fit_words import fits_compared, fits_described
 
-                lines = iter([*fits_compared(datasets, files)]) if len(files) > 1 else fits_described(dataset, file)
-            for line in lines:
-                show(line)
+            lines = fits_compared(datasets, files) if len(files) > 1 else fits_described(dataset, file)
+        for line in lines:
+            show(line)

@@ -7,21 +7,15 @@ from pathlib import Path
 import click
 from click.shell_completion import CompletionItem
 
+from gradhesion.cli.commands.shared import A_PATH, example, overwriting
 from gradhesion.cli.disk import replacement, writing
 from gradhesion.cli.terminal import messages
-from gradhesion.cli.terminal.examples import example
-from gradhesion.cli.terminal.output import show
 
 
 def studies() -> dict[str, str]:
     """Read the studies that come with the program, by name."""
     files = sorted(resources.files("gradhesion.configs").iterdir(), key=lambda file: file.name)
     return {file.name.removesuffix(".toml"): file.read_text("utf-8") for file in files if file.name.endswith(".toml")}
-
-
-def of_a_figure(name: str) -> bool:
-    """Tell whether a study is that of a figure: one of the paper, or an extra beside them."""
-    return name.startswith(("fig", "extra_"))
 
 
 def beside(text: str) -> dict[str, str]:
@@ -38,8 +32,8 @@ def _names(_context: click.Context, _parameter: click.Parameter, incomplete: str
 
 @click.command(epilog=example("init", "init curve -o tip.toml"))
 @click.argument("name", default="map", shell_complete=_names)
-@click.option("-o", "--output", type=click.Path(path_type=Path), help="File to write [NAME.toml].")
-@click.option("--overwrite", is_flag=True, help="Replace an existing file.")
+@click.option("-o", "--output", type=A_PATH, help="File to write [NAME.toml].")
+@overwriting
 @click.option("--list", "listed", is_flag=True, help="List the studies and write nothing.")
 @click.option("--paper", is_flag=True, help="With --list: the studies of the figures of the paper instead.")
 def init(name: str, output: Path | None, overwrite: bool, listed: bool, paper: bool) -> None:
@@ -52,10 +46,10 @@ def init(name: str, output: Path | None, overwrite: bool, listed: bool, paper: b
     if paper and not listed:
         raise click.UsageError("--paper goes with --list; a figure has its name: gradhesion init fig4a")
     if listed:
-        shown = {one: text for one, text in known.items() if of_a_figure(one) == paper}
+        shown = {one: text for one, text in known.items() if one.startswith(("fig", "extra_")) == paper}
         width = max(map(len, shown))
         for one, text in shown.items():
-            show(f"{one:{width}}  {text.splitlines()[0].removeprefix('# ')}")
+            messages.show(f"{one:{width}}  {text.splitlines()[0].removeprefix('# ')}")
         return
     if name not in known:
         if name.endswith(".toml"):

@@ -4,15 +4,13 @@ import json
 from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from gradhesion.cli.commands.validate import overriding
+from gradhesion.cli.commands.shared import A_PATH, as_json, example, given_up, overriding
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted, duration
-from gradhesion.cli.terminal.examples import example
-from gradhesion.cli.terminal.given_up import given_up
-from gradhesion.cli.terminal.output import show, show_block
+from gradhesion.cli.terminal.messages import show, show_block
 
 if TYPE_CHECKING:
     from gradhesion.cli.study.fit.study import FitStudy
@@ -20,11 +18,11 @@ if TYPE_CHECKING:
 
 
 @click.command(epilog=example("plan study.toml"))
-@click.argument("study", type=click.Path(path_type=Path))
-@click.option("-o", "--output", type=click.Path(path_type=Path), help="Output of the run.")
+@click.argument("study", type=A_PATH)
+@click.option("-o", "--output", type=A_PATH, help="Output of the run.")
 @overriding
 @click.option("--threads", type=click.IntRange(min=1), help="Threads of the run [all available to the process].")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@as_json
 @given_up("--chunk", "the size of blocks is chosen by itself")
 def plan(study: Path, output: Path | None, overrides: tuple[str, ...], threads: int | None, as_json: bool) -> None:
     """Show what a run would do and cost.
@@ -40,20 +38,21 @@ def plan(study: Path, output: Path | None, overrides: tuple[str, ...], threads: 
     loaded = load_any(study, overrides)
     path = output or Path("outputs") / f"{loaded.name}.nc"
     if isinstance(loaded, FitStudy):
-        _show_fit(loaded, path, as_json=as_json)
-        return
-    prepare(loaded)
-    found = estimate(loaded, path, threads)
+        found, lines = _of_fit(loaded, path), _fit_in_words(loaded, path)
+    else:
+        prepare(loaded)
+        of_run = estimate(loaded, path, threads)
+        found, lines = asdict(of_run), _run_in_words(of_run)
     if as_json:
-        show_block(json.dumps(asdict(found), indent=2))
+        show_block(json.dumps(found, indent=2))
         return
-    for line in _lines(found):
+    for line in lines:
         show(line)
 
 
-def _show_fit(study: "FitStudy", output: Path, *, as_json: bool) -> None:
-    """Print the plan of a fit."""
-    found = {
+def _of_fit(study: "FitStudy", output: Path) -> dict[str, Any]:
+    """List what a fit would do."""
+    return {
         "output": str(output),
         "output_exists": output.exists(),
         "kind": study.kind,
@@ -63,18 +62,18 @@ def _show_fit(study: "FitStudy", output: Path, *, as_json: bool) -> None:
         "parameters": list(study.parameters),
         "starts": study.starts,
     }
-    if as_json:
-        show_block(json.dumps(found, indent=2))
-        return
-    show(f"output    {output} ({_state(exists=output.exists())})")
-    show(f"points    {study.in_words}")
-    show(f"fitted    {', '.join(study.parameters)}; from at most {counted(study.starts, 'start')}")
-    for note in study.notes:
-        show(f"note      {note}")
 
 
-def _lines(found: "Estimate") -> Iterator[str]:
-    """Describe a plan."""
+def _fit_in_words(study: "FitStudy", output: Path) -> Iterator[str]:
+    """Describe the plan of a fit."""
+    yield f"output    {output} ({_state(exists=output.exists())})"
+    yield f"points    {study.in_words}"
+    yield f"fitted    {', '.join(study.parameters)}; from at most {counted(study.starts, 'start')}"
+    yield from (f"note      {note}" for note in study.notes)
+
+
+def _run_in_words(found: "Estimate") -> Iterator[str]:
+    """Describe the plan of a run."""
     axes = ", ".join(f"{name} ({size:,})" for name, size in found.sizes.items()) or "none"
     often = f", each solved about {found.solutions_of_scene:,} times" if found.solutions_of_scene > 1 else ""
     yield f"output    {found.output} ({_state(exists=found.output_exists, running=found.running)})"

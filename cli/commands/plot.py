@@ -1,14 +1,21 @@
 """`gradhesion plot`: the right picture for the shape of a dataset."""
 
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 import click
 
-from gradhesion.cli.terminal.examples import example
-from gradhesion.cli.terminal.written import say_written
-
-FORMS: Final = ("png", "svg", "pdf")
+from gradhesion.cli.commands.shared import (
+    A_PATH,
+    OF_PICTURES,
+    choosing,
+    ending_of,
+    example,
+    listed,
+    overwriting,
+    quietly,
+    say_written,
+)
 
 
 @click.command(
@@ -16,10 +23,10 @@ FORMS: Final = ("png", "svg", "pdf")
         "plot outputs/study.nc", "plot outputs/study.nc -o map.pdf --at A=0.02 --over k=max --width column --no-title"
     )
 )
-@click.argument("file", type=click.Path(path_type=Path))
-@click.option("-o", "--output", type=click.Path(path_type=Path), help="Picture: .png, .svg or .pdf [FILE.png].")
+@click.argument("file", type=A_PATH)
+@click.option("-o", "--output", type=A_PATH, help="Picture: .png, .svg or .pdf [FILE.png].")
 @click.option("--variable", "variables", multiple=True, metavar="NAME", help="Variable to draw; repeatable.")
-@click.option("--at", multiple=True, metavar="AXIS=VALUE", help="Fix an axis at its nearest value; repeatable.")
+@choosing
 @click.option("--interpolate", is_flag=True, help="Interpolate to the value of --at instead.")
 @click.option(
     "--over", multiple=True, metavar="AXIS=HOW", help="Reduce an axis: max, min, mean, p05, p50, p95, argmax, argmin."
@@ -43,9 +50,9 @@ FORMS: Final = ("png", "svg", "pdf")
 @click.option("--ylabel", metavar="TEXT", help="Name of the vertical axis.")
 @click.option("--caption/--no-caption", default=True, help="Print the fixed parameters [yes].")
 @click.option("--style", metavar="STYLE", help="Matplotlib style to add: a name or a file.")
-@click.option("--data", type=click.Path(path_type=Path), help="Measured points to draw on curves: a table in a file.")
-@click.option("--overwrite", is_flag=True, help="Replace an existing picture.")
-@click.option("--quiet", is_flag=True, help="Print errors only.")
+@click.option("--data", type=A_PATH, help="Measured points to draw on curves: a table in a file.")
+@overwriting
+@quietly
 def plot(
     file: Path,
     output: Path | None,
@@ -67,10 +74,7 @@ def plot(
     Options fix an axis (--at A=0.02), reduce it (--over k=max) or place it (--x, --y), and set size, colours, labels.
     """
     path = output or file.parent / f"{file.stem or 'dataset'}.png"
-    form = path.suffix[1:].lower()
-    if form not in FORMS:
-        raise click.UsageError(f"{path}: the name of a picture ends in .png, .svg or .pdf; name another with -o")
-    names = [name.strip() for word in variables for name in word.split(",")]
+    form = ending_of(path, "picture", OF_PICTURES)
 
     from gradhesion.cli.dataset.read.reader import opened
     from gradhesion.cli.disk import replacement, writing
@@ -81,7 +85,7 @@ def plot(
     chosen, notes = looks_of(**looks), list[str]()
     choices: dict[str, Any] = {"at": at, "over": over, "interpolate": interpolate, "x": x, "y": y, "data": data}
     with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary:
-        figure = picture_of(dataset, names, chosen, **choices, notes=notes.append)
+        figure = picture_of(dataset, listed(variables), chosen, **choices, notes=notes.append)
         with writing(path):
             save(figure, temporary, form, chosen)
     if not quiet:

@@ -4,19 +4,17 @@ from pathlib import Path
 
 import click
 
-from gradhesion.cli.commands.plot import FORMS
-from gradhesion.cli.terminal.examples import example
-from gradhesion.cli.terminal.written import say_written
+from gradhesion.cli.commands.shared import A_PATH, OF_PICTURES, ending_of, example, overwriting, quietly, say_written
 
 
 @click.command(epilog=example("profile tip.csv", 'profile tip.csv --up-to "2 um" --exponent fit > punch.toml'))
-@click.argument("file", type=click.Path(path_type=Path))
-@click.option("-o", "--output", type=click.Path(path_type=Path), help="Picture: .png, .svg or .pdf [FILE.png].")
+@click.argument("file", type=A_PATH)
+@click.option("-o", "--output", type=A_PATH, help="Picture: .png, .svg or .pdf [FILE.png].")
 @click.option("--terms", type=int, default=16, show_default=True, help="Harmonics to fit.")
 @click.option("--exponent", default="2.0", show_default=True, help='Power of the punch, or "fit" to fit it.')
 @click.option("--up-to", metavar="LENGTH", help='Distance from the centre up to which to fit, as "2 um" [all].')
-@click.option("--overwrite", is_flag=True, help="Replace an existing picture.")
-@click.option("--quiet", is_flag=True, help="Print errors only.")
+@overwriting
+@quietly
 def profile(
     file: Path, output: Path | None, terms: int, exponent: str, up_to: str | None, overwrite: bool, quiet: bool
 ) -> None:
@@ -26,26 +24,24 @@ def profile(
     and a Fourier series, prints them as tables of a study, and draws the fit.
     """
     path = output or file.with_suffix(".png")
-    form = path.suffix[1:].lower()
-    if form not in FORMS:
-        raise click.UsageError(f"{path}: the name of a picture ends in .png, .svg or .pdf; name another with -o")
+    form = ending_of(path, "picture", OF_PICTURES)
+
     from gradhesion.cli.disk import replacement, writing
     from gradhesion.cli.errors import StudyError
     from gradhesion.cli.picture.fits import drawn_profile
     from gradhesion.cli.picture.pictured import save
     from gradhesion.cli.study.files import exponent_of, fitted, read_profile
     from gradhesion.cli.study.text.quantities import si_value
-    from gradhesion.cli.terminal.output import show_block
+    from gradhesion.cli.terminal.messages import show_block
     from gradhesion.cli.words.profile_words import tables_of
 
+    option = f"--up-to {up_to}"
     try:
         reach = None if up_to is None else si_value(up_to, "up_to")
-    except ValueError as error:
-        raise click.UsageError(f"--up-to {up_to}: {error}") from None
-    try:
+        option = f"--exponent {exponent}"
         power = exponent_of(exponent)
     except ValueError as error:
-        raise click.UsageError(f"--exponent {exponent}: {error}") from None
+        raise click.UsageError(f"{option}: {error}") from None
     with replacement(path, overwrite=overwrite) as temporary:
         try:
             r, heights, _, dropped = read_profile(file)

@@ -1,29 +1,38 @@
 """`gradhesion run`: compute a study into a dataset."""
 
 import re
-import shlex
-import sys
+import statistics
 import time
-from datetime import UTC, datetime
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import click
 
-from gradhesion.cli.commands.validate import overriding
-from gradhesion.cli.errors import ScenesFailedError
+from gradhesion.cli.commands.shared import (
+    A_PATH,
+    dataset_to_write,
+    example,
+    given_up,
+    history_now,
+    overriding,
+    overwriting,
+    quietly,
+)
+from gradhesion.cli.errors import FitDoubtfulError, ScenesFailedError
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
-from gradhesion.cli.terminal.examples import example
-from gradhesion.cli.terminal.given_up import given_up
-from gradhesion.cli.terminal.printable import printable_line
 from gradhesion.cli.terminal.progress import progress, rate
-from gradhesion.cli.terminal.written import dataset_to_write
 
 if TYPE_CHECKING:
     from gradhesion.cli.dataset.writer import Written
+    from gradhesion.cli.study.fit.study import FitStudy
     from gradhesion.cli.study.study import Study
     from gradhesion.cli.work.engines import Engine
+    from gradhesion.cli.work.solve.fitting import Fit
+
+SAID: Final = 20
+"""Sentences on the loops of a fit that are printed; `gradhesion info` has all of them."""
 
 
 def _shard(_context: click.Context, _option: click.Parameter, value: str | None) -> tuple[int, int] | None:
@@ -38,16 +47,10 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
 
 
 @click.command(epilog=example("run study.toml", "run study.toml -o wavier.nc --set parameters.A=0.05"))
-@click.argument("study", type=click.Path(path_type=Path))
-@click.option(
-    "-o",
-    "--output",
-    type=click.Path(path_type=Path),
-    callback=dataset_to_write,
-    help="Dataset to write [outputs/<study name>.nc].",
-)
+@click.argument("study", type=A_PATH)
+@dataset_to_write("Dataset to write [outputs/<study name>.nc].")
 @overriding
-@click.option("--overwrite", is_flag=True, help="Replace an existing dataset.")
+@overwriting
 @click.option("--fresh", is_flag=True, help="Discard the finished blocks of an earlier run.")
 @click.option("--shard", metavar="I/N", callback=_shard, help="Compute every N-th block, for `merge`.")
 @click.option(
@@ -63,7 +66,7 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
     type=click.IntRange(min=1),
     help="Threads to use [all available to the process]; values do not depend on it.",
 )
-@click.option("--quiet", is_flag=True, help="Print errors, and a line if the solver is compiled.")
+@quietly
 @given_up("--dry-run", "use `gradhesion plan`")
 @given_up("--chunk", "the size of blocks is chosen by itself")
 @given_up("--fail-fast", "run fewer scenes first, and `gradhesion info` reports which have failed, and why")
@@ -96,48 +99,39 @@ def run(
     loaded = load_any(study, overrides)
     path = output or Path("outputs") / f"{loaded.name}.nc"
     if isinstance(loaded, FitStudy):
-        from gradhesion.cli.commands.run_fit import run_fit
-
-        refused = {"--shard": shard, "--fresh": fresh, "--engine dask": engine != "threads"}
-        if given := [word for word, on in refused.items() if on]:
-            raise click.UsageError(f"{given[0]}: a fit has no blocks of scenes; run it without")
-        run_fit(loaded, path, history=history_now(), overwrite=overwrite, quiet=quiet)
+        if shard is not None or fresh or engine != "threads":
+            raise click.UsageError("a fit has no blocks of scenes; run it without --shard, --fresh and --engine")
+        _run_fit(loaded, path, overwrite=overwrite, quiet=quiet)
         return
+    if shard is not None and not loaded.has_parts:
+        raise click.UsageError("--shard: the study has one block only, and needs no shards; run it without --shard")
     if scheduler is None:  # the workers of another cluster have caches of their own
         prepare(loaded)
     solver = _engine(loaded, engine, scheduler, threads, quiet=quiet)
-    if shard is not None:
-        _run_shard(loaded, path, shard, solver, overwrite=overwrite, quiet=quiet)
-        return
     start = time.monotonic()
-    with progress(loaded.scenes, quiet=quiet) as advance:
-        written = write(
+    with progress(loaded.scenes // (shard[1] if shard else 1), quiet=quiet) as advance:
+        done = write(
             loaded,
             path,
             history=history_now(),
             overwrite=overwrite,
             fresh=fresh,
+            shard=shard,
             threads=threads,
             engine=solver,
             advance=advance,
         )
-    finish(path, loaded.scenes, written, time.monotonic() - start, quiet=quiet)
-
-
-def history_now() -> str:
-    """Write the line of `history` for this command."""
-    return printable_line(f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ} gradhesion {shlex.join(sys.argv[1:])}")
+    if shard is None:
+        finish(path, loaded.scenes, done, time.monotonic() - start, quiet=quiet)
+    elif not quiet:
+        messages.say(
+            f"{path}.parts: shard {shard[0]} of {shard[1]}: reused {counted(done.reused, 'block')}, computed "
+            f"{done.computed:,}; `gradhesion merge {path}` joins them when all shards are done"
+        )
 
 
 def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet: bool) -> None:
-    """
-    Say what was written, how much of it an earlier run had done, and what has failed.
-
-    Raises
-    ------
-    ScenesFailedError
-        Some scenes have.
-    """
+    """Say what was written, how much of it an earlier run had done, and what has failed (ScenesFailedError)."""
     if not quiet:
         count, size = counted(scenes, "scene"), bytes_in_words(path.stat().st_size)
         reused = f"; reused {counted(written.reused, 'block')}, computed {written.computed:,}" if written.reused else ""
@@ -166,18 +160,51 @@ def _engine(study: "Study", engine: str, scheduler: str | None, threads: int | N
     return in_threads(threads)
 
 
-def _run_shard(
-    study: "Study", path: Path, shard: tuple[int, int], solver: "Engine", *, overwrite: bool, quiet: bool
-) -> None:
-    """Compute the blocks of a shard."""
-    from gradhesion.cli.dataset.writer import write_shard
+def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> None:
+    """Fit the loops of a study, write what is found, and say what is doubtful (FitDoubtfulError)."""
+    from gradhesion.cli.dataset.fits import cautions_of_fit, dataset_of, refuse_size
+    from gradhesion.cli.dataset.select import write_dataset
+    from gradhesion.cli.disk import refuse_existing
+    from gradhesion.cli.work.compiling import prepare
+    from gradhesion.cli.work.solve.fitting import doubts_of, fits_of
 
-    if not study.has_parts:
-        raise click.UsageError("--shard: the study has one block only, and needs no shards; run it without --shard")
-    with progress(study.scenes // shard[1], quiet=quiet) as advance:
-        written = write_shard(study, path, shard, overwrite=overwrite, engine=solver, advance=advance)
+    refuse_existing(path, overwrite=overwrite)
+    refuse_size(study)
+    for note in () if quiet else _first(study.notes):
+        messages.say(note)
+    prepare()
+    start = time.monotonic()
+    with progress(len(study.loops), quiet=quiet or len(study.loops) == 1, noun="loop") as advance:
+        fits = fits_of(study, advance)
+    seconds = time.monotonic() - start
+    write_dataset(dataset_of(study, fits, history_now()), path, overwrite=overwrite)
+
+    about = {fit.loop.file: path if study.is_of_one else f"{path}: {fit.loop.file}" for fit in fits}
     if not quiet:
-        messages.say(
-            f"{path}.parts: shard {shard[0]} of {shard[1]}: reused {counted(written.reused, 'block')}, computed "
-            f"{written.computed:,}; `gradhesion merge {path}` joins them when all shards are done"
-        )
+        took = f"fitted in {seconds:.1f} s, {bytes_in_words(path.stat().st_size)}"
+        messages.say(f"{path}: {_done(study, fits, took)}")
+        said = [(fit.loop.file, one) for fit in fits if fit.found for one in cautions_of_fit(study, fit.found)]
+        for sentence in _first([f"{about[file]}: {one}" for file, one in said]):
+            messages.say(sentence)
+    doubts = [(fit.loop.file, one) for fit in fits for one in (doubts_of(fit.found) if fit.found else [fit.problem])]
+    if doubts:
+        raise FitDoubtfulError(_first([f"{about[file]}: {one}" for file, one in doubts]))
+
+
+def _done(study: "FitStudy", fits: Sequence["Fit"], took: str) -> str:
+    """Say what was found: the values of one loop, or the medians of several."""
+    found = [fit.found for fit in fits if fit.found is not None]
+    medians = {name: statistics.median(one.values[name] for one in found) for name in found[0].values}
+    values = ", ".join(f"{name} = {value:.4g}" for name, value in medians.items())
+    reduced = [one.reduced_chi_square for one in found]
+    if study.is_of_one:
+        return f"{counted(study.loop.depth.size, 'point')} {took}: {values}; reduced chi square {reduced[0]:.3g}"
+    span = f"{min(reduced):.3g} to {max(reduced):.3g}"
+    return f"{len(found):,} of {counted(len(fits), 'loop')} {took}: medians {values}; reduced chi square {span}"
+
+
+def _first(sentences: Sequence[str]) -> list[str]:
+    """Give the first sentences, and say how many are left."""
+    left = len(sentences) - SAID
+    more = [f"and {left:,} more; `gradhesion info` of the dataset lists them"] if left > 0 else []
+    return [*sentences[:SAID], *more]

@@ -4,46 +4,36 @@ from pathlib import Path
 
 import click
 
-from gradhesion.cli.commands.run import history_now
-from gradhesion.cli.terminal.examples import example
-from gradhesion.cli.terminal.written import dataset_to_write, say_written
+from gradhesion.cli.commands.shared import (
+    A_PATH,
+    choosing,
+    dataset_to_write,
+    example,
+    history_now,
+    overwriting,
+    quietly,
+    say_written,
+)
+
+EXAMPLE = "select outputs/study.nc --at k=0.3 --at A=0.01:0.05 --over a_max_over_R=max -o small.nc"
+HOW = "Reduce an axis: max, min, mean, sum, p05, median, p95; repeatable."
 
 
-@click.command(
-    epilog=example("select outputs/study.nc --at k=0.3 --at A=0.01:0.05 --over a_max_over_R=max -o small.nc")
-)
-@click.argument("file", type=click.Path(path_type=Path))
-@click.option(
-    "--at",
-    multiple=True,
-    metavar="AXIS=VALUE",
-    help="Fix an axis at its nearest value, or cut it: A=0.01:0.05; repeatable.",
-)
-@click.option(
-    "--over",
-    multiple=True,
-    metavar="AXIS=HOW",
-    help="Reduce an axis: max, min, mean, sum, p05, median, p95; repeatable.",
-)
-@click.option(
-    "-o",
-    "--output",
-    required=True,
-    type=click.Path(path_type=Path),
-    callback=dataset_to_write,
-    help="Dataset to write.",
-)
-@click.option("--overwrite", is_flag=True, help="Replace an existing dataset.")
-@click.option("--quiet", is_flag=True, help="Print errors only.")
+@click.command(epilog=example(EXAMPLE))
+@click.argument("file", type=A_PATH)
+@choosing
+@click.option("--over", multiple=True, metavar="AXIS=HOW", help=HOW)
+@dataset_to_write(required=True)
+@overwriting
+@quietly
 def select(file: Path, at: tuple[str, ...], over: tuple[str, ...], output: Path, overwrite: bool, quiet: bool) -> None:
     """Write a part of a dataset.
 
     The result is a dataset like FILE, with its study: fewer values of an axis, or none (--at), or their maximum, mean
     and the like (--over). Of fits of several loops, --at loop=0 takes one.
     """
-    from gradhesion.cli.dataset.read.reader import opened
+    from gradhesion.cli.dataset.read.reader import is_fit, opened
     from gradhesion.cli.dataset.read.selection import nearest_values
-    from gradhesion.cli.dataset.read.soundness import is_fit
     from gradhesion.cli.dataset.select import selected, write_dataset
 
     if not at and not over:

@@ -7,15 +7,15 @@ from typing import Any
 
 import click
 
+from gradhesion.cli.commands.shared import A_PATH, as_json, example
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted, duration
-from gradhesion.cli.terminal.examples import example
-from gradhesion.cli.terminal.output import show, show_block
+from gradhesion.cli.terminal.messages import show, show_block
 
 
 @click.command(epilog=example("status outputs/study.nc"))
-@click.argument("file", type=click.Path(path_type=Path))
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@click.argument("file", type=A_PATH)
+@as_json
 def status(file: Path, as_json: bool) -> None:
     """Show the progress of a run.
 
@@ -28,24 +28,15 @@ def status(file: Path, as_json: bool) -> None:
         written = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(found["written"]))
         show(f"{file}: complete, {bytes_in_words(found['bytes'])}, written {written}")
     else:
-        blocks = f"{found['kept']:,} of {counted(found['blocks'], 'block')} ({found['scenes']:,} scenes) are kept"
-        if found["state"] == "stopped":
-            end = "; the same command resumes"
-        else:
-            left = found["seconds_left"]
-            end = "" if left is None else f"; about {duration(left)} left"
-        show(f"{file}: {found['state']}; {blocks}{end}")
+        left = found["seconds_left"]
+        end = f"; about {duration(left)} left" if left is not None else ""
+        end = "; the same command resumes" if found["state"] == "stopped" else end
+        kept = f"{found['kept']:,} of {counted(found['blocks'], 'block')} ({found['scenes']:,} scenes) are kept"
+        show(f"{file}: {found['state']}; {kept}{end}")
 
 
 def status_of(file: Path) -> dict[str, Any]:
-    """
-    Find out how far a run is.
-
-    Raises
-    ------
-    DatasetError
-        Neither a dataset nor a run is there, or another file stands in its place.
-    """
+    """Find out how far a run is; DatasetError where neither a dataset nor a run is there."""
     from gradhesion.cli.work.folder import MARK, folder_of, is_running, is_written, mark_of, parts_in
 
     folder = folder_of(file)
@@ -53,16 +44,14 @@ def status_of(file: Path) -> dict[str, Any]:
     if running or (mark and not is_written(folder, file)):
         begun = (folder / MARK).stat().st_mtime if mark else 0.0
         dates = [path.stat().st_mtime for path in parts_in(folder)]
-        new = sum(date > begun for date in dates)
-        blocks = mark.get("blocks", 0)
-        left = (max(dates) - begun) / new * (blocks - len(dates)) if running and new else None
+        new, blocks = sum(date > begun for date in dates), mark.get("blocks", 0)
         return {
             "output": str(file),
             "state": "running" if running else "stopped",
             "blocks": blocks,
             "scenes": mark.get("scenes", 0),
             "kept": len(dates),
-            "seconds_left": left,
+            "seconds_left": (max(dates) - begun) / new * (blocks - len(dates)) if running and new else None,
         }
     import netCDF4
 

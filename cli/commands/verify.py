@@ -4,16 +4,15 @@ from pathlib import Path
 
 import click
 
+from gradhesion.cli.commands.shared import A_PATH, example, given_up
 from gradhesion.cli.errors import DeviationError
 from gradhesion.cli.terminal.amounts import counted
-from gradhesion.cli.terminal.examples import example
-from gradhesion.cli.terminal.given_up import given_up
-from gradhesion.cli.terminal.output import show
+from gradhesion.cli.terminal.messages import show
 from gradhesion.cli.terminal.progress import progress
 
 
 @click.command(epilog=example("verify outputs/study.nc --sample 50"))
-@click.argument("file", type=click.Path(path_type=Path))
+@click.argument("file", type=A_PATH)
 @click.option("--sample", type=click.IntRange(min=1), default=20, show_default=True, help="Scenes to recompute.")
 @click.option("--seed", type=click.IntRange(min=0), help="Seed of the random sample [random].")
 @given_up("--digits", "in Python, gr.verify(FILE).deviations has each value beside the one recomputed")
@@ -28,13 +27,12 @@ def verify(file: Path, sample: int, seed: int | None) -> None:
     The exit code is 3 if a value deviates by more than its stated error.
     """
     from gradhesion.cli.dataset.read.reader import opened
-    from gradhesion.cli.dataset.verify.deviations import lines_of
-    from gradhesion.cli.dataset.verify.recompute import recompute
+    from gradhesion.cli.dataset.verify import in_words, recompute
 
     with opened(file) as dataset:
         found = recompute(dataset, file, sample=sample, seed=seed, progress=lambda total: progress(total, quiet=False))
         title = str(dataset.attrs["title"])
-    for line in lines_of(found, title, file):
+    for line in in_words(found, title, file):
         show(line)
     if found.exceeding:
         raise DeviationError(

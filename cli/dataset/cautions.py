@@ -7,8 +7,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.coordinates import coordinates
-from gradhesion.cli.dataset.read.waves import STEEPEST, steepness
+from gradhesion.cli.dataset.describe import variables
+from gradhesion.cli.dataset.read.model_range import STEEPEST, steepness
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Tiling
 from gradhesion.cli.terminal.amounts import counted, percent
@@ -19,16 +19,41 @@ from gradhesion.core.problem.status import FLAGS
 
 CONE: Final = "the punch is a cone of slope 1, which is not small, at every contact radius of {}"
 """What is said once of a study of a cone."""
-
-
-MANY: Final = 0.1
+_MANY: Final = 0.1
 """The share of scenes from which on it is said that they are not one disc."""
-NOT_ONE_DISC: Final = "loading_contact_not_one_disc"
+_NOT_ONE_DISC: Final = "loading_contact_not_one_disc"
+_SAID: Final = {
+    "steep": (
+        f"contact reaches slopes of the punch above {SMALL:g} (a > R) in {{share}}, which are not small; bound it with "
+        "a_max_over_R or indentation_max_over_R"
+    ),
+    "waves": f"the waves have slopes above {STEEPEST:g} in {{share}}, which are not small; lower A",
+    _NOT_ONE_DISC: (
+        "contact on loading is not one disc in {share}: values of loading are doubtful there; lower A, or look at "
+        "johnson_alpha"
+    ),
+    "resolution_too_coarse": (
+        "a sweep finer than the resolution finds another optimum in {share}, and there may be others; raise "
+        "resolution = {resolution} under [optimum]"
+    ),
+    "nothing_feasible": (
+        "no point meets the requirements in {share}, which have no optimum; require less, or widen the bounds"
+    ),
+    "linear_deviation_off": (
+        "the linear standard deviation is off in {share}: a kink lies within the spread of the inputs, or the value "
+        "bends; draw samples there, with samples = 1024 under [uncertainty]"
+    ),
+    "samples_differ": (
+        "the linear and the sampled standard deviation differ by more than a tenth in {share}: a kink lies within the "
+        "spread of the inputs, or the value bends; use the samples"
+    ),
+}
+"""What is said of a share of the scenes, most of it by the flag."""
 
 
 def flagged_in(status: NDArray[np.integer]) -> dict[str, int]:
     """Count the cells that have each flag that there is something to say of."""
-    flags = ANSWER_FLAGS | {NOT_ONE_DISC: FLAGS[NOT_ONE_DISC]}
+    flags = ANSWER_FLAGS | {_NOT_ONE_DISC: FLAGS[_NOT_ONE_DISC]}
     return {name: int(np.count_nonzero(status.astype(np.int16) & bit)) for name, bit in flags.items()}
 
 
@@ -36,44 +61,21 @@ def cautions(study: Study, flagged: Mapping[str, int], steep: int = 0) -> Iterat
     """Say of each flag in what share of the cells it is set, and what to do; and how many contacts are `steep`."""
     if study.is_cone and depends_on_contact(study.solved):
         yield CONE.format(f"all of {counted(study.scenes, 'scene')}")
-    elif steep:
-        yield (
-            f"contact reaches slopes of the punch above {SMALL:g} (a > R) in {_share(steep, study)}, which are not "
-            "small; bound it with a_max_over_R or indentation_max_over_R"
-        )
-    if count := _steep_waves(study):
-        yield f"the waves have slopes above {STEEPEST:g} in {_share(count, study)}, which are not small; lower A"
-    if (apart := flagged.get(NOT_ONE_DISC, 0)) >= MANY * study.scenes:
-        yield (
-            f"contact on loading is not one disc in {_share(apart, study)}: values of loading are doubtful there; "
-            "lower A, or look at johnson_alpha"
-        )
-    if coarse := flagged.get("resolution_too_coarse", 0):
-        yield (
-            f"a sweep finer than the resolution finds another optimum in {_share(coarse, study)}, and there may be "
-            f"others; raise resolution = {study.search.resolution} under [optimum]"
-        )
-    if nothing := flagged.get("nothing_feasible", 0):
-        yield (
-            f"no point meets the requirements in {_share(nothing, study)}, which have no optimum; require less, or "
-            "widen the bounds"
-        )
-    if off := flagged.get("linear_deviation_off", 0):
-        what, remedy = "linear standard deviation is off", "draw samples there, with samples = 1024 under [uncertainty]"
-        if study.uncertainty.samples:
-            what, remedy = "linear and the sampled standard deviation differ by more than a tenth", "use the samples"
-        where = f"in {_share(off, study)}: a kink lies within the spread of the inputs, or the value bends"
-        yield f"the {what} {where}; {remedy}"
-
-
-def _share(count: int, study: Study) -> str:
-    """Say how many scenes of a study something is true of."""
-    return f"{count:,} of {counted(study.scenes, 'scene')} ({percent(count, study.scenes)})"
+        steep = 0
+    counts = {"steep": steep, "waves": _steep_waves(study), **flagged}
+    if counts.get(_NOT_ONE_DISC, 0) < _MANY * study.scenes:
+        counts[_NOT_ONE_DISC] = 0
+    if study.uncertainty.samples:
+        counts["samples_differ"] = counts.pop("linear_deviation_off", 0)
+    for name, sentence in _SAID.items():
+        if count := counts.get(name):
+            share = f"{count:,} of {counted(study.scenes, 'scene')} ({percent(count, study.scenes)})"
+            yield sentence.format(share=share, resolution=study.search.resolution)
 
 
 def _steep_waves(study: Study) -> int:
     """Count the scenes whose waves are steep; 0 where the study asks for their slope itself, or searches A."""
-    amplitude = coordinates(study).get("A")
+    amplitude = variables(study).get("A")
     if amplitude is None or "wave_slope" in study.variables:
         return 0
     _, _, profiles = study.apart(tuple(slice(0, size) for size in study.shape))

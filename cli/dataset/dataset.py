@@ -1,8 +1,7 @@
-"""What a study's dataset holds: names, dimensions and attributes by CF-1.11, the same in a file and in xarray."""
+"""A study's dataset in memory, as xarray reads that which a run writes."""
 
 import platform
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Iterable, Mapping
 from functools import cache
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
@@ -11,136 +10,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.cautions import cautions, flagged_in
-from gradhesion.cli.dataset.contents import CONTENTS, described
-from gradhesion.cli.dataset.coordinates import coordinates
-from gradhesion.cli.dataset.variable import Variable
-from gradhesion.cli.names.curves import STATE, is_ragged
-from gradhesion.cli.names.outputs import SI
-from gradhesion.cli.names.scenes import REFERENCES, STATUS, STEEP, STEEP_CONTACT
-from gradhesion.cli.names.units import unit_of
+from gradhesion.cli.dataset.describe import steep_contact, variables
+from gradhesion.cli.names.curves import INTEGERS, is_ragged
+from gradhesion.cli.names.scenes import REFERENCES, STEEP
 from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.study.shape_words import profile_table, rate_in_words, shape_in_words, toughness_in_words
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.work.compiling import prepare
-from gradhesion.core import FLAGS
-from gradhesion.core.answers.flags import FLAGS as ALL_FLAGS
-from gradhesion.core.problem.names import CONTACT_SLOPE
-from gradhesion.core.problem.outputs import without_scale
-from gradhesion.core.problem.status import OF_EVERY_MAP, TOO_MANY_WAVES
+from gradhesion.cli.work.solve.blocks import Part, solved, within
+from gradhesion.cli.work.solve.curves import blank_of
 
 if TYPE_CHECKING:
     import xarray
-
-
-def variables(study: Study) -> dict[str, Variable]:
-    """Describe the variables of a study's dataset, coordinates first."""
-    found = coordinates(study)
-    apart = (*study.sizes, *study.labels, STATE)
-    beside = " ".join(name for name in found if name not in apart)
-    outputs = {name: _output(study, name) for name in study.variables}
-    outputs["status"] = _status(study)
-    if beside:
-        for name, variable in outputs.items():
-            if not is_ragged(name):
-                variable.attributes["coordinates"] = beside
-    return found | outputs
-
-
-def _output(study: Study, name: str) -> Variable:
-    """Describe a result, perhaps in SI units."""
-    plain = described(study, name.removesuffix(SI))
-    if not name.endswith(SI):
-        return plain
-    unit = unit_of(name)
-    long_name = without_scale(plain.attributes["long_name"], unit)
-    return replace(plain, attributes=plain.attributes | {"units": unit, "long_name": long_name})
-
-
-def _status(study: Study) -> Variable:
-    """Describe the status of the scenes."""
-    own = FLAGS if study.turns_at_a_depth else OF_EVERY_MAP
-    own = ALL_FLAGS if study.has_answers else own
-    many = {name: bit for name, bit in FLAGS.items() if bit == TOO_MANY_WAVES and study.follows_waves}
-    flags = {name: bit for name, bit in own.items() if bit != TOO_MANY_WAVES} | many
-    dtype = study.status_type
-    attributes = {
-        "units": "1",
-        "long_name": STATUS,
-        "flag_masks": np.array(list(flags.values()), dtype=dtype),
-        "flag_meanings": " ".join(flags),
-    }
-    return Variable(dimensions=tuple(study.sizes), dtype=dtype, attributes=attributes)
-
-
-def steep_contact(study: Study) -> Variable:
-    """Describe the coordinate that marks the scenes whose contact reaches a slope that is not small."""
-    attributes = {
-        "units": "1",
-        "long_name": STEEP_CONTACT,
-        "flag_values": np.array([0, 1], dtype="i1"),
-        "flag_meanings": "shallow steep",
-    }
-    return Variable(dimensions=tuple(study.sizes), dtype="i1", attributes=attributes)
-
-
-def marks_steep_contact(study: Study) -> bool:
-    """Report whether the dataset of a study has that coordinate where it marks any scene: not beside the slope."""
-    return CONTACT_SLOPE not in study.variables
-
-
-def attributes(study: Study, history: str) -> dict[str, Any]:
-    """List the global attributes of a study's dataset: what it is, where it comes from, how to make it again."""
-    own = {
-        "profile": shape_in_words(study.profile, study.spectrum),
-        **_of_fit(study),
-        "control": study.loading.control,
-        **({} if study.toughness is None else {"toughness": toughness_in_words(study.toughness)}),
-        **({} if study.rate is None else {"rate": rate_in_words(study.rate)}),
-    }
-    return origin(study, history, own)
-
-
-def origin(study: Study | FitStudy, history: str, own: Mapping[str, Any]) -> dict[str, Any]:
-    """List the global attributes of any dataset, those of its `own` among them."""
-    return {
-        "Conventions": "CF-1.11",
-        "title": study.title,
-        "source": _source(),
-        "history": history,
-        "references": REFERENCES,
-        **own,
-        "study": study.text,
-        "study_sha256": study.sha256,
-        **_versions(),
-    }
-
-
-@cache
-def _source() -> str:
-    """Name this program and its version, which is read once: that takes a millisecond."""
-    return f"gradhesion {version('gradhesion')}"
-
-
-@cache
-def _versions() -> Mapping[str, str]:
-    """List the versions of what the values come from, which are read once."""
-    packages = {f"{package}_version": version(package) for package in ("numpy", "numba", "scipy")}
-    return {"python_version": platform.python_version(), **packages}
-
-
-def _of_fit(study: Study) -> dict[str, Any]:
-    """Say which file the profile was fitted to, what was found, and what the fit leaves, in m."""
-    fit = study.measured.fit
-    if fit is None:
-        return {}
-    return {
-        "profile_file": study.measured.file,
-        "profile_sha256": study.measured.sha256,
-        "profile_fit": profile_table(study.profile),
-        "profile_residual_rms": fit.residual_rms,
-        "profile_residual_max": fit.residual_max,
-    }
 
 
 def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
@@ -163,11 +45,28 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
     The first study of a version compiles the solver, which a line on stderr reports.
     """
     prepare(study)
-    kind = CONTENTS[study.sort]
-    found = kind.joined(study, kind.parts(study, threads))
+    found = _joined(study, solved(study, threads))
     for sentence in cautions(study, flagged_in(found["status"]), int(np.count_nonzero(found.get(STEEP, 0)))):
         messages.say(f"{study.name}: {sentence}")
     return assembled(study, found, "computed in memory")
+
+
+def _joined(study: Study, parts: Iterable[Part]) -> dict[str, NDArray[Any]]:
+    """Join parts, padded to the longest where their lengths differ: those of curves, and of fronts."""
+    parts = parts if study.in_blocks else list(parts)  # of maps one at a time is in memory
+    whole: dict[str, NDArray[Any]] = {}
+    for block, values in parts:
+        for name, part in values.items():
+            if is_ragged(name):
+                continue
+            if name not in whole:
+                every = [part] if study.in_blocks else [one[name] for _, one in parts]
+                longest = np.max([one.shape[len(block) :] for one in every], axis=0).astype(int)
+                blank = blank_of(name) if part.dtype.kind == "f" or name in INTEGERS else 0
+                whole[name] = np.full((*study.shape, *longest), blank, part.dtype)
+            whole[name][within(name, block, part)] = part
+    ragged = [name for name in study.variables if is_ragged(name)]
+    return whole | {name: np.concatenate([values[name] for _, values in parts]) for name in ragged}
 
 
 def assembled(study: Study, found: Mapping[str, NDArray[Any]], history: str) -> "xarray.Dataset":
@@ -188,7 +87,45 @@ def assembled(study: Study, found: Mapping[str, NDArray[Any]], history: str) -> 
 
 def with_steep_contact(dataset: "xarray.Dataset", study: Study, steep: NDArray[np.int8]) -> "xarray.Dataset":
     """Mark the scenes of a dataset in memory whose contact reaches a slope that is not small, if any does."""
-    if not steep.any() or not marks_steep_contact(study):
-        return dataset
-    mark = (dataset["status"].dims, steep, steep_contact(study).attributes)
-    return dataset.assign_coords({STEEP: mark})
+    variable = steep_contact(study) if steep.any() else None
+    return dataset.assign_coords({STEEP: (dataset["status"].dims, steep, variable.attributes)}) if variable else dataset
+
+
+def attributes(study: Study, history: str) -> dict[str, Any]:
+    """List the global attributes of a study's dataset: what it is, where it comes from, how to make it again."""
+    own: dict[str, Any] = {"profile": shape_in_words(study.profile, study.spectrum)}
+    if (fit := study.measured.fit) is not None:
+        own |= {"profile_file": study.measured.file, "profile_sha256": study.measured.sha256}
+        own |= {"profile_fit": profile_table(study.profile)}
+        own |= {"profile_residual_rms": fit.residual_rms, "profile_residual_max": fit.residual_max}
+    rate = {} if study.rate is None else {"rate": rate_in_words(study.rate)}
+    return origin(study, history, own | driven_in_words(study) | rate)
+
+
+def driven_in_words(study: Study | FitStudy) -> dict[str, Any]:
+    """Say how the punch is driven, and how its toughness varies if it does."""
+    toughness = {} if study.toughness is None else {"toughness": toughness_in_words(study.toughness)}
+    return {"control": study.loading.control, **toughness}
+
+
+def origin(study: Study | FitStudy, history: str, own: Mapping[str, Any]) -> dict[str, Any]:
+    """List the global attributes of any dataset, those of its `own` among them."""
+    known = _versions()
+    return {
+        "Conventions": "CF-1.11",
+        "title": study.title,
+        "source": f"gradhesion {known['gradhesion_version']}",
+        "history": history,
+        "references": REFERENCES,
+        **own,
+        "study": study.text,
+        "study_sha256": study.sha256,
+        **{name: one for name, one in known.items() if name != "gradhesion_version"},
+    }
+
+
+@cache
+def _versions() -> Mapping[str, str]:
+    """List the versions of what the values come from, which are read once: that takes a millisecond each."""
+    packages = {f"{package}_version": version(package) for package in ("gradhesion", "numpy", "numba", "scipy")}
+    return {"python_version": platform.python_version(), **packages}

@@ -6,15 +6,14 @@ from pathlib import Path
 import numpy as np
 import xarray
 
-from gradhesion.cli.dataset.read.loop_choice import one_loop
-from gradhesion.cli.dataset.read.reader import has_curves
+from gradhesion.cli.dataset.read.reader import has_curves, is_fit
 from gradhesion.cli.dataset.read.selection import Selection, selection_of
-from gradhesion.cli.dataset.read.soundness import is_fit
 from gradhesion.cli.disk import replacement, writing
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names.fits import LOOP
+from gradhesion.cli.names.fits import FIT_POINTS, FIT_WORDS, LOOP
 from gradhesion.cli.names.outputs import ON_BOUND
 from gradhesion.cli.names.scenes import STEEP
+from gradhesion.cli.terminal.amounts import counted
 
 
 def selected(dataset: xarray.Dataset, at: Sequence[str] = (), over: Sequence[str] = ()) -> xarray.Dataset:
@@ -31,9 +30,8 @@ def selected(dataset: xarray.Dataset, at: Sequence[str] = (), over: Sequence[str
     """
     if is_fit(dataset):
         if over or LOOP not in dataset.dims:
-            raise DatasetError(
-                f"--{'over' if over else 'at'}: fits have no axes of scenes; of several, choose --at loop=0"
-            )
+            option = "over" if over else "at"
+            raise DatasetError(f"--{option}: fits have no axes of scenes; of several, choose --at {LOOP}=0")
         return one_loop(dataset, at) if at else dataset
     if over and has_curves(dataset):
         raise DatasetError(f"--over {over[0]}: curves are not reduced; choose scenes with --at")
@@ -48,31 +46,50 @@ def _reduced(dataset: xarray.Dataset, selection: Selection) -> xarray.Dataset:
     """Reduce every variable of a narrowed dataset; what follows from the axes that go goes with them."""
     status, going = dataset["status"], [*selection.over]
     axes = [axis for axis in status.dims if axis not in going]
+    words = ", ".join(f"{how} over {axis}" for axis, how in selection.over.items())
     made: dict[str, xarray.DataArray] = {}
     for name, variable in ((str(name), one) for name, one in dataset.data_vars.items()):
         if name in ("status", ON_BOUND):
             made[name] = variable.reduce(np.bitwise_or.reduce, going, keep_attrs=True)
             continue
-        values = selection.taken(variable, status).values.transpose(*axes, ...)
-        words = ", ".join(f"{how} over {axis}" for axis, how in selection.over.items())
-        values.attrs["long_name"] = f"{variable.attrs.get('long_name', name)}; {words}"
-        made[name] = values
-    kept = {name: one for name, one in dataset.coords.items() if not {*one.dims} & {*going}}
+        made[name] = selection.taken(variable, status).values.transpose(*axes, ...)
+        made[name].attrs["long_name"] = f"{variable.attrs.get('long_name', name)}; {words}"
+    kept = {str(name): one for name, one in dataset.coords.items() if not {*one.dims} & {*going}}
     if STEEP in dataset.coords:
         kept[STEEP] = dataset[STEEP].max(going, keep_attrs=True)
-    plain = {name: one.variable for name, one in made.items()}
-    return xarray.Dataset(plain, {name: one.variable for name, one in kept.items()}, dataset.attrs)
+    values, coordinates = ({name: one.variable for name, one in own.items()} for own in (made, kept))
+    return xarray.Dataset(values, coordinates, dataset.attrs)
 
 
-def write_dataset(dataset: xarray.Dataset, path: Path, *, overwrite: bool) -> None:
+def one_loop(dataset: xarray.Dataset, choices: Sequence[str]) -> xarray.Dataset:
     """
-    Write a dataset out of memory, which takes the place of `path` when it is complete and on disk.
+    Take the loop that `loop=FILE` or `loop=NUMBER` (from 0) wishes, without what it is padded with.
 
     Raises
     ------
-    OutputError
-        It cannot be written, or exists.
+    DatasetError
+        Something else is wished, there is no such loop, or it has no fit.
     """
+    axis, _, choice = (part.strip() for part in choices[0].partition("="))
+    if len(choices) > 1 or axis != LOOP:
+        raise DatasetError(f"--at {choices[-1]}: fits of several loops have only the axis {LOOP}; write --at {LOOP}=0")
+    files = list(map(str, dataset["file"].values))
+    if choice not in files and not (choice.isdecimal() and int(choice) < len(files)):
+        raise DatasetError(
+            f"--at {LOOP}={choice}: there are {counted(len(files), 'loop')}; "
+            f"write a number from 0 to {len(files) - 1}, or the name of a file"
+        )
+    number = files.index(choice) if choice in files else int(choice)
+    one = dataset.isel({LOOP: number}).drop_vars([name for name in FIT_WORDS if name in dataset.variables])
+    if problem := str(dataset["problem"].values[number]):
+        raise DatasetError(f"{files[number]}: has no fit to draw: {problem}")
+    filled = {along: one[f"{along.removesuffix('_point')}_unloading"].values >= 0 for along in FIT_POINTS}
+    one = one.isel({along: np.flatnonzero(there) for along, there in filled.items()})
+    return one.assign_attrs(title=f"{dataset.attrs['title']}: {files[number]}")
+
+
+def write_dataset(dataset: xarray.Dataset, path: Path, *, overwrite: bool) -> None:
+    """Write a dataset out of memory, which takes the place of `path` when it is whole and on disk (OutputError)."""
     packed = {"zlib": True, "complevel": 1, "shuffle": True}
     encoding = {}
     for name, variable in dataset.variables.items():

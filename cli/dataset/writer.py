@@ -1,27 +1,38 @@
 """The dataset of a study written block by block; the blocks are kept until it is whole, and reused by the next run."""
 
 from collections import Counter
-from collections.abc import Generator, Iterator
+from collections.abc import Generator, Mapping
 from contextlib import ExitStack, closing, suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any, Final
 
 import netCDF4
 import numpy as np
+from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.cautions import cautions, flagged_in
-from gradhesion.cli.dataset.contents import CONTENTS
-from gradhesion.cli.dataset.file import define, mark
+from gradhesion.cli.dataset.dataset import attributes
+from gradhesion.cli.dataset.describe import Variable, steep_contact, variables
 from gradhesion.cli.disk import refuse_existing, settle, writing
-from gradhesion.cli.names.curves import RAGGED
+from gradhesion.cli.names.curves import RAGGED, STATE, is_ragged
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.study.tiling import Block, size_of
+from gradhesion.cli.study.tiling import Block, Tiling, size_of
 from gradhesion.cli.terminal.progress import Advance
 from gradhesion.cli.work.engines import Engine, in_threads
-from gradhesion.cli.work.folder import Parts, Results, claimed, clear, is_written, mark_of
-from gradhesion.cli.work.solve.curves import within
+from gradhesion.cli.work.folder import Parts, claimed, clear, is_written, mark_of
+from gradhesion.cli.work.solve.blocks import solved, within
 from gradhesion.core import FAILED
+
+CACHE: Final = 2**22
+"""Bytes of chunks to be held of each variable: blocks are whole chunks, so there is nothing to wait for. The
+library's own choice took more memory than all else that a run has."""
+
+POINTS: Final = 1024
+"""Points of a curve in a chunk: most curves have fewer, and unwritten chunks take no room."""
+
+Solved = Generator[tuple[int, Block, Mapping[str, NDArray[Any]], bool], None, None]
 
 
 @dataclass(kw_only=True)
@@ -32,13 +43,13 @@ class Written:
     """Scenes without value."""
     reused: int = 0
     computed: int = 0
-    """Engine."""
+    """Blocks."""
     cautions: tuple[str, ...] = ()
     """What is to be known of its answers."""
     complete: bool = False
     """Whether an earlier run had written it, and was killed before it could say so."""
 
-    def count(self, values: Results, *, reused: bool) -> None:
+    def count(self, values: Mapping[str, NDArray[Any]], *, reused: bool) -> None:
         """Count a block that is done."""
         self.failed += int(np.count_nonzero(values["status"] & FAILED))
         self.reused += reused
@@ -52,6 +63,7 @@ def write(
     history: str,
     overwrite: bool = False,
     fresh: bool = False,
+    shard: tuple[int, int] | None = None,
     engine: Engine | None = None,
     threads: int | None = None,
     advance: Advance = lambda *_, **__: None,
@@ -65,6 +77,8 @@ def write(
     ----------
     fresh
         Drop the blocks of an earlier run.
+    shard
+        (i, N): solve the i-th of each N blocks, to be kept, beside others that do the rest; no dataset is written.
     engine
         Who has the blocks of a map: `threads` of this process if not given; curves are drawn here.
 
@@ -79,71 +93,51 @@ def write(
     parts = Parts(path, study)
     with writing(path):
         is_new = not parts.folder.is_dir()
-    if is_new:
+    if is_new or shard:
         refuse_existing(path, overwrite=overwrite)
     with ExitStack() as stack:
         with writing(path):
-            stack.enter_context(claimed(path))
-        if not overwrite and (complete := _written_before(parts)) is not None:
+            stack.enter_context(claimed(path, f"-{shard[0]}-of-{shard[1]}" if shard else ""))
+        if not (overwrite or shard) and (complete := _written_before(parts)) is not None:
             clear(parts.folder)
             return complete
         refuse_existing(path, overwrite=overwrite)
         with writing(path):
             parts.begin(fresh=fresh)
-        solved = stack.enter_context(closing(_solved(parts, threads, engine or in_threads(threads))))
-        written = _merge(parts, history, solved, advance)
+        first, step = (shard[0] - 1, shard[1]) if shard else (0, 1)
+        blocks = stack.enter_context(closing(_solved(parts, first, step, threads, engine or in_threads(threads))))
+        if shard:
+            return _keep(parts, blocks, advance)
+        written = _merge(parts, history, blocks, advance)
         settle(parts.merged, path, overwrite=overwrite)
         clear(parts.folder)
     return written
 
 
-def write_shard(
-    study: Study,
-    path: Path,
-    shard: tuple[int, int],
-    *,
-    overwrite: bool = False,
-    engine: Engine,
-    advance: Advance = lambda *_, **__: None,
-) -> Written:
-    """
-    Solve every N-th block of a study, to be kept, beside others that do the rest.
-
-    Raises
-    ------
-    OutputError
-        As `write`.
-    """
-    refuse_existing(path, overwrite=overwrite)
-    parts, written = Parts(path, study), Written()
-    with ExitStack() as stack:
-        with writing(path):
-            stack.enter_context(claimed(path, f"-{shard[0]}-of-{shard[1]}"))
-            parts.begin()
-        numbers = range(shard[0] - 1, len(study.tiling), shard[1])
-        for number, values, reused in stack.enter_context(closing(engine(parts, numbers))):
-            if not reused:
-                with writing(path):
-                    parts.write(number, values)
-            written.count(values, reused=reused)
-            advance(values["status"].size, reused=reused)
-    return written
-
-
-def _solved(
-    parts: Parts, threads: int | None, engine: Engine
-) -> Generator[tuple[int, Block, Results, bool], None, None]:
+def _solved(parts: Parts, first: int, step: int, threads: int | None, engine: Engine) -> Solved:
     """Give the blocks of a study with their numbers, their values, and whether they exist already."""
     study = parts.study
     if study.in_blocks:
-        for number, values, reused in engine(parts, range(len(study.tiling))):
+        for number, values, reused in engine(parts, range(first, len(study.tiling), step)):
             yield number, study.tiling[number], values, reused
     else:  # of curves each scene is one
-        for number, (block, values) in enumerate(CONTENTS[study.sort].parts(study, threads)):
+        for number, (block, values) in enumerate(solved(study, threads)):
             yield number, block, values, False
 
 
-def _merge(parts: Parts, history: str, solved: Iterator[tuple[int, Block, Results, bool]], advance: Advance) -> Written:
+def _keep(parts: Parts, blocks: Solved, advance: Advance) -> Written:
+    """Keep the blocks of a shard."""
+    written = Written()
+    for number, block, values, reused in blocks:
+        if not reused:
+            with writing(parts.output):
+                parts.write(number, values)
+        written.count(values, reused=reused)
+        advance(size_of(block), reused=reused)
+    return written
+
+
+def _merge(parts: Parts, history: str, blocks: Solved, advance: Advance) -> Written:
     """Write the dataset in the making, block by block, as they come."""
     study, path, written = parts.study, parts.output, Written()
     flagged = Counter[str]()
@@ -152,14 +146,14 @@ def _merge(parts: Parts, history: str, solved: Iterator[tuple[int, Block, Result
         file = netCDF4.Dataset(parts.merged, "w", format="NETCDF4")
     try:
         with writing(path):
-            define(file, study, history)
-        for number, block, values, reused in solved:
+            _define(file, study, history)
+        for number, block, values, reused in blocks:
             with writing(path):
                 if study.has_parts and not reused:
                     parts.write(number, values)
                 for name, part in values.items():
                     if name == STEEP:
-                        steep += mark(file, study, block, part)
+                        steep += _mark(file, study, block, part)
                     else:
                         file[name][within(name, block, part, begun) or ...] = part
             begun += sum(int(values[one].item()) for one in RAGGED.values() if one in values)
@@ -174,6 +168,61 @@ def _merge(parts: Parts, history: str, solved: Iterator[tuple[int, Block, Result
         file.close()
     written.cautions = tuple(cautions(study, flagged, steep))
     return written
+
+
+def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
+    """Write all of a dataset but the values of its outputs."""
+    if study.in_blocks:
+        file.set_fill_off()
+    file.setncatts(attributes(study, history))
+    described = variables(study)
+    sizes = study.sizes | {name: len(labels) for name, labels in study.labels.items()}
+    sizes |= {STATE: np.asarray(described[STATE].values).size} if STATE in described else {}
+    for name, size in sizes.items():
+        file.createDimension(name, size)
+    for name, variable in described.items():
+        made = _create(file, study, name, variable)
+        if variable.values is not None:
+            made[...] = variable.values
+        elif variable.made:
+            for block in Tiling(made.shape, study.chunk):
+                made[block or ...] = variable.made(block)
+
+
+def _create(file: netCDF4.Dataset, study: Study, name: str, described: Variable) -> "netCDF4.Variable[Any]":
+    """Create a variable, without its values."""
+    settings: dict[str, Any] = {}
+    if described.dimensions and described.dtype != "str":
+        for dimension in described.dimensions:
+            if dimension not in file.dimensions:
+                file.createDimension(dimension, None)  # it grows with the longest curve
+        *scenes, last = (file.dimensions[one] for one in described.dimensions)
+        own = (*(1 for _ in scenes), min(POINTS, study.cells))  # a curve has its own chunks, all else those of blocks
+        chunks = own if last.isunlimited() else Tiling(tuple(map(len, (*scenes, last))), study.cells).chunk
+        settings |= {"compression": "zlib", "complevel": 1, "shuffle": True, "chunksizes": chunks}
+    if described.blank is not None:
+        settings["fill_value"] = described.blank
+    dtype = str if described.dtype == "str" else described.dtype
+    variable = file.createVariable(name, dtype, described.dimensions, **settings)
+    if study.in_blocks and "chunksizes" in settings:
+        variable.set_var_chunk_cache(CACHE)
+    variable.setncatts(described.attributes)
+    return variable
+
+
+def _mark(file: netCDF4.Dataset, study: Study, block: Block, steep: NDArray[np.int8]) -> int:
+    """Mark scenes whose contact reaches a slope that is not small; the first of them makes the coordinate."""
+    count, described = int(np.count_nonzero(steep)), steep_contact(study)
+    if described and count and STEEP not in file.variables:
+        variable = _create(file, study, STEEP, described)
+        for before in Tiling(variable.shape, study.chunk):
+            variable[before or ...] = 0
+        for name in (*study.variables, "status"):
+            if not is_ragged(name):
+                file[name].coordinates = f"{getattr(file[name], 'coordinates', '')} {STEEP}".strip()
+    if STEEP in file.variables:
+        file[STEEP][block or ...] = steep
+    return count
 
 
 def _written_before(parts: Parts) -> Written | None:

@@ -8,7 +8,7 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.read.doubtful import DOUBTS, doubts_of
+from gradhesion.cli.dataset.read.model_range import DOUBTS, doubts_of
 from gradhesion.cli.dataset.read.sensitivities import PLAIN, part_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.plain import plain, symbol, title

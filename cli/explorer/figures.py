@@ -3,14 +3,7 @@
 from typing import Any, Final
 
 import numpy as np
-from bokeh.models import (
-    ColumnDataSource,
-    CustomJS,
-    CustomJSTicker,
-    CustomJSTickFormatter,
-    LinearColorMapper,
-    Range1d,
-)
+from bokeh.models import ColumnDataSource, CustomJS, CustomJSTicker, CustomJSTickFormatter, LinearColorMapper, Range1d
 from bokeh.models.annotations import ColorBar
 from bokeh.palettes import Viridis256
 from bokeh.plotting import figure

@@ -36,8 +36,4 @@ def scene_study(dataset: xarray.Dataset) -> Entry:
         if isinstance(table, dict) and name not in ("parameters", "physical"):
             others = {key: value for key, value in table.items() if key not in keys}
             tables |= {name: toml_of({name: others}).partition("]\n")[2].strip()} if others else {}
-    return {
-        "given": keys,
-        "head": toml_of(head | ({"kind": "curve"} if has_curves(dataset) else {})),
-        "tables": tables,
-    }
+    return {"given": keys, "head": toml_of(head | ({"kind": "curve"} if has_curves(dataset) else {})), "tables": tables}

@@ -10,9 +10,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.read import doubtful
-from gradhesion.cli.dataset.read.doubtful import doubts_of
-from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by
+from gradhesion.cli.dataset.read import model_range
+from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by, doubts_of
 from gradhesion.cli.names.outputs import BEST, ON_BOUND
 from gradhesion.core.answers.flags import FLAG_WORDS, FLAGS
 
@@ -51,7 +50,7 @@ _OF_FLAGS: Final = (
     ("||||", "p", 8.0),
 )
 _OF_LIMITS: Final = (("oo", "P", 6.0), ("OO", "X", 6.0), ("++", "*", 6.0), ("..", "h", 6.0), ("**", "8", 6.0))
-_FLAGS: Final = {name: bit for name, bit in FLAGS.items() if bit & doubtful.DOUBTS}
+_FLAGS: Final = {name: bit for name, bit in FLAGS.items() if bit & model_range.DOUBTS}
 
 DOUBTS: Final = tuple(
     Doubt(FLAG_WORDS[name], *look, bit) for (name, bit), look in zip(_FLAGS.items(), _OF_FLAGS, strict=True)

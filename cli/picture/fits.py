@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.read.loop_choice import one_loop
+from gradhesion.cli.dataset.select import one_loop
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.fits import LOOP
 from gradhesion.cli.names.outputs import PARAMETER
@@ -20,7 +20,7 @@ from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.pictured import finish, styled
 from gradhesion.cli.picture.scales import suit
 from gradhesion.cli.terminal.amounts import counted
-from gradhesion.cli.terminal.printable import printable
+from gradhesion.cli.terminal.messages import printable
 from gradhesion.core.answers.profile_fit import FittedProfile
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
 

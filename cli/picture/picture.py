@@ -6,9 +6,8 @@ from pathlib import Path
 import xarray
 from matplotlib.figure import Figure
 
-from gradhesion.cli.dataset.read.reader import has_curves
+from gradhesion.cli.dataset.read.reader import has_curves, is_fit
 from gradhesion.cli.dataset.read.selection import nearest_values, selection_of
-from gradhesion.cli.dataset.read.soundness import is_fit
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import PARETO_POINT
 from gradhesion.cli.picture.curves import drawn_curves

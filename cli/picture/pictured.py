@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.picture.looks import PLAIN, STYLE, Looks
 from gradhesion.cli.study.shape_words import shape_in_words
-from gradhesion.cli.terminal.printable import printable
+from gradhesion.cli.terminal.messages import printable
 from gradhesion.core import Profile
 
 MARKERS: Final = ("o", "s", "D", "P", "X")

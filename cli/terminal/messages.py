@@ -1,17 +1,77 @@
-"""What is printed on stderr while a command works, and when it fails."""
+"""What is printed: nothing that a terminal would obey, and no message that decides over a result."""
 
-from typing import IO, Any
+import os
+import re
+import sys
+from typing import IO, Any, Final
 
 import click
 
-from gradhesion.cli.errors import GradhesionError
-from gradhesion.cli.terminal.output import complain
-from gradhesion.cli.terminal.printable import printable_line
+from gradhesion.cli.errors import GradhesionError, OutputError
+
+_UNSAFE: Final = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]")
+"""Control characters, what turns the direction of text, and bytes of a name that are not UTF-8."""
+
+
+def printable(text: str) -> str:
+    r"""
+    Write characters that a terminal would obey, or cannot show, as their escapes; ends of lines and tabs stay.
+
+    >>> printable("\x1b[2Jout.nc"), printable("caf\u00e9\n\udcff")
+    ('\\x1b[2Jout.nc', 'café\n\\udcff')
+    """
+    return _UNSAFE.sub(lambda found: found[0].encode("unicode_escape").decode(), text)
+
+
+def printable_line(text: str) -> str:
+    r"""
+    Do so for a text that is to be one line: the name of a file may have several.
+
+    >>> printable_line("out\n.nc")
+    'out\\n.nc'
+    """
+    return printable(text).replace("\n", "\\n")
+
+
+def show(line: str) -> None:
+    """Print a line of what was asked for to stdout, as `show_block`."""
+    show_block(printable_line(line))
+
+
+def show_block(text: str) -> None:
+    """
+    Print what was asked for to stdout: one or several lines.
+
+    Raises
+    ------
+    OutputError
+        It cannot be written.
+    BrokenPipeError
+        Nobody reads it any more.
+    """
+    if getattr(sys, "stdout", None) is None:
+        raise OutputError("standard output: is closed; redirect it, as with > FILE")
+    try:
+        click.echo(printable(text))
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise OutputError(
+            f"standard output: cannot be written ({error.strerror}); make room, or redirect it to another file"
+        ) from error
 
 
 def say(sentence: str) -> None:
     """Print a sentence on a line of stderr."""
     complain(printable_line(sentence))
+
+
+def complain(text: str) -> None:
+    """Print a message to stderr, if it can be printed."""
+    try:
+        click.echo(printable(text), err=True)
+    except (OSError, ValueError):
+        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: PTH123, SIM115 (for all that follows)
 
 
 class Failure(click.ClickException):
@@ -21,9 +81,20 @@ class Failure(click.ClickException):
         super().__init__("\n".join(map(printable_line, error.mistakes)))
         vars(self)["exit_code"] = error.exit_code  # of the class, for click
 
-    def show(self, file: IO[Any] | None = None) -> None:
-        """Print the message to `file` (stderr if None)."""
-        if file is None:
-            complain(self.message)
-        else:
-            click.echo(self.message, file=file)
+    def show(self, file: IO[Any] | None = None) -> None:  # noqa: ARG002 (click's own)
+        """Print the message to stderr."""
+        complain(self.message)
+
+
+def open_streams() -> None:
+    """Give closed streams somewhere to go, so that no file takes their numbers, and let none fail on a character."""
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.set_inheritable(os.open(os.devnull, os.O_RDWR), True)  # noqa: FBT003 (the lowest number that is free)
+    if getattr(sys, "stderr", None) is None:
+        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: PTH123, SIM115
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")

@@ -38,15 +38,9 @@ def _bar(total: int, noun: str) -> Iterator[Advance]:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
-    columns = (
-        BarColumn(),
-        TaskProgressColumn(),
-        TextColumn(f"{{task.completed:,.0f}} of {{task.total:,.0f}} {noun}s"),
-        TextColumn("{task.fields[rate]}"),
-        TimeRemainingColumn(),
-    )
-    start = time.monotonic()
-    solved = 0
+    count = TextColumn(f"{{task.completed:,.0f}} of {{task.total:,.0f}} {noun}s {{task.fields[rate]}}")
+    columns = (BarColumn(), TaskProgressColumn(), count, TimeRemainingColumn())
+    start, solved = time.monotonic(), 0
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(f"{noun}s", total=total, rate="")
 
@@ -70,10 +64,9 @@ def _lines(total: int, noun: str) -> Advance:
         now = time.monotonic()
         if now - last >= PERIOD and done < total:
             last = now
-            left = (now - start) * (total - done) / solved if solved else None
+            left = f", {(now - start) * (total - done) / solved:.0f} s left" if solved else ""
             speed = rate(solved, now - start)
-            words = "" if left is None else f", {left:.0f} s left"
-            messages.say(f"{done:,} of {total:,} {noun}s ({done / total:.0%}), {speed} per s{words}")
+            messages.say(f"{done:,} of {total:,} {noun}s ({done / total:.0%}), {speed} per s{left}")
 
     return advance
 

@@ -9,7 +9,7 @@ import pandas as pd
 import xarray
 
 from gradhesion.cli.dataset.read.model_range import SHORT_RANGED, slope_warnings, tabor_warnings
-from gradhesion.cli.dataset.read.soundness import is_fit
+from gradhesion.cli.dataset.read.reader import is_fit
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.fits import LOOP, MINIMUM, PARAMETER_UNITS
 from gradhesion.cli.names.outputs import PARAMETER

@@ -12,10 +12,9 @@ import pandas as pd
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by, is_cone
+from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by, is_cone, steep_waves
 from gradhesion.cli.dataset.read.reader import has_curves, tiling_of
 from gradhesion.cli.dataset.read.sensitivities import parts_of, strongest
-from gradhesion.cli.dataset.read.waves import steep_waves
 from gradhesion.cli.names.outputs import ON_BOUND, PARETO_POINT, SI, labels_of
 from gradhesion.cli.names.scenes import IDLE, REALISATION, SCENE, SOLVER
 from gradhesion.cli.study.shape_words import control_in_words

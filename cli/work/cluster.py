@@ -30,21 +30,12 @@ LEAST: Final = 16
 
 
 def require_dask() -> None:
-    """
-    Make sure that Dask is there.
-
-    Raises
-    ------
-    MissingExtraError
-        It is not.
-    """
+    """Make sure that Dask is there (MissingExtraError)."""
     try:
         import cryptography  # noqa: F401, PLC0415 (for a cluster of this machine that is closed to others)
         import distributed  # noqa: F401, PLC0415 (half a second, and not always there)
     except ModuleNotFoundError:
-        raise MissingExtraError(
-            "--engine dask needs Dask: install it with `pip install dask distributed cryptography`"
-        ) from None
+        raise MissingExtraError("--engine dask needs Dask: pip install dask distributed cryptography") from None
 
 
 def on_cluster(scheduler: str | None = None, workers: int | None = None, *, quiet: bool = False) -> Engine:
@@ -63,23 +54,22 @@ def on_cluster(scheduler: str | None = None, workers: int | None = None, *, quie
                 left.append(number)
             else:
                 yield number, values, True
-        if left:
-            with ExitStack() as stack:
-                stack.enter_context(_silent())
-                client = stack.enter_context(_client(scheduler, workers, len(left)))
-                if not quiet and not client.nthreads():
-                    messages.say("--engine dask: the scheduler has no workers yet; waiting for them")
-                try:
-                    yield from _solved(client, parts.study, left)
-                except GradhesionError:
-                    raise
-                except Exception as error:
-                    # Dask has a dozen exceptions for a lost scheduler, a worker that dies, and what cannot be loaded.
-                    interrupts.check()
-                    raise OutputError(
-                        f"--engine dask: {type(error).__name__}: {error}; finished blocks are kept, and the same "
-                        "command resumes once there is a cluster with enough memory"
-                    ) from error
+        if not left:
+            return
+        with _silent(), _client(scheduler, workers, len(left)) as client:
+            if not quiet and not client.nthreads():
+                messages.say("--engine dask: the scheduler has no workers yet; waiting for them")
+            try:
+                yield from _solved(client, parts.study, left)
+            except GradhesionError:
+                raise
+            except Exception as error:
+                # Dask has a dozen exceptions for a lost scheduler, a worker that dies, and what cannot be loaded.
+                interrupts.check()
+                raise OutputError(
+                    f"--engine dask: {type(error).__name__}: {error}; finished blocks are kept, and the same "
+                    "command resumes once there is a cluster with enough memory"
+                ) from error
 
     return engine
 
@@ -108,14 +98,7 @@ def _solved(client: Any, study: Study, numbers: Sequence[int]) -> Solved:
 
 
 def solve_there(study: Study, number: int, needed: dict[str, Any]) -> tuple[int, Results]:
-    """
-    Solve a block, as a worker does, on one thread.
-
-    Raises
-    ------
-    ClusterError
-        The worker has other versions than are needed, which may round another way.
-    """
+    """Solve a block, as a worker does, on one thread; ClusterError where its versions may round another way."""
     if (own := versions()) != needed:
         differing = ", ".join(name for name in own if own[name] != needed.get(name))
         raise ClusterError(
@@ -129,19 +112,29 @@ def solve_there(study: Study, number: int, needed: dict[str, Any]) -> tuple[int,
 @contextmanager
 def _client(scheduler: str | None, workers: int | None, most: int) -> Iterator[Any]:
     """
-    Make a client of a scheduler, or of workers on this machine, `most` of them.
+    Make a client of a scheduler, or of `most` processes of one thread on this machine; ClusterError if that fails.
 
-    Raises
-    ------
-    ClusterError
-        It does not answer, or they cannot be started.
+    These listen on the loopback interface alone, and to those alone who have a certificate that is made here: on a
+    machine with several users the others cannot run code as this one.
     """
-    from distributed import Client  # noqa: PLC0415
+    from dask.system import CPU_COUNT  # noqa: PLC0415
+    from distributed import Client, LocalCluster, Security  # noqa: PLC0415
 
     with ExitStack() as stack:
         try:
             if scheduler is None:
-                address = stack.enter_context(_workers_here(workers, most))
+                here = LocalCluster(
+                    n_workers=min(workers or CPU_COUNT, most),
+                    threads_per_worker=1,
+                    host="127.0.0.1",
+                    security=Security.temporary(),
+                    dashboard_address=None,
+                    local_directory=tempfile.gettempdir(),
+                    memory_limit=None,  # as for threads, that is for the system
+                    silence_logs=logging.CRITICAL,
+                    preload="import signal; signal.signal(signal.SIGINT, signal.SIG_IGN)",  # Ctrl-C is for the command
+                )
+                address: Any = stack.enter_context(here)
             else:
                 address = scheduler if "://" in scheduler else json.loads(Path(scheduler).read_bytes())["address"]
             client = stack.enter_context(Client(address, set_as_default=False))
@@ -151,29 +144,6 @@ def _client(scheduler: str | None, workers: int | None, most: int) -> Iterator[A
                 "scheduler --scheduler-file FILE` and name FILE, or use --engine threads"
             ) from error
         yield client
-
-
-def _workers_here(workers: int | None, most: int) -> Any:
-    """
-    Start as many processes of one thread as are asked for, or as this machine has cores, but `most`.
-
-    They listen on the loopback interface alone, and to those alone who have a certificate that is made here: on a
-    machine with several users the others cannot run code as this one.
-    """
-    from dask.system import CPU_COUNT  # noqa: PLC0415
-    from distributed import LocalCluster, Security  # noqa: PLC0415
-
-    return LocalCluster(
-        n_workers=min(workers or CPU_COUNT, most),
-        threads_per_worker=1,
-        host="127.0.0.1",
-        security=Security.temporary(),
-        dashboard_address=None,
-        local_directory=tempfile.gettempdir(),
-        memory_limit=None,  # as for threads, that is for the system
-        silence_logs=logging.CRITICAL,
-        preload="import signal; signal.signal(signal.SIGINT, signal.SIG_IGN)",  # Ctrl-C is for the command
-    )
 
 
 @contextmanager

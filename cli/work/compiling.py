@@ -14,7 +14,6 @@ from filelock import FileLock
 
 from gradhesion.cli.errors import CompilerError
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.work.solve.blocks import solve_block
 from gradhesion.core import place
@@ -29,14 +28,7 @@ _begun: Final[set[Path | None]] = set()
 
 
 def prepare(study: Study | None = None) -> None:
-    """
-    Where no process has compiled this version of the solver, say that it takes a while, and compile it for a study.
-
-    Raises
-    ------
-    CompilerError
-        The environment says that nothing is to be compiled.
-    """
+    """Where no process has compiled this version of the solver, say that it takes a while, and do so for a study."""
     refuse_without_compiler()
     folder = place().folder
     if folder in _begun or (folder and (folder / _MARK).exists()):
@@ -46,19 +38,18 @@ def prepare(study: Study | None = None) -> None:
     with alone():
         if study is not None and study.kind == "map":  # the first and the last of its scenes, of others nothing
             first, last = study.tiling[0], study.tiling[len(study.tiling) - 1]
-            _try_to_solve(study, tuple(slice(part.start, part.start + 1) for part in first))
-            _try_to_solve(study, tuple(slice(part.stop - 1, part.stop) for part in last))
+            for scene in (
+                tuple(slice(part.start, part.start + 1) for part in first),
+                tuple(slice(part.stop - 1, part.stop) for part in last),
+            ):
+                with suppress(
+                    Exception
+                ):  # which is raised again, and reported, when the block is solved for its values
+                    solve_block(study, scene, 1)
 
 
 def refuse_without_compiler() -> None:
-    """
-    Make sure that kernels are compiled: as plain Python they take hours.
-
-    Raises
-    ------
-    CompilerError
-        The environment says that they are not to be.
-    """
+    """Make sure that kernels are compiled: as plain Python they take hours (CompilerError)."""
     if numba.config.DISABLE_JIT:
         raise CompilerError("NUMBA_DISABLE_JIT is set, but the solver needs the compiler; unset it")
 
@@ -67,12 +58,6 @@ def say_why() -> None:
     """Report why compiled kernels are not kept in the usual folder, if they are not."""
     if place().why:
         messages.say(place().why)
-
-
-def _try_to_solve(study: Study, block: Block) -> None:
-    """Solve a block; what is raised there is raised, and reported, when the block is solved for its values."""
-    with suppress(Exception):
-        solve_block(study, block, 1)
 
 
 @contextmanager
@@ -85,6 +70,6 @@ def alone() -> Iterator[None]:
                 stack.enter_context(FileLock(folder / "lock"))
         yield
         _begun.add(folder)
-        if folder is not None:
-            with suppress(OSError):
+        with suppress(OSError):
+            if folder is not None:
                 (folder / _MARK).touch()

@@ -6,7 +6,7 @@ from functools import partial
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.work.folder import Parts, Results
-from gradhesion.cli.work.solve.blocks import one_ahead, solve_block
+from gradhesion.cli.work.solve.blocks import in_order, solve_block
 
 Solved = Generator[tuple[int, Results, bool], None, None]
 Engine = Callable[[Parts, Sequence[int]], Solved]
@@ -23,20 +23,13 @@ def in_threads(threads: int | None = None) -> Engine:
         return number, solve_block(parts.study, parts.study.tiling[number], threads), False
 
     def engine(parts: Parts, numbers: Sequence[int]) -> Solved:
-        yield from one_ahead(partial(solved_or_kept, parts, number) for number in numbers)
+        yield from in_order(partial(solved_or_kept, parts, number) for number in numbers)
 
     return engine
 
 
 def kept(parts: Parts, numbers: Sequence[int]) -> Solved:
-    """
-    Give blocks that shards have solved.
-
-    Raises
-    ------
-    DatasetError
-        Some are not there, or damaged.
-    """
+    """Give blocks that shards have solved; DatasetError where some are not there, or damaged."""
     of_all = f"of {counted(len(parts.study.tiling), 'block')}"
     if missing := [str(number + 1) for number in numbers if not parts.part(number).exists()]:
         shown = ", ".join(missing[:8]) + (", ..." if len(missing) > 8 else "")

@@ -62,11 +62,15 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate
     refusal = parts.refusal()
     numbers = range(len(study.tiling)) if study.in_blocks else range(0)
     left = [number for number in numbers if refusal or not parts.part(number).exists()]
-    timed, seconds = timed_scenes(study, left)
+    timed, seconds = timed_scenes(study, left) if left else (0, 0.0)
     of_scene = seconds / timed if timed else None
     scenes_left = sum(size_of(study.tiling[number]) for number in left)
     values = 8 * sum(math.prod(study.shape_of(name, ())) for name in study.variables) if numbers else 0
     largest = size_of(study.tiling[0])
+    free = None
+    for folder in reversed(output.absolute().parents):  # the nearest that is there
+        with suppress(OSError):
+            free = shutil.disk_usage(folder).free
     return Estimate(
         output=str(output),
         output_exists=output.exists(),
@@ -80,7 +84,7 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate
         blocks=len(numbers),
         blocks_kept=len(numbers) - len(left),
         bytes_of_values=values * study.scenes,
-        bytes_free=_free(output),
+        bytes_free=free,
         bytes_of_memory=round(BASE + COPIES * values * largest),
         seconds=of_scene * scenes_left / (threads or processors()) if of_scene else None,
         seconds_of_block=of_scene * largest if of_scene else None,
@@ -90,8 +94,6 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate
 
 def timed_scenes(study: Study, numbers: list[int]) -> tuple[int, float]:
     """Solve pieces of some of the blocks of a map on one thread, spread evenly: how many scenes, and the seconds."""
-    if not numbers:
-        return 0, 0.0
     cells = min(128, study.cells)
     solve_block(study, _piece(study.tiling[numbers[0]], cells, 0.0), 1)  # loads or compiles kernels, and makes tables
     scenes, spent = 0, 0.0
@@ -122,11 +124,3 @@ def _piece(block: Block, cells: int, place: float) -> Block:
     return tuple(
         slice(all_.start + part.start, all_.start + part.stop) for all_, part in zip(block, piece, strict=True)
     )
-
-
-def _free(output: Path) -> int | None:
-    """Count the free bytes where the output goes: in its folder, or the one that the folder would be made in."""
-    for folder in output.absolute().parents:
-        with suppress(OSError):
-            return shutil.disk_usage(folder).free
-    return None

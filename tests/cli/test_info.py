@@ -9,7 +9,7 @@ import pytest
 import xarray
 from click.testing import Result
 
-from gradhesion.cli.terminal.printable import printable
+from gradhesion.cli.terminal.messages import printable
 from gradhesion.core.problem.status import OF_EVERY_MAP as FLAGS
 
 Call = Callable[..., Result]

@@ -31,21 +31,19 @@ def ends(folder: Path, *command: str) -> tuple[int, list[str]]:
     return done.returncode, done.stderr.splitlines()
 
 
-def test_a_package_that_is_too_old_is_named_by_a_command(tmp_path: Path) -> None:
-    of_another_version(tmp_path, "numba", "0.60.0", "")
-    code, lines = ends(tmp_path, *COMMAND, "warmup")
+@pytest.mark.parametrize(
+    ("package", "version", "command", "needed"),
+    [("numba", "0.60.0", "warmup", "numba>=0.62"), ("click", "7.1", "--help", "click>=8.2")],
+)
+def test_a_package_that_is_too_old_is_named_by_a_command(
+    package: str, version: str, command: str, needed: str, tmp_path: Path
+) -> None:
+    of_another_version(tmp_path, package, version, "")
+    code, lines = ends(tmp_path, *COMMAND, command)
     assert code == 2
     assert len(lines) <= 2, "at most one beside it, of what begins"
-    assert lines[-1].endswith(
-        f': gradhesion needs numba>=0.62 (0.60.0 is installed); run {sys.executable} -m pip install "numba>=0.62"'
-    )
-
-
-def test_what_needs_it_at_once_says_so_as_well(tmp_path: Path) -> None:
-    of_another_version(tmp_path, "click", "7.1", "")
-    code, lines = ends(tmp_path, *COMMAND, "--help")
-    assert (code, len(lines)) == (2, 1)
-    assert "gradhesion needs click>=8.2 (7.1 is installed); run " in lines[0]
+    assert f"{needed} ({version} is installed)" in lines[-1]
+    assert lines[-1].endswith(f'{sys.executable} -m pip install "{needed}"')
 
 
 def test_what_does_not_need_it_works(tmp_path: Path) -> None:

@@ -11,13 +11,9 @@ from click.testing import Result
 from gradhesion.cli.work.folder import claimed, folder_of
 from tests.faults.trials import values_of
 
+pytestmark = pytest.mark.usefixtures("small_blocks")
+
 Call = Callable[..., Result]
-
-
-@pytest.fixture(autouse=True)
-def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Cut the small study of 24 scenes into 6 blocks."""
-    monkeypatch.setenv("GRADHESION_CHUNK", "2")
 
 
 def test_shards_in_any_order_make_the_dataset(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:

@@ -15,13 +15,9 @@ from gradhesion.cli.study.tiling import size_of
 from gradhesion.cli.work import estimate
 from gradhesion.cli.work.folder import folder_of
 
+pytestmark = pytest.mark.usefixtures("small_blocks")
+
 Call = Callable[..., Result]
-
-
-@pytest.fixture(autouse=True)
-def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Cut the small study of 24 scenes into 6 blocks."""
-    monkeypatch.setenv("GRADHESION_CHUNK", "2")
 
 
 def planned(gradhesion: Call, *arguments: str | Path) -> dict[str, Any]:
@@ -32,29 +28,22 @@ def planned(gradhesion: Call, *arguments: str | Path) -> dict[str, Any]:
     return plan
 
 
-def test_nothing_is_written(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
-    plan = planned(gradhesion, study_file, "-o", tmp_path / "new" / "out.nc")
+def test_nothing_is_written_and_what_is_kept_is_told(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
+    output = tmp_path / "new" / "out.nc"
+    plan = planned(gradhesion, study_file, "-o", output)
     assert os.listdir(tmp_path) == ["study.toml"]
     assert (plan["scenes"], plan["blocks"], plan["blocks_kept"], plan["refusal"]) == (24, 6, 0, "")
-    assert plan["bytes_of_values"] == 24 * 3 * 8
-    assert plan["seconds"] > 0
-    assert plan["bytes_free"] > 0
+    assert (plan["bytes_of_values"], plan["output_exists"]) == (24 * 3 * 8, False)
+    assert min(plan["seconds"], plan["bytes_free"]) > 0
     assert 0 < 6 * plan["seconds_of_block"] < 2 * plan["seconds"] * (os.cpu_count() or 1)
-    assert not plan["output_exists"]
-
-
-def test_what_is_kept_of_this_study_and_of_another(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
-    output = tmp_path / "out.nc"
-    assert gradhesion("run", study_file, "-o", output, "--shard", "1/2").exit_code == 0
-    before = sorted((path.name, path.stat().st_mtime_ns) for path in folder_of(output).iterdir())
-    assert planned(gradhesion, study_file, "-o", output)["blocks_kept"] == 3
-    other = planned(gradhesion, study_file, "-o", output, "--set=parameters.nu=0.3")
-    assert other["blocks_kept"] == 0
-    assert "--fresh" in other["refusal"]
-    assert sorted((path.name, path.stat().st_mtime_ns) for path in folder_of(output).iterdir()) == before
-    assert gradhesion("run", study_file, "-o", output, "--shard", "2/2").exit_code == 0
-    plan = planned(gradhesion, study_file, "-o", output)
-    assert (plan["blocks_kept"], plan["seconds"]) == (6, None)
+    for shard, kept in (("1/2", 3), ("2/2", 6)):
+        assert gradhesion("run", study_file, "-o", output, "--shard", shard).exit_code == 0
+        before = sorted((path.name, path.stat().st_mtime_ns) for path in folder_of(output).iterdir())
+        plan = planned(gradhesion, study_file, "-o", output)
+        assert (plan["blocks_kept"], plan["seconds"] is None) == (kept, kept == 6)
+        other = planned(gradhesion, study_file, "-o", output, "--set=parameters.nu=0.3")
+        assert (other["blocks_kept"], "--fresh" in other["refusal"]) == (0, True)
+        assert sorted((path.name, path.stat().st_mtime_ns) for path in folder_of(output).iterdir()) == before
     assert gradhesion("plan", study_file, "-o", output).exit_code == 0
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from click.testing import Result
 
-from gradhesion.cli.terminal.printable import printable, printable_line
+from gradhesion.cli.terminal.messages import printable, printable_line
 
 pytestmark = pytest.mark.slow
 
@@ -71,7 +71,7 @@ def test_messages_that_cannot_be_printed_do_not_decide(
 
 def test_a_dataset_takes_no_number_of_a_closed_stream(shell: Shell) -> None:
     """What a library prints to a closed stderr would go into the file that has its number."""
-    line = "import os; from gradhesion.cli.terminal.output import open_streams; open_streams(); print(os.open('x', os.O_CREAT | os.O_RDWR))"
+    line = "import os; from gradhesion.cli.terminal.messages import open_streams; open_streams(); print(os.open('x', os.O_CREAT | os.O_RDWR))"
     assert shell(f'{sys.executable} -c "{line}" 2>&- <&-').stdout not in {b"0\n", b"1\n", b"2\n"}
 
 

@@ -12,14 +12,13 @@ from click.testing import Result
 
 from gradhesion.cli.dataset import compute
 from gradhesion.cli.study import study_from
-from gradhesion.core import REPORTS, draw_curves, solve
+from gradhesion.core import draw_curves
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.profile import Harmonic, Profile
 
 CONTROLS = ("displacement", "load", "machine")
 SHAPE = {"exponent": 1.7, "harmonics": [{"n": 1, "cos": 1.0}, {"n": 3, "sin": -0.2}]}
 PROFILE = Profile(exponent=1.7, harmonics=(Harmonic(n=1), Harmonic(n=3, cos=0.0, sin=-0.2)))
-NAMES = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "machine_stiffness", "a_max_over_R")
 
 
 @pytest.fixture
@@ -37,21 +36,6 @@ def shaped(data: dict[str, Any]) -> Callable[..., dict[str, Any]]:
 
 
 @pytest.mark.parametrize("control", CONTROLS)
-def test_values_are_those_of_the_core(control: str, shaped: Callable[..., dict[str, Any]]) -> None:
-    outputs = [*shaped()["outputs"], *(name for name in REPORTS if control != "load" or name != "energy_residual")]
-    dataset = compute(study_from(shaped(control, outputs=outputs)))
-    machine = ["machine_stiffness"] if control == "machine" else []
-    assert list(dataset["pull_off_force"].dims) == ["k", "A", *machine, "a_max_over_R"], "the stiffness before the rim"
-    names = [name for name in NAMES if name in dataset.coords]
-    given = xarray.broadcast(*(dataset[name] for name in names))
-    scenes = {name: one.values for name, one in zip(names, given, strict=True)}
-    for name, values in solve(scenes, outputs, profile=PROFILE, loading=Loading(control=control)).items():
-        np.testing.assert_allclose(dataset[name], values, rtol=8 * 2.0**-52)  # rims that share a trace share roots
-        assert np.isfinite(values).all(), name
-    assert (dataset["adhesion_gain"].sel(A=0.0) == 1.0).all()
-
-
-@pytest.mark.parametrize("control", CONTROLS)
 def test_the_file_says_what_shape_and_control_it_is_of(
     control: str,
     shaped: Callable[..., dict[str, Any]],
@@ -63,18 +47,13 @@ def test_the_file_says_what_shape_and_control_it_is_of(
     assert gradhesion("run", write_study(study_from(shaped(control)).text), "-o", path).exit_code == 0
     with netCDF4.Dataset(path) as file:
         assert file.control == control
+        machine = ["machine_stiffness"] if control == "machine" else []
+        assert [*file["pull_off_force"].dimensions] == ["k", "A", *machine, "a_max_over_R"], "stiffness before the rim"
         assert file.profile == "r^1.7/(1.7 R^0.7) + lambda A [(1 - cos(2 pi x)) - 0.2 sin(6 pi x)], x = r/lambda"
         assert ("without its jump-out" in file["dissipated_energy"].long_name) == (control == "load")
     told = gradhesion("info", path).stdout
     assert "profile: r^1.7/(1.7 R^0.7)" in told
     assert f"control: {'displacement through a machine' if control == 'machine' else control}" in told
-
-
-def test_the_envelopes_of_any_shape_stand_beside_the_exact_solution(shaped: Callable[..., dict[str, Any]]) -> None:
-    study = shaped("displacement", method={"solver": ["exact", "envelope"]})
-    force = compute(study_from(study))["pull_off_force"].sel(A=0.023)
-    ratio = force.sel(solver="exact") / force.sel(solver="envelope")
-    assert 0.5 < float(ratio.min()) < float(ratio.max()) < 1.0
 
 
 def test_the_defaults_written_out_are_the_defaults(data: dict[str, Any]) -> None:
@@ -97,9 +76,3 @@ def test_curves_of_any_shape_and_control_are_drawn(shaped: Callable[..., dict[st
         assert int(dataset["status"][i]) == status
         for name in ("load", "path_indentation", "path_branch", "smooth_load"):
             np.testing.assert_array_equal(dataset[name][i].values[: found[name].size], found[name])
-
-
-@pytest.mark.parametrize("amplitudes", [{}, {"cos": 0.3}, {"sin": 0.2}, {"cos": 0.3, "sin": 0.2}])
-def test_a_wave_is_the_same_in_a_study_and_in_python(amplitudes: dict[str, float], data: dict[str, Any]) -> None:
-    read = study_from(data | {"profile": {"harmonics": [{"n": 3} | amplitudes]}})
-    assert read.profile.harmonics == (Harmonic(n=3, **amplitudes),)

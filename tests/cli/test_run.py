@@ -23,7 +23,7 @@ from gradhesion.core.problem.status import OF_EVERY_MAP
 
 Call = Callable[..., Result]
 Made = Callable[..., Path]
-SOLVE = "gradhesion.cli.work.solve.given.solve"
+SOLVE = "gradhesion.cli.work.solve.scenes.solve"
 
 
 @pytest.fixture
@@ -88,18 +88,12 @@ def test_values_do_not_depend_on_blocks_or_threads(layout: str, data: dict[str, 
     xarray.testing.assert_allclose(compute(replace(study, chunk=2), threads=2), whole, rtol=rounding, atol=0.0)
 
 
-def test_an_axis_of_one_value_stays_and_a_number_is_scalar(made: Made) -> None:
+def test_dimensions_are_those_of_axes_and_points_have_one(made: Made) -> None:
     fixed = {"k": 0.2, "lambda_over_R": 0.3, "A": 0.1}
-    with xarray.open_dataset(made(parameters=fixed | {"a_max_over_R": [np.inf]})) as dataset:
-        assert dict(dataset.sizes) == {"a_max_over_R": 1}
-        assert dataset["a_max_over_R"].item() == np.inf
-        assert dataset["k"].shape == ()
-    with xarray.open_dataset(made(parameters=fixed | {"a_max_over_R": 2.0})) as dataset:
-        assert dict(dataset.sizes) == {}
-        assert np.isfinite(dataset["pull_off_force"].item())
-
-
-def test_points_have_one_dimension(made: Made) -> None:
+    for rims, sizes in (([np.inf], {"a_max_over_R": 1}), (2.0, {})):
+        with xarray.open_dataset(made(parameters=fixed | {"a_max_over_R": rims})) as dataset:
+            assert dict(dataset.sizes) == sizes
+            assert np.isfinite(dataset["pull_off_force"].values).all()
     with xarray.open_dataset(made(layout="points", parameters={"lambda_over_R": [0.1, 0.1]})) as dataset:
         assert dict(dataset.sizes) == {"scene": 2}
         assert set(dataset.coords) == set(PARAMETERS)
@@ -167,12 +161,9 @@ def test_failed_scenes_are_written_and_told(
     assert f"1 of 24 scenes failed; `gradhesion info {tmp_path}/out.nc` reports why" in result.stderr
     with xarray.open_dataset(tmp_path / "out.nc") as dataset:
         assert int(dataset["pull_off_force"].isnull().sum()) == 1
-    told = gradhesion("info", tmp_path / "out.nc").stdout
-    assert "status: 23 of 24 scenes (95.8%) have values" in told
-    assert re.search(r"no_value +1 of 24 scenes", told)
 
 
-@pytest.mark.parametrize("limit", [3_000, 20_000, 60_000])
+@pytest.mark.parametrize("limit", [3_000, 60_000])
 def test_a_failed_write_loses_nothing(
     limit: int, study_file: Path, tmp_path: Path, on_a_full_disk: Callable[..., CompletedProcess[str]]
 ) -> None:
@@ -187,13 +178,3 @@ def test_a_failed_write_loses_nothing(
     assert "Traceback" not in done.stderr
     assert old.read_text() == "precious"
     assert os.listdir(folder) == ["out.nc"]
-
-
-@pytest.mark.parametrize("option", [["--dry-run"], ["--chunk", "7"], ["--fail-fast"], ["--log-json"]])
-def test_what_was_given_up_is_refused_with_what_to_use(
-    option: list[str], gradhesion: Call, study_file: Path, tmp_path: Path
-) -> None:
-    result = gradhesion("run", study_file, "-o", tmp_path / "out.nc", *option)
-    assert result.exit_code == 2
-    assert f"{option[0]} was given up" in result.stderr
-    assert not (tmp_path / "out.nc").exists()

@@ -42,12 +42,11 @@ def test_a_part_of_a_grid_has_the_values_and_the_study_of_the_whole(dataset_file
     assert (found["pull_off_force"].dtype, found["status"].dtype) == (np.float64, np.int8)
 
 
-@pytest.mark.parametrize("wrong", [1e-11, 0.0])
-def test_a_changed_value_of_a_part_is_found(wrong: float, gradhesion: Call, dataset_file: Path, select: Select) -> None:
+def test_a_changed_value_of_a_part_is_found(gradhesion: Call, dataset_file: Path, select: Select) -> None:
     *_, part = select(dataset_file, "--at", "k=0.31")
     with netCDF4.Dataset(part, "a") as file:
-        file["pull_off_force"][0, 1, 0] *= 1.0 + wrong
-    assert gradhesion("verify", part, "--sample", "50").exit_code == (3 if wrong else 0)
+        file["pull_off_force"][0, 1, 0] *= 1.0 + 1e-11
+    assert gradhesion("verify", part, "--sample", "50").exit_code == 3
     with netCDF4.Dataset(part, "a") as file:
         file["lambda_over_R"][0] = 0.12
     assert gradhesion("verify", part).exit_code == 2

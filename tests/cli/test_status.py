@@ -12,13 +12,9 @@ from click.testing import Result
 from gradhesion.cli.work.folder import folder_of
 from gradhesion.cli.work.solve.scenes import solve as real_solve
 
+pytestmark = pytest.mark.usefixtures("small_blocks")
+
 Call = Callable[..., Result]
-
-
-@pytest.fixture(autouse=True)
-def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Cut the small study of 24 scenes into 6 blocks."""
-    monkeypatch.setenv("GRADHESION_CHUNK", "2")
 
 
 def test_running_stopped_and_complete(
@@ -44,7 +40,7 @@ def test_running_stopped_and_complete(
         return real_solve(*arguments, **options)
 
     with monkeypatch.context() as patch:
-        patch.setattr("gradhesion.cli.work.solve.given.solve", spying)
+        patch.setattr("gradhesion.cli.work.solve.scenes.solve", spying)
         assert gradhesion("run", study_file, "-o", output).exit_code == 1
     (running,) = seen
     assert running.items() >= {"state": "running", "blocks": 6, "scenes": 24}.items()

@@ -7,30 +7,8 @@ import numpy as np
 
 from gradhesion.core import draw_curves
 
-from .kinds import (
-    COUNTS,
-    EXACT,
-    KINDS,
-    SCENES,
-    Kind,
-    Scenes,
-    drawn,
-    for_kinds,
-    one_of,
-    rescaled,
-    rng_of,
-    some,
-)
-from .promises import (
-    NO_VALUE,
-    agree,
-    depth_size,
-    errors,
-    is_sure,
-    load_size,
-    phase_of,
-    work_size,
-)
+from .kinds import COUNTS, EXACT, KINDS, SCENES, Kind, Scenes, drawn, for_kinds, one_of, rescaled, rng_of, some
+from .promises import NO_VALUE, agree, depth_size, errors, is_sure, load_size, phase_of, work_size
 from .theory import FORCE, Curve, stiffness
 
 

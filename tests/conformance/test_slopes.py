@@ -6,19 +6,7 @@ import numpy as np
 
 from gradhesion.core import OUTPUTS, PARAMETERS
 
-from .kinds import (
-    COUNTS,
-    EXACT,
-    SCENES,
-    Kind,
-    Scenes,
-    drawn,
-    for_kinds,
-    one_of,
-    powers_of,
-    rng_of,
-    some,
-)
+from .kinds import COUNTS, EXACT, SCENES, Kind, Scenes, drawn, for_kinds, one_of, powers_of, rng_of, some
 from .promises import SENSITIVITY, SHARE, errors, is_sure, phase_of
 from .theory import Array
 

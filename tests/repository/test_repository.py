@@ -120,7 +120,7 @@ SHIPPED_BEYOND = {"fig4a": "unbounded", "cone": "cone"}
 def test_shipped_studies_stay_where_slopes_are_small_or_say_why_not() -> None:
     from gradhesion.cli.study.fit.study import FitStudy
     from gradhesion.cli.study.reading import load_any
-    from gradhesion.cli.work.solve.given import scenes_from
+    from gradhesion.cli.work.solve.scenes import scenes_from
     from gradhesion.core import VALIDITY, solve
 
     for path in sorted((ROOT / "configs").glob("*.toml")):

@@ -1,23 +1,63 @@
-"""Where scenes leave the range of the model: validity numbers beyond their limits."""
+"""What casts doubt on values of a dataset: flags of `status`, and numbers beyond the range of the model."""
 
+import math
+import tomllib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.read.reader import tiling_of
-from gradhesion.cli.dataset.read.waves import STEEPEST
+from gradhesion.cli.dataset.read.reader import is_turned, tiling_of
+from gradhesion.cli.names.curves import curve_of
+from gradhesion.cli.names.outputs import BEST, value_of
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.terminal.amounts import counted
+from gradhesion.core import doubts_about
+from gradhesion.core.answers.flags import LINEAR_DEVIATION_OFF, RESOLUTION_TOO_COARSE
 from gradhesion.core.closed.reach import SMALL, is_steep
 from gradhesion.core.problem.names import CONTACT_SLOPE, RANGE
+from gradhesion.core.problem.profile import Harmonic, Profile, rows_of, swings
+from gradhesion.core.problem.status import DOUBTFUL
+
+if TYPE_CHECKING:
+    import xarray
+
+DOUBTS: Final = DOUBTFUL | LINEAR_DEVIATION_OFF | RESOLUTION_TOO_COARSE
+"""All bits that cast doubt on some variable."""
+SHORT_RANGED: Final = 5.0
+"""The Tabor parameter from which on JKR holds (Johnson & Greenwood 1997)."""
+LONG_RANGED: Final = 0.1
+"""The Tabor parameter up to which the limit of Derjaguin, Muller & Toporov holds instead."""
+ONE_DISC: Final = 2.0 / np.sqrt(np.pi)
+"""Johnson's alpha at chi = 1/2, up to which short waves keep the contact one disc (docs/theory.md, section 12)."""
+STEEPEST: Final = 0.5
+"""A slope of waves that is no longer small: a linear half-space errs by about its square."""
 
 
-@dataclass(frozen=True, kw_only=True)
+def doubts_of(variable: str, dataset: "xarray.Dataset") -> int:
+    """
+    Give the bits that cast doubt on a variable of a dataset, whatever it says of its output.
+
+    >>> import xarray
+    >>> none = xarray.Dataset()
+    >>> doubts_of("dissipated_energy_si", none) == doubts_of("path_load", none) == DOUBTFUL
+    True
+    >>> doubts_of("delta_max_std_si", none) & ~doubts_of("delta_max", none) == LINEAR_DEVIATION_OFF
+    True
+    """
+    plain = value_of(variable)
+    bits = doubts_about(curve_of(plain) or plain, turned=is_turned(dataset))
+    if variable.startswith(BEST):
+        bits |= RESOLUTION_TOO_COARSE
+    sampled = any(str(name).removesuffix("_si").endswith("_std_linear") for name in dataset.data_vars)
+    linear = ("_std_linear",) if sampled else ("_std", "_std_linear")  # the deviation of samples is as good as these
+    return bits | LINEAR_DEVIATION_OFF if variable.removesuffix("_si").endswith(linear) else bits
+
+
+@dataclass(frozen=True)
 class Limit:
     """Beyond what a validity number leaves the range of the model, and what that means."""
 
@@ -26,82 +66,56 @@ class Limit:
     words: str
 
 
-SHORT_RANGED: Final = 5.0
-"""The Tabor parameter from which on JKR holds (Johnson & Greenwood 1997)."""
-LONG_RANGED: Final = 0.1
-"""The Tabor parameter up to which the limit of Derjaguin, Muller & Toporov holds instead."""
-ONE_DISC: Final = 2.0 / np.sqrt(np.pi)
-"""Johnson's alpha at chi = 1/2, up to which short waves keep the contact one disc (docs/theory.md, section 12)."""
-
 LIMITS: Final = {
     "tabor_parameter": Limit(
-        beyond=lambda values: values < SHORT_RANGED,
-        condition=f"below {SHORT_RANGED:g}",
-        words="the attraction is too long-ranged for JKR",
+        lambda values: values < SHORT_RANGED, f"below {SHORT_RANGED:g}", "the attraction is too long-ranged for JKR"
     ),
     "wave_tabor_parameter": Limit(
-        beyond=lambda values: values < SHORT_RANGED,
-        condition=f"below {SHORT_RANGED:g}, waves higher than the range",
-        words="the attraction is too long-ranged for the crests",
+        lambda values: values < SHORT_RANGED,
+        f"below {SHORT_RANGED:g}, waves higher than the range",
+        "the attraction is too long-ranged for the crests",
     ),
     "wave_slope": Limit(
-        beyond=lambda values: values > STEEPEST,
-        condition=f"above {STEEPEST:g}",
-        words="slopes are not small, as a linear half-space needs",
+        lambda values: values > STEEPEST, f"above {STEEPEST:g}", "slopes are not small, as a linear half-space needs"
     ),
     "johnson_alpha": Limit(
-        beyond=lambda values: values < ONE_DISC,
-        condition="below 1.13 (chi above 1/2)",
-        words="contact on loading may not be one disc",
+        lambda values: values < ONE_DISC, "below 1.13 (chi above 1/2)", "contact on loading may not be one disc"
     ),
-    CONTACT_SLOPE: Limit(
-        beyond=is_steep,
-        condition=f"above {SMALL:g} (a > R)",
-        words="contact reaches slopes that are not small",
-    ),
+    CONTACT_SLOPE: Limit(is_steep, f"above {SMALL:g} (a > R)", "contact reaches slopes that are not small"),
 }
 """By the validity number."""
 
 
-def beyond_by(number: str, dataset: xarray.Dataset, block: Block = ()) -> xarray.DataArray | None:
+def beyond_by(number: str, dataset: "xarray.Dataset", block: Block = ()) -> "xarray.DataArray | None":
     """Report which scenes of a dataset, or a block of them, a validity number puts beyond its limit; None: unknown.
 
     The slope of the contact is known of every scene: what is not marked is within its limit.
     """
     if number in dataset.data_vars:
-        return is_beyond(dataset[number][block])
+        part = dataset[number][block]
+        beyond = part.copy(data=LIMITS[number].beyond(part.values))
+        if number == "wave_tabor_parameter":  # waves shallower than the range are not felt
+            beyond = beyond & (part["A"] * part["lambda_over_R"] > part[RANGE])
+        return beyond
     if number == CONTACT_SLOPE and STEEP in dataset.coords:
         return dataset[STEEP][block] > 0
     return None
 
 
-def is_beyond(part: xarray.DataArray) -> xarray.DataArray:
-    """Report which scenes are beyond the limit of a validity number, which is the name of the array."""
-    name = str(part.name)
-    beyond = part.copy(data=LIMITS[name].beyond(part.values))
-    if name == "wave_tabor_parameter":  # waves shallower than the range are not felt
-        beyond = beyond & (part["A"] * part["lambda_over_R"] > part[RANGE])
-    return beyond
-
-
-def is_cone(dataset: xarray.Dataset) -> bool:
+def is_cone(dataset: "xarray.Dataset") -> bool:
     """Report whether the punch of a dataset is a cone, whose slope is 1 at every radius."""
     return str(dataset.attrs.get("profile", "")).partition(" ")[0] == "r"
 
 
-def steep_scenes(dataset: xarray.Dataset) -> int:
-    """Count the scenes whose contact reaches a slope of the punch that is not small."""
-    blocks = (beyond_by(CONTACT_SLOPE, dataset, block) for block in tiling_of(dataset["status"]))
-    return sum(int(beyond.sum()) for beyond in blocks if beyond is not None)
-
-
-def slope_warnings(dataset: xarray.Dataset) -> Iterator[str]:
+def slope_warnings(dataset: "xarray.Dataset") -> Iterator[str]:
     """Say in one line how many scenes reach slopes of the punch that are not small, if any does."""
+    scenes = counted(dataset["status"].size, "scene")
     if is_cone(dataset):
-        yield f"a cone of slope 1: slopes are not small in any of {counted(dataset['status'].size, 'scene')}"
-    elif steep := steep_scenes(dataset):
-        share = f"{steep:,} of {counted(dataset['status'].size, 'scene')}"
-        yield f"{share}: {LIMITS[CONTACT_SLOPE].words} (a > R)"
+        yield f"a cone of slope 1: slopes are not small in any of {scenes}"
+        return
+    blocks = (beyond_by(CONTACT_SLOPE, dataset, block) for block in tiling_of(dataset["status"]))
+    if steep := sum(int(beyond.sum()) for beyond in blocks if beyond is not None):
+        yield f"{steep:,} of {scenes}: {LIMITS[CONTACT_SLOPE].words} (a > R)"
 
 
 def tabor_warnings(number: float, comment: str) -> Iterator[str]:
@@ -112,12 +126,35 @@ def tabor_warnings(number: float, comment: str) -> Iterator[str]:
     ([], 'Tabor parameter 0.05 (with a range of 1 nm) is below 0.1: ')
     """
     if number < LONG_RANGED:
-        yield (
-            f"Tabor parameter {number:.2g} ({comment}) is below {LONG_RANGED:g}: JKR does not apply, but the limit of "
-            "Derjaguin, Muller & Toporov"
-        )
+        limit, words = LONG_RANGED, "JKR does not apply, but the limit of Derjaguin, Muller & Toporov"
     elif number < SHORT_RANGED:
-        yield (
-            f"Tabor parameter {number:.2g} ({comment}) is below {SHORT_RANGED:g}: the attraction is too long-ranged "
-            "for JKR, and the fitted values are doubtful"
-        )
+        limit, words = SHORT_RANGED, "the attraction is too long-ranged for JKR, and the fitted values are doubtful"
+    else:
+        return
+    yield f"Tabor parameter {number:.2g} ({comment}) is below {limit:g}: {words}"
+
+
+def steepness(rows: NDArray[np.float64]) -> float:
+    """
+    Give the steepest slope of waves over A, by their rows (n, cos, sin): 2 pi of one cosine.
+
+    >>> steepness(np.array([[1.0, 1.0, 0.0]])) == 2.0 * math.pi
+    True
+    """
+    return 2.0 * math.pi * max(swings(-1.0, tuple(map(tuple, rows.tolist())))) if len(rows) else 0.0
+
+
+def steep_waves(dataset: "xarray.Dataset") -> int:
+    """Count the scenes whose waves are steep; 0 where that is not known: without a study, or of random waves."""
+    if "study" not in dataset.attrs or "A" not in dataset.coords:
+        return 0
+    try:
+        table: Any = tomllib.loads(dataset.attrs["study"]).get("profile", {})
+        table = tomllib.loads(dataset.attrs["profile_fit"]) if "profile_fit" in dataset.attrs else table
+        harmonics = tuple(Harmonic(**one) for one in table.get("harmonics", [{"n": 1}]))
+    except (ValueError, TypeError, AttributeError, RecursionError):
+        return 0
+    if "spectrum" in table:
+        return 0
+    steep = dataset["A"].values * steepness(rows_of(Profile(harmonics=harmonics))) > STEEPEST
+    return int(np.count_nonzero(steep)) * dataset["status"].size // steep.size

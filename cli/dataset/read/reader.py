@@ -1,4 +1,4 @@
-"""Datasets of ours, opened for reading."""
+"""Datasets of ours, opened for reading: a file may be damaged, or changed by other programs."""
 
 import math
 import os
@@ -7,35 +7,31 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-import xarray
-
-from gradhesion.cli.dataset.read.soundness import check_form
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.files import is_file, kind_of
-from gradhesion.cli.names.curves import EXTENTS, RAGGED
+from gradhesion.cli.names.curves import EXTENTS, RAGGED, variables_of_curves
+from gradhesion.cli.names.fits import FIT, FIT_POINTS, PARAMETER_UNITS
+from gradhesion.cli.names.outputs import BEST, OUTPUTS, SI
+from gradhesion.cli.names.scenes import REALISATION, SOLVER
+from gradhesion.cli.names.units import unit_of
+from gradhesion.cli.study.text.foreign import apart, filled
+from gradhesion.cli.study.text.quantities import factor_between, scaled
 from gradhesion.cli.study.tiling import CHUNK, Tiling
+from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.names import TURNS
 
 if TYPE_CHECKING:
-    from xarray import Dataset
+    import xarray
 
 MOST: Final = 2**22
 """Cells that are read at a time, whatever chunks a file has."""
 
 
 @contextmanager
-def opened(path: Path) -> Iterator["Dataset"]:
-    """
-    Open a dataset that `gradhesion run` wrote; nothing is loaded yet, and its axes are not indexed.
-
-    Raises
-    ------
-    DatasetError
-        The file is missing, damaged or not ours.
-    """
+def opened(path: Path) -> Iterator["xarray.Dataset"]:
+    """Open a dataset of ours, not loaded, its axes not indexed; DatasetError if it is missing, damaged or not ours."""
     with found(path, kept=False) as dataset:
         try:
-            check_ours(dataset, path)
             check_form(dataset, path)
             yield dataset
         except BrokenPipeError:  # of the message about it
@@ -44,7 +40,7 @@ def opened(path: Path) -> Iterator["Dataset"]:
             raise DatasetError(f"{path}: is damaged ({error}); write it again with `gradhesion run`") from error
 
 
-def found(path: Path, *, kept: bool) -> "Dataset":
+def found(path: Path, *, kept: bool) -> "xarray.Dataset":
     """
     Open a dataset; it is the caller's to close.
 
@@ -61,54 +57,69 @@ def found(path: Path, *, kept: bool) -> "Dataset":
     DatasetError
         The file is missing, damaged or none in NetCDF; the message says what it is instead.
     """
+    import xarray  # noqa: PLC0415 (450 ms that `run` does not need)
+
     kind = kind_of(path)
     if not is_file(path):
-        what = (
-            f"is not a file, but {kind or 'something that cannot be read'}"
-            if os.path.lexists(path)
-            else "does not exist"
-        )
+        what = f"is not a file, but {kind or 'cannot be read'}" if os.path.lexists(path) else "does not exist"
         raise DatasetError(f"{path}: {what}; name a dataset that `gradhesion run` wrote")
     try:
         return xarray.open_dataset(path, engine="netcdf4", cache=kept, create_default_indexes=kept)
     except (OSError, ValueError, RuntimeError, AttributeError, TypeError) as error:  # as the libraries say it
         reason = getattr(error, "strerror", None) or str(error)
-        other = kind and not kind.startswith("a dataset")
-        what, remedy = (f"it is {kind}", "name a dataset that") if other else (reason, "write it again with")
-        wrote = " wrote" if other else ""
-        raise DatasetError(f"{path}: cannot be read as NetCDF ({what}); {remedy} `gradhesion run`{wrote}") from error
+        if kind and not kind.startswith("a dataset"):
+            reason = f"it is {kind}"
+        raise DatasetError(
+            f"{path}: cannot be read as NetCDF ({reason}); name one that `gradhesion run` wrote, or write it again"
+        ) from error
 
 
-def check_ours(dataset: "Dataset", path: Path | str = "this") -> None:
-    """
-    Check that a dataset is one of this program.
-
-    Raises
-    ------
-    DatasetError
-        It is not; the message says what is missing.
-    """
+def check_ours(dataset: "xarray.Dataset", path: Path | str = "this") -> None:
+    """Check that a dataset is one of this program; DatasetError says what is missing."""
     missing = [f"the attribute {name}" for name in ("title", "source") if name not in dataset.attrs]
     if "status" not in dataset:
         missing.append("the variable status")
     elif "flag_meanings" not in dataset["status"].attrs:
         missing.append("the attribute flag_meanings of status")
     source = str(dataset.attrs.get("source", "gradhesion"))
-    if not missing and source.startswith("gradhesion"):
-        return
-    lack = f"it lacks {' and '.join(missing)}" if missing else f"its source is {source}"
-    raise DatasetError(f"{path}: is not a dataset of gradhesion; name one that `gradhesion run` wrote ({lack})")
+    if missing or not source.startswith("gradhesion"):
+        lack = f"it lacks {' and '.join(missing)}" if missing else f"its source is {source}"
+        raise DatasetError(f"{path}: is not a dataset of gradhesion; name one that `gradhesion run` wrote ({lack})")
 
 
-def study_text(dataset: "Dataset", path: Path | str) -> str:
-    """
-    Give the text of the study in a dataset.
+def check_form(dataset: "xarray.Dataset", path: Path | str) -> None:
+    """Check that a dataset is ours, and all that else relies on; DatasetError says which is not as we write it."""
+    check_ours(dataset, path)
+    for fault in _faults(dataset):
+        raise DatasetError(f"{path}: was changed or is damaged ({fault}); write it again with `gradhesion run`")
 
-    Raises
-    ------
-    DatasetError
-        There is none, as in what `gradhesion.solve` computes of more than a study can say.
-    """
+
+def _faults(dataset: "xarray.Dataset") -> Iterator[str]:
+    """Say what the scenes lack, the curves of which the counts do not add up, and what a fit lacks."""
+    status = dataset["status"]
+    if status.dtype.kind not in "iu":
+        yield "status does not consist of integers"
+    if status.size == 0:
+        yield "it has no scene"
+    for axis in status.dims:
+        if axis in (*INPUTS, SOLVER, REALISATION) and axis not in dataset.coords:
+            yield f"the axis {axis} has no values of its own"
+    for name, variable in dataset.data_vars.items():
+        known = str(name).removesuffix(SI).removeprefix(BEST)
+        if (known in OUTPUTS or known in RAGGED.values()) and variable.dims[: status.ndim] != status.dims:
+            yield f"the axes of {name} are not those of status"
+    for curve in variables_of_curves(dataset.data_vars).keys() & RAGGED.keys():
+        count, extent = RAGGED[curve], EXTENTS[curve]
+        items = int(dataset[count].values.sum()) if count in dataset else -1
+        if items != dataset.sizes.get(extent, max(items, 0)):
+            yield f"the numbers of {count} do not add up to those of {extent}"
+    if is_fit(dataset):
+        needed = (*FIT, PARAMETER_UNITS, *(name for own in FIT_POINTS.values() for name in own))
+        yield from (f"it has no {name}" for name in needed if name not in dataset.variables)
+
+
+def study_text(dataset: "xarray.Dataset", path: Path | str) -> str:
+    """Give the text of the study in a dataset; DatasetError where it has none, as those of named dimensions."""
     if not {"study", "study_sha256"} <= dataset.attrs.keys():
         raise DatasetError(
             f"{path}: lacks its study, the attributes study and study_sha256; compute it from a study, "
@@ -117,14 +128,25 @@ def study_text(dataset: "Dataset", path: Path | str) -> str:
     return str(dataset.attrs["study"])
 
 
-def has_curves(dataset: "Dataset") -> bool:
+def is_fit(dataset: "xarray.Dataset") -> bool:
+    """Report whether a dataset is that of a fit."""
+    return "chi_square" in dataset.variables
+
+
+def refuse_fit(dataset: "xarray.Dataset", what: str, path: Path | str = "the dataset") -> None:
+    """Refuse a fit where scenes are wanted (DatasetError)."""
+    if is_fit(dataset):
+        raise DatasetError(f"{path}: contains a fit, and {what} needs scenes; `gradhesion plot` draws it")
+
+
+def has_curves(dataset: "xarray.Dataset") -> bool:
     """Report whether a dataset is that of a curve study."""
     return any(extent in dataset.dims for extent in EXTENTS.values()) or any(
         name in dataset for name in RAGGED.values()
     )
 
 
-def is_turned(dataset: "Dataset") -> bool:
+def is_turned(dataset: "xarray.Dataset") -> bool:
     """Report whether the cycles of a dataset turn at a depth or a load, so that loading decides on all that follows."""
     return any(name in dataset.coords for name in TURNS)
 
@@ -133,3 +155,25 @@ def tiling_of(variable: "xarray.DataArray") -> Tiling:
     """Cut a variable into blocks of the chunks that it has in its file."""
     chunk = variable.encoding.get("chunksizes") or (CHUNK,)
     return Tiling(variable.shape, max(1, min(math.prod(chunk), MOST)))
+
+
+def in_own_units(dataset: "xarray.Dataset") -> "xarray.Dataset":
+    """
+    Give a dataset with plain numbers in the units of our files, whether it was quantified or its units were changed.
+
+    Values of a file are only read where they change.
+    """
+    changed = {}
+    for name, variable in dataset.variables.items():
+        own = unit_of(str(name))
+        written = variable.attrs.get("units")
+        numbers, unit = (variable, str(written)) if written is not None else apart(dataset[name])
+        factor = factor_between(unit, own) if unit and written != own else None
+        if not factor:
+            continue
+        values = None if factor == 1 and written is not None else filled(numbers)
+        values = values if values is None or factor == 1 else scaled(values, factor)
+        plain = variable.copy(deep=False, data=values)
+        plain.attrs = variable.attrs | {"units": own}
+        changed[name] = plain
+    return dataset.assign(changed) if changed else dataset

@@ -1,6 +1,6 @@
 """Values between two items of an axis, and reductions of an axis: each with the status that belongs to it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -10,9 +10,10 @@ from gradhesion.core import FAILED
 
 QUANTILES: Final = {"p05": 0.05, "p50": 0.5, "median": 0.5, "p95": 0.95}
 """The quantiles that an axis may be reduced to, by what they are called."""
-
 REDUCTIONS: Final = ("max", "min", "mean", "sum", *QUANTILES, "argmax", "argmin")
 """How an axis may be reduced; the last two give the place of the extreme."""
+FLAT: Final = 1e-9
+"""Values that differ by less, over their size, are equal: what is left is rounding."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,7 +33,7 @@ class Taken:
 
     values: xarray.DataArray
     status: xarray.DataArray
-    left_out: int
+    left_out: int = 0
     """The scenes without a value, or failed, that reductions have left out."""
     at_end: xarray.DataArray | None = None
     """Whether an extreme whose place is taken is at an end of its axis, beyond which it may lie."""
@@ -40,70 +41,57 @@ class Taken:
     """The places left out because the values along the axis are equal but for rounding: no extreme has a place."""
 
 
-FLAT: Final = 1e-9
-"""Values that differ by less, over their size, are equal: what is left is rounding."""
-
-
-def placed(values: xarray.DataArray, axis: str, how: str) -> tuple[xarray.DataArray, xarray.DataArray]:
-    """Report where the extreme along an axis is at an end of it, and where there is none since the values are equal."""
-    there = values.notnull()
-    least, greatest = values.min(axis), values.max(axis)
-    flat = (greatest - least) <= FLAT * np.maximum(abs(least), abs(greatest))
-    order = np.argsort(np.argsort(values[axis].values, kind="stable"), kind="stable")  # an axis may fall
-    place = values.fillna(-np.inf).argmax(axis) if how.endswith("max") else values.fillna(np.inf).argmin(axis)
-    rank = xarray.DataArray(order[place.values], place.coords, place.dims)
-    ends = (rank == 0) | (rank == order.size - 1)
-    return (ends & there.any(axis) & ~flat).drop_vars(axis, errors="ignore"), flat.drop_vars(axis, errors="ignore")
-
-
-def without_failed(values: xarray.DataArray, status: xarray.DataArray) -> tuple[xarray.DataArray, int]:
+def without_failed(taken: Taken) -> Taken:
     """Give scenes that have failed no value; count those that have none."""
-    there = values.notnull() & ((status & FAILED) == 0)
-    return values.where(there), int((~there).sum())
+    there = taken.values.notnull() & ((taken.status & FAILED) == 0)
+    return replace(taken, values=taken.values.where(there), left_out=int((~there).sum()))
 
 
-def interpolated(
-    values: xarray.DataArray, status: xarray.DataArray, place: Between
-) -> tuple[xarray.DataArray, xarray.DataArray]:
+def interpolated(taken: Taken, place: Between) -> Taken:
     """
     Give values between two items, the only ones of an axis that are left; flags of either hold.
 
     Numbers of jumps and flags have nothing between them: they are those of the nearer item.
     """
-    first, second = (values.isel({place.axis: item}, drop=True) for item in (0, 1))
-    if values.dtype.kind == "f":
-        made = (1.0 - place.share) * first + place.share * second
+    values, status = ([one.isel({place.axis: i}, drop=True) for i in (0, 1)] for one in (taken.values, taken.status))
+    if taken.values.dtype.kind == "f":
+        made = (1.0 - place.share) * values[0] + place.share * values[1]
     else:
-        made = second if place.share >= 0.5 else first
-    made = made.assign_coords({place.axis: place.value}).assign_attrs(values.attrs).rename(values.name)
-    flags = status.isel({place.axis: 0}, drop=True) | status.isel({place.axis: 1}, drop=True)
-    return made, flags
+        made = values[1] if place.share >= 0.5 else values[0]
+    made = made.assign_coords({place.axis: place.value}).assign_attrs(taken.values.attrs).rename(taken.values.name)
+    return replace(taken, values=made, status=status[0] | status[1])
 
 
-def reduced(
-    values: xarray.DataArray, status: xarray.DataArray, axis: str, how: str
-) -> tuple[xarray.DataArray, xarray.DataArray]:
+def reduced(taken: Taken, axis: str, how: str) -> Taken:
     """
     Reduce an axis to an extreme, its place, or the mean of its items; what has no value (NaN) is left out.
 
     The status is that of the scene of the extreme, or has the flags of all scenes of a mean, a sum or a quantile.
     """
-    coordinate = values[axis]
-    going = [name for name in values.coords if axis in values[name].dims]
-    values, status = (one.drop_vars([name for name in going if name in one.coords]) for one in (values, status))
+    coordinate = taken.values[axis].values
+    going = [name for name in taken.values.coords if axis in taken.values[name].dims]
+    values, status = (
+        one.drop_vars([name for name in going if name in one.coords]) for one in (taken.values, taken.status)
+    )
     there = values.notnull()
     if how in ("mean", "sum", *QUANTILES):
         flags = status.where(there, 0).astype(status.dtype).reduce(np.bitwise_or.reduce, axis)
         if how == "mean":
-            return values.mean(axis, skipna=True, keep_attrs=True), flags
-        if how == "sum":
-            return values.sum(axis, skipna=True, min_count=1, keep_attrs=True), flags
-        return values.quantile(QUANTILES[how], axis, skipna=True, keep_attrs=True).drop_vars("quantile"), flags
+            made = values.mean(axis, skipna=True, keep_attrs=True)
+        elif how == "sum":
+            made = values.sum(axis, skipna=True, min_count=1, keep_attrs=True)
+        else:
+            made = values.quantile(QUANTILES[how], axis, skipna=True, keep_attrs=True).drop_vars("quantile")
+        return Taken(values=made, status=flags, left_out=taken.left_out)
     place = values.fillna(-np.inf).argmax(axis) if how.endswith("max") else values.fillna(np.inf).argmin(axis)
     found = there.any(axis)
     flags = status.isel({axis: place}).where(found, 0).astype(status.dtype)
+    made, at_end, flat = values.isel({axis: place}).where(found), None, 0
     if how.startswith("arg"):
-        made = xarray.DataArray(coordinate.values[place.values], place.coords, place.dims)
-    else:
-        made = values.isel({axis: place})
-    return made.where(found).rename(values.name).assign_attrs(values.attrs), flags
+        least, greatest = values.min(axis), values.max(axis)
+        equal = (greatest - least) <= FLAT * np.maximum(abs(least), abs(greatest))
+        rank = np.argsort(np.argsort(coordinate, kind="stable"), kind="stable")[place.values]  # an axis may fall
+        at_end = found & ~equal & ((rank == 0) | (rank == coordinate.size - 1))
+        made, flat = place.copy(data=coordinate[place.values]).where(found & ~equal), int(equal.sum())
+    made = made.rename(values.name).assign_attrs(values.attrs)
+    return Taken(values=made, status=flags, left_out=taken.left_out, at_end=at_end, flat=flat)

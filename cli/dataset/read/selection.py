@@ -11,15 +11,7 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.read.reductions import (
-    REDUCTIONS,
-    Between,
-    Taken,
-    interpolated,
-    placed,
-    reduced,
-    without_failed,
-)
+from gradhesion.cli.dataset.read.reductions import REDUCTIONS, Between, Taken, interpolated, reduced, without_failed
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.curves import EXTENTS, RAGGED
 from gradhesion.cli.names.scenes import SCENE, SOLVER
@@ -41,11 +33,9 @@ class Selection:
     fixed: Mapping[str, int] = field(default_factory=dict)
     """The item at which each of some axes is fixed."""
     parts: Mapping[str, NDArray[np.intp]] = field(default_factory=dict)
-    """The items that are left of each of some axes."""
+    """The items that are left of each of some axes, or of the scenes of points."""
     between: tuple[Between, ...] = ()
     """Axes fixed at a value between two items."""
-    scenes: NDArray[np.intp] | None = None
-    """The scenes that are left of a dataset of points."""
     over: Mapping[str, str] = field(default_factory=dict)
     """The reduction of each of some axes, in the order in which they are done."""
 
@@ -60,39 +50,31 @@ class Selection:
         counts = {RAGGED[curve]: EXTENTS[curve] for curve in RAGGED if RAGGED[curve] in dataset}
         for count, extent in counts.items():  # items of all scenes that follow one another
             if extent in dataset.dims:
-                scenes = dataset[count].copy(data=np.arange(dataset[count].size).reshape(dataset[count].shape))
-                ends = np.cumsum(dataset[count].values)
-                left = self._cut(scenes.to_dataset(name="scene_number"))["scene_number"].values.ravel()
-                first = np.concatenate([[0], ends[:-1]])
-                items = [np.arange(first[scene], ends[scene]) for scene in left]
+                counted = dataset[[count]].assign(
+                    end=dataset[count].copy(data=np.cumsum(dataset[count].values).reshape(dataset[count].shape))
+                )
+                left = self._cut(counted)
+                ends, lengths = left["end"].values.ravel(), left[count].values.ravel()
+                items = [np.arange(end - length, end) for end, length in zip(ends, lengths, strict=True)]
                 narrow = narrow.isel({extent: np.concatenate(items).astype(np.intp)})
         return narrow
 
     def _cut(self, dataset: xarray.Dataset) -> xarray.Dataset:
         """Fix axes of what has a value a scene."""
-        narrow = dataset.isel({axis: one for axis, one in {**self.fixed, **self.parts}.items() if axis in dataset.dims})
-        narrow = narrow.isel({one.axis: [*one.items] for one in self.between})
-        return narrow if self.scenes is None else narrow.isel({SCENE: self.scenes})
+        items = {**self.fixed, **self.parts, **{one.axis: [*one.items] for one in self.between}}
+        return dataset.isel({axis: one for axis, one in items.items() if axis in dataset.dims})
 
     def taken(self, values: xarray.DataArray, status: xarray.DataArray) -> Taken:
         """Interpolate and reduce a variable of a narrowed dataset, with its status; scenes without a value are NaN."""
-        values, status = values.load(), status.load()
-        if values.dtype.kind == "f":
-            values = values.where(np.isfinite(values))
+        values = values.load()
+        values = values.where(np.isfinite(values)) if values.dtype.kind == "f" else values
+        taken = Taken(values=values, status=status.load())
         for one in self.between:
-            values, status = interpolated(values, status, one)
-        left_out = 0
-        if self.over:
-            values, left_out = without_failed(values, status)
-        at_end, flat = None, 0
+            taken = interpolated(taken, one)
+        taken = without_failed(taken) if self.over else taken
         for axis, how in self.over.items():
-            wide = values
-            values, status = reduced(values, status, axis, how)
-            at_end, flat = None, 0
-            if how.startswith("arg"):
-                at_end, equal = placed(wide, axis, how)
-                values, flat = values.where(~equal), int(equal.sum())
-        return Taken(values=values, status=status, left_out=left_out, at_end=at_end, flat=flat)
+            taken = reduced(taken, axis, how)
+        return taken
 
 
 def selection_of(
@@ -124,45 +106,40 @@ def selection_of(
     fixed: dict[str, int] = {}
     parts: dict[str, NDArray[np.intp]] = {}
     between: list[Between] = []
-    scenes: NDArray[np.intp] | None = None
     named: set[str] = set()
     for option, axis, text in _wishes(dataset, "--at", at, named):
         if axis == SOLVER:
             fixed[axis] = _solver(dataset, option, text)
             continue
         values = np.asarray(dataset[axis].values, dtype=float)
-        if ":" in text:
-            left = _within(option, values, axis, text)
-        else:
-            value = _checked(option, values, axis, _number(option, axis, text))
-            nearest = _nearest(values, value)
-            left = np.flatnonzero(values == values[nearest])
+        value = np.nan if ":" in text else _checked(option, values, axis, _number(option, axis, text))
+        nearest = 0 if ":" in text else _nearest(values, value)
+        left = _within(option, values, axis, text) if ":" in text else np.flatnonzero(values == values[nearest])
         if points and axis not in dataset["status"].dims:
             if interpolate:
                 raise DatasetError(f"{option}: points cannot be interpolated; leave --interpolate out")
-            scenes = left if scenes is None else np.intersect1d(scenes, left)
+            parts[SCENE] = np.intersect1d(parts.get(SCENE, left), left)
         elif ":" in text:
             parts[axis] = left
         elif interpolate and not np.isinf(value) and abs(values[nearest] - value) > SAME * abs(value):
             between.append(_between(values, axis, value))
         else:
             fixed[axis] = nearest
-    if scenes is not None and not scenes.size:
+    if not parts.get(SCENE, np.zeros(1)).size:
         raise DatasetError(f"--at {' --at '.join(at)}: no scene has all these values; leave one of them out")
     if interpolate and not at:
         raise DatasetError("--interpolate: there is nothing to interpolate; add --at AXIS=VALUE")
     reductions: dict[str, str] = {}
     for option, axis, how in _wishes(dataset, "--over", over, named):
-        if points and axis not in dataset["status"].dims:
-            raise DatasetError(f"{option}: points have no axes to reduce; choose some of them with --at")
-        if axis == SOLVER:
-            raise DatasetError(f"{option}: solvers cannot be reduced; choose one with --at solver=NAME")
+        if axis == SOLVER or (points and axis not in dataset["status"].dims):
+            what = "solvers" if axis == SOLVER else "points"
+            raise DatasetError(f"{option}: {what} cannot be reduced; choose some of them with --at")
         if how not in REDUCTIONS:
             raise DatasetError(f"{option}: not a reduction; {did_you_mean(how, list(REDUCTIONS))}")
         if how.startswith("arg") and any(other.startswith("arg") for other in reductions.values()):
             raise DatasetError(f"{option}: the place of an extreme is already requested; reduce by max, min or mean")
         reductions[axis] = how
-    return Selection(fixed=fixed, parts=parts, between=tuple(between), scenes=scenes, over=reductions)
+    return Selection(fixed=fixed, parts=parts, between=tuple(between), over=reductions)
 
 
 def nearest_values(dataset: xarray.Dataset, at: Sequence[str]) -> list[str]:
@@ -220,13 +197,9 @@ def check_axis(dataset: xarray.Dataset, option: str, axis: str) -> None:
     known = axes_of(dataset)
     if axis in known:
         return
-    if axis in dataset.coords and dataset[axis].ndim == 0:
-        unit = str(dataset[axis].attrs.get("units", "1"))
-        written = f"{dataset[axis].item():g}" + ("" if unit == "1" else f" {unit}")
-        raise DatasetError(f"{option}: not an axis; {axis} is {written} in the whole dataset")
-    if axis in dataset.coords:
-        raise DatasetError(f"{option}: not an axis; {axis} follows from {' and '.join(map(str, dataset[axis].dims))}")
     remedy = did_you_mean(axis, known) if known else "it has a single scene and no axes"
+    if axis in dataset.coords and dataset[axis].ndim == 0:
+        remedy = f"{axis} is {dataset[axis].item():g}{_unit(axis)} in the whole dataset"
     raise DatasetError(f"{option}: not an axis of this dataset; {remedy}")
 
 
@@ -240,15 +213,15 @@ def _solver(dataset: xarray.Dataset, option: str, name: str) -> int:
 
 def _number(option: str, axis: str, text: str) -> float:
     """Read a value of an axis, in SI or with its unit."""
+    value = np.nan
     try:
         value = float(text)
     except ValueError:
-        if axis not in PHYSICAL:
-            raise DatasetError(f"{option}: {text} is not a number; write for example --at {axis}=0.1") from None
-        try:
-            value = si_value(text, axis)
-        except ValueError as error:
-            raise DatasetError(f"{option}: {error}") from None
+        if axis in PHYSICAL:
+            try:
+                value = si_value(text, axis)
+            except ValueError as error:
+                raise DatasetError(f"{option}: {error}") from None
     if np.isnan(value):
         raise DatasetError(f"{option}: {text} is not a number; write for example --at {axis}=0.1")
     return value
@@ -257,14 +230,15 @@ def _number(option: str, axis: str, text: str) -> float:
 def _checked(option: str, values: NDArray[np.float64], axis: str, value: float) -> float:
     """Refuse a value outside the range of an axis."""
     finite = values[np.isfinite(values)]
-    inside = np.isinf(value) and bool((values == value).any())
+    inside = bool((values == value).any())
     if finite.size and not np.isinf(value):
         least, greatest = float(finite.min()), float(finite.max())
         inside = least - SLACK * abs(least) <= value <= greatest + SLACK * abs(greatest)
     if not inside:
-        written = f"{finite.min():g} to {finite.max():g}" if finite.size else ""
-        written = " and ".join(filter(None, (written, "inf" if np.isinf(values).any() else "")))
-        raise DatasetError(f"{option}: outside the axis, which has values of {written}{_unit(axis)}; choose one within")
+        written = [f"{finite.min():g} to {finite.max():g}"] if finite.size else []
+        written += ["inf"] if np.isinf(values).any() else []
+        known = " and ".join(written)
+        raise DatasetError(f"{option}: outside the axis, which has values of {known}{_unit(axis)}; choose one within")
     return value
 
 

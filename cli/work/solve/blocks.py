@@ -1,5 +1,6 @@
-"""The blocks of a study solved, one ahead of whoever takes them."""
+"""The blocks of a study solved, some ahead of whoever takes them."""
 
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from functools import partial
@@ -7,56 +8,77 @@ from typing import Any, TypeVar
 
 from numpy.typing import NDArray
 
+from gradhesion.cli.names.curves import is_ragged
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.terminal import interrupts
-from gradhesion.cli.work.solve.given import solve_given
+from gradhesion.cli.work.solve.scenes import Arrays, solve_given
+from gradhesion.core.processors import processors
 
 _T = TypeVar("_T")
+Part = tuple[Block, Arrays]
+"""A block of scenes with the values of its variables and `status`."""
 
 
-def solve_block(study: Study, block: Block, threads: int | None) -> dict[str, NDArray[Any]]:
+def solve_block(study: Study, block: Block, threads: int | None) -> Arrays:
     """Solve a block of a study: the values of its variables and `status`."""
     if study.search:
-        from gradhesion.cli.work.solve.optima import best_of_block, fronts_of_block  # noqa: PLC0415 (SciPy's optimisers)
+        from gradhesion.cli.work.solve.optima import solve_optima  # noqa: PLC0415 (SciPy's optimisers)
 
-        return (fronts_of_block if study.search.is_front else best_of_block)(study, block, threads)
+        return solve_optima(study, block, threads)
     if study.uncertainty:
         from gradhesion.cli.work.solve.spreads import solve_uncertain  # noqa: PLC0415 (SciPy's statistics)
 
         return solve_uncertain(study, block, threads)
-    several, axes, _ = study.apart(block)
-    return solve_given(study, study.parameters_of(axes), several, block, threads, watch=study.watches_slope)
+    _, axes, _ = study.apart(block)
+    return solve_given(study, study.parameters_of(axes), block, threads, watch=study.watches_slope)
 
 
-def solved(study: Study, threads: int | None = None) -> Iterator[tuple[Block, dict[str, NDArray[Any]]]]:
-    """Solve a study block by block: the values of each block and its `status`."""
+def solved(study: Study, threads: int | None = None) -> Iterator[Part]:
+    """Solve a study block by block, in their order; the curves of several scenes are drawn at a time."""
+    solve, workers, ahead = partial(solve_block, study, threads=threads), 1, 1
+    if study.kind == "curve":
+        from gradhesion.cli.work.solve.curves import draw  # noqa: PLC0415 (maps do without)
 
-    def task(block: Block) -> tuple[Block, dict[str, NDArray[Any]]]:
-        return block, solve_block(study, block, threads)
+        workers = min(threads or processors(), study.scenes)
+        solve, ahead = partial(draw, study), 2 * workers
+    values = in_order((partial(solve, block) for block in study.tiling), workers, ahead)
+    yield from zip(study.tiling, values, strict=True)
 
-    yield from one_ahead(partial(task, block) for block in study.tiling)
 
-
-def one_ahead(tasks: Iterable[Callable[[], _T]]) -> Iterator[_T]:
-    """Run tasks in a thread of their own, each while the caller deals with the one before; two are in memory."""
-    worker = ThreadPoolExecutor(1, thread_name_prefix="solve")
+def in_order(tasks: Iterable[Callable[[], _T]], workers: int = 1, ahead: int = 1) -> Iterator[_T]:
+    """Run tasks in threads of their own, so many of them ahead of the one that the caller deals with."""
+    pool = ThreadPoolExecutor(workers, thread_name_prefix="solve")
+    waiting: deque[Future[_T]] = deque()
     try:
-        ahead: Future[_T] | None = None
         for task in tasks:
-            future = worker.submit(task)
-            if ahead is not None:
-                yield awaited(ahead)
-            ahead = future
-        if ahead is not None:
-            yield awaited(ahead)
+            waiting.append(pool.submit(task))
+            if len(waiting) > ahead:
+                yield _awaited(waiting.popleft())
+        while waiting:
+            yield _awaited(waiting.popleft())
     finally:
-        worker.shutdown(wait=False, cancel_futures=True)
+        pool.shutdown(wait=False, cancel_futures=True)
 
 
-def awaited(future: Future[_T]) -> _T:
+def _awaited(future: Future[_T]) -> _T:
     """Wait for a result without being deaf to an interrupt that a library swallowed."""
     while not future.done():
         wait([future], timeout=0.2)
         interrupts.check()
     return future.result()
+
+
+def within(name: str, block: Block, part: NDArray[Any], begun: int = 0) -> Block:
+    """
+    Report where a part goes that may have further dimensions than its block, or none of it, after `begun` items.
+
+    >>> import numpy as np
+    >>> within("path_load", (slice(2, 3),), np.zeros((1, 5)))
+    (slice(2, 3, None), slice(0, 5, None))
+    >>> within("jump_energy", (slice(2, 3),), np.zeros(4), 7)
+    (slice(7, 11, None),)
+    """
+    if is_ragged(name):
+        return (slice(begun, begun + part.size),)
+    return (*block, *(slice(0, length) for length in part.shape[len(block) :]))

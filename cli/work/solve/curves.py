@@ -1,12 +1,9 @@
-"""The curves of a study: drawn scene by scene, each as long as it needs to be, and padded to the longest."""
+"""The curves of a scene, each as long as it needs to be."""
 
-from collections import deque
-from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
-from typing import Any, Final
+from collections.abc import Mapping, Sequence
+from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion import core
 from gradhesion.cli.names.curves import CURVES, INTEGERS, RAGGED, STATE_CURVES, is_ragged
@@ -15,21 +12,14 @@ from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
-from gradhesion.cli.work.solve.blocks import awaited
-from gradhesion.cli.work.solve.given import driven_by, scales_of, scenes_from
+from gradhesion.cli.work.solve.scenes import Arrays, driven_by, scales_of, scenes_from
 from gradhesion.core.closed.reach import is_steep, slopes_of
 from gradhesion.core.problem.status import NO_VALUE
-from gradhesion.core.processors import processors
-
-AHEAD: Final = 2
-"""Scenes drawn ahead a thread."""
 
 _CONTACT_RADII: Final = tuple(
     name for own in CURVES.values() for name, about in own.items() if about.startswith("contact radius")
 )
 """The variables with the radii of contact that are drawn."""
-
-Drawing = tuple[Block, dict[str, NDArray[Any]]]
 
 
 def blank_of(variable: str) -> float:
@@ -37,29 +27,12 @@ def blank_of(variable: str) -> float:
     return -1 if variable in INTEGERS else np.nan
 
 
-def drawn(study: Study, threads: int | None = None) -> Iterator[Drawing]:
+def draw(study: Study, block: Block) -> Arrays:
     """
-    Draw a study scene by scene: its curves, along one more dimension than its block, and its `status`.
+    Draw the curves of one scene, along one more dimension than its block; one that has none is a point without value.
 
-    Ragged curves have their own dimension alone. Scenes are drawn in threads of their own, some ahead of whoever takes
-    them; they come in order.
+    Ragged curves have their own dimension alone.
     """
-    workers = min(threads or processors(), study.scenes)
-    pool = ThreadPoolExecutor(workers, thread_name_prefix="draw")
-    ahead: deque[Future[Drawing]] = deque()
-    try:
-        for block in study.tiling:
-            ahead.append(pool.submit(_draw, study, block))
-            if len(ahead) > AHEAD * workers:
-                yield awaited(ahead.popleft())
-        while ahead:
-            yield awaited(ahead.popleft())
-    finally:
-        pool.shutdown(wait=False, cancel_futures=True)
-
-
-def _draw(study: Study, block: Block) -> Drawing:
-    """Draw the curves of one scene; one that has none is one point without a value."""
     given = study.parameters_of(block)
     scene = {name: float(values.item()) for name, values in scenes_from(given).items()}
     requested = [curve for curve, own in CURVES.items() if any(name in own for name in study.outputs)]
@@ -75,21 +48,19 @@ def _draw(study: Study, block: Block) -> Drawing:
     front, parts = (1,) * len(block), {}
     for name in study.outputs:
         values = np.asarray(found[name])
-        if is_ragged(name):
-            parts[name] = values
-        else:
+        if not is_ragged(name):
             values = values if values.size else np.array([blank_of(name)])
-            parts[name] = values.reshape((*front, *values.shape)).astype(INTEGERS.get(name, values.dtype), copy=False)
+            values = values.reshape((*front, *values.shape)).astype(INTEGERS.get(name, values.dtype), copy=False)
+        parts[name] = values
     scales = scales_of(study, given)
     parts |= {name + SI: parts[name] * scales[UNITS[name]].item() for name in study.in_si}
     parts["status"] = np.full(front, status, dtype=study.status_type)
     radii = [np.ravel(found[name]) for name in _CONTACT_RADII if name in found] + [np.array(study.states)]
     steep = not study.is_cone and bool(is_steep(slopes_of(np.concatenate(radii), study.profile)).any())
-    parts[STEEP] = np.full(front, steep, dtype=np.int8)
-    return block, parts
+    return parts | {STEEP: np.full(front, steep, dtype=np.int8)}
 
 
-def _of_states(study: Study, scene: Mapping[str, float], curves: Sequence[str]) -> tuple[dict[str, NDArray[Any]], int]:
+def _of_states(study: Study, scene: Mapping[str, float], curves: Sequence[str]) -> tuple[Arrays, int]:
     """Draw the curves of the states of one scene: those of given radii, or the named ones of its cycle."""
     from gradhesion.core.draw import states  # noqa: PLC0415 (300 ms for SciPy)
 
@@ -99,34 +70,3 @@ def _of_states(study: Study, scene: Mapping[str, float], curves: Sequence[str]) 
     else:
         chosen, status = states.named_states(scene, study.profile, study.loading)
     return states.draw_states(scene, chosen, curves, study.profile), status
-
-
-def gathered(study: Study, drawings: Sequence[Drawing]) -> dict[str, NDArray[Any]]:
-    """Put the drawings of a study together, padded to the longest curves."""
-    filled = {"status": np.empty(study.shape, study.status_type), STEEP: np.zeros(study.shape, np.int8)}
-    for name in study.variables:
-        parts_of = [parts[name] for _, parts in drawings]
-        if is_ragged(name):
-            filled[name] = np.concatenate(parts_of)
-            continue
-        further = [max(lengths) for lengths in zip(*(part.shape[len(study.shape) :] for part in parts_of), strict=True)]
-        filled[name] = np.full((*study.shape, *further), blank_of(name), INTEGERS.get(name, "f8"))
-    for block, parts in drawings:
-        for name, part in parts.items():
-            if not is_ragged(name):
-                filled[name][within(name, block, part)] = part
-    return filled
-
-
-def within(name: str, block: Block, part: NDArray[Any], begun: int = 0) -> Block:
-    """
-    Report where a part goes that has further dimensions than its block, or none of it after `begun` items.
-
-    >>> within("path_load", (slice(2, 3),), np.zeros((1, 5)))
-    (slice(2, 3, None), slice(0, 5, None))
-    >>> within("jump_energy", (slice(2, 3),), np.zeros(4), 7)
-    (slice(7, 11, None),)
-    """
-    if is_ragged(name):
-        return (slice(begun, begun + part.size),)
-    return (*block, *(slice(0, length) for length in part.shape[len(block) :]))

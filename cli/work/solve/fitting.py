@@ -27,19 +27,12 @@ class Fit:
     """A loop of a study with what was found, or why nothing was."""
 
     loop: LoopFile
-    found: FittedLoop | None
+    found: FittedLoop | None = None
     problem: str = ""
 
 
 def fitted(study: FitStudy, loop: LoopFile) -> FittedLoop:
-    """
-    Fit a loop of a study.
-
-    Raises
-    ------
-    StudyError
-        What is searched cannot be told apart, has no effect, or has no path within its ranges.
-    """
+    """Fit a loop; StudyError where what is searched cannot be told apart, has no effect, or has no path."""
     law: dict[str, Any] = {"rate": study.rate} if study.rate else {}
     try:
         return fit_loop(
@@ -74,14 +67,14 @@ def fits_of(study: FitStudy, advance: Callable[[int], None] = lambda _: None) ->
     """
     fits = []
     for loop in study.loops:
+        fit = Fit(loop=loop, problem=loop.problem)
         try:
-            problem = loop.problem
-            found = None if problem else fitted(study, loop)
+            fit = fit if loop.problem else Fit(loop=loop, found=fitted(study, loop))
         except StudyError as error:
             if study.is_of_one:
                 raise
-            found, problem = None, str(error).removeprefix(f"{loop.file}: ")
-        fits.append(Fit(loop=loop, found=found, problem=problem))
+            fit = Fit(loop=loop, problem=str(error).removeprefix(f"{loop.file}: "))
+        fits.append(fit)
         advance(1)
     if all(fit.found is None for fit in fits):
         more = f" (none of the {len(fits):,} loops has a fit)" if len(fits) > 1 else ""
@@ -121,23 +114,17 @@ def doubts_of(found: FittedLoop) -> Iterator[str]:
             + (", and check the signs of depth and load" if found.reduced_chi_square > _ABSURD else "")
         )
     for other in found.others:
+        both = (found.values, other.values)
+        here, there = (", ".join(f"{name} = {value:.4g}" for name, value in one.items()) for one in both)
         yield (
-            f"another minimum is within the noise: chi square {other.chi_square:.6g} at {_listed(other.values)}, "
-            f"beside {found.chi_square:.6g} at {_listed(found.values)}; narrow the ranges to the one that is meant"
+            f"another minimum is within the noise: chi square {other.chi_square:.6g} at {there}, "
+            f"beside {found.chi_square:.6g} at {here}; narrow the ranges to the one that is meant"
         )
     for name in found.on_bound:
         low, high = found.ranges[name]
-        place = f"{name} is at an end of its range ({found.values[name]:.4g} of {low:.4g} to {high:.4g})"
+        remedy = "widen the range, or give it as a number; or the data do not show it"
         if name in OFFSETS:
-            yield f"{place}; widen it with offsets under [fit], or look at the base line of the data"
+            remedy = "widen it with offsets under [fit], or look at the base line of the data"
         elif name == CLOSING and 2.0 * found.values[name] > 1.0 + low:
-            yield f"{place}; the loop shows one work of adhesion for closing and opening: leave {CLOSING} out"
-        elif name == "work_of_adhesion" and 2.0 * found.values[name] < low + high:
-            yield f"{place}; widen the range, or the data show no adhesion"
-        else:
-            yield f"{place}; widen the range, or give it as a number"
-
-
-def _listed(values: dict[str, float]) -> str:
-    """Write values by name."""
-    return ", ".join(f"{name} = {value:.4g}" for name, value in values.items())
+            remedy = f"the loop shows one work of adhesion for closing and opening: leave {CLOSING} out"
+        yield f"{name} is at an end of its range ({found.values[name]:.4g} of {low:.4g} to {high:.4g}); {remedy}"

@@ -1,5 +1,6 @@
 """The optima of the cells of a block: what is sought as a merit of what is searched, and what is reported."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -11,21 +12,51 @@ from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.rules.answers import Search
 from gradhesion.cli.study.study import Method, Study
 from gradhesion.cli.study.tiling import Block, shape_of
-from gradhesion.cli.work.solve.given import Arrays, solve_given
+from gradhesion.cli.work.solve.scenes import Arrays, solve_given
 from gradhesion.core.answers.flags import NOTHING_FEASIBLE, RESOLUTION_TOO_COARSE
 from gradhesion.core.answers.optimum import Optima, axis_of, front, optima_of, sweep
 from gradhesion.core.answers.slopes_to_keys import POWERS, slopes_to_keys
 from gradhesion.core.problem.status import LOADING_NOT_ONE_DISC, NO_VALUE
 
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+def solve_optima(study: Study, block: Block, threads: int | None) -> Arrays:
+    """
+    Find the optimum of each cell of a block: the values of its variables and `status`.
+
+    Of two goals these are the best compromises, along a last dimension, padded to the longest.
+    """
+    search, shape = study.search, shape_of(block)
+    count = int(np.prod(shape))
+    goals = [_Cells(study=study, block=block, threads=threads, goal=goal) for goal in range(len(search.goals))]
+    swept = sweep(goals[0].all_values, len(search.inputs), count, search.resolution)
+    ends = [optima_of(goal, merits) for goal, merits in zip(goals, swept, strict=True)]
+    places, numbers = ends[0].places, np.arange(count)
+    if search.is_front:
+        places, numbers = _fronts(goals[0], swept, ends), numbers[:, None]
+    found = _reported(goals[0], places, numbers)
+    reported = found.pop("status").astype(np.int16)
+    if search.is_front:
+        reported = np.bitwise_or.reduce(np.where(reported & NO_VALUE, 0, reported), axis=-1)
+        found |= {STEEP: found[STEEP].max(axis=-1)} if STEEP in found else {}
+    else:
+        found[ON_BOUND] = _bounds_met(places)
+    status = np.bitwise_or.reduce([_status_of(reported, *own) for own in zip(ends, swept, strict=True)])
+    known = {*study.variables, STEEP}
+    shaped = {name: own.reshape((*shape, *own.shape[1:])) for name, own in found.items() if name in known}
+    return shaped | {"status": status.reshape(shape)}
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Cells:
-    """The cells of a block, and one of the goals as a merit of what is searched."""
+    """The cells of a block, and one of the goals as a merit of what is searched (`core.answers.optimum.Merit`)."""
 
     study: Study
     block: Block
     threads: int | None
-    goal: int = 0
+    goal: int
 
     @cached_property
     def plain(self) -> Study:
@@ -39,13 +70,12 @@ class _Cells:
     def given(self) -> Arrays:
         """What the study gives of each cell, or of all."""
         shape = shape_of(self.block)
-        given = self.study.parameters_of(self.block)
         return {
             name: values.reshape(()) if values.size == 1 else np.broadcast_to(values, shape).ravel()
-            for name, values in given.items()
+            for name, values in self.study.parameters_of(self.block).items()
         }
 
-    def at(self, places: NDArray[np.float64], cells: NDArray[np.int64]) -> Arrays:
+    def at(self, places: Floats, cells: Integers) -> Arrays:
         """Give scenes as a study does: cells, and where they are searched."""
         found = {name: values if values.ndim == 0 else values[cells] for name, values in self.given.items()}
         for one, place in zip(self.study.search.inputs, places, strict=True):
@@ -53,14 +83,11 @@ class _Cells:
             found[one.name] = np.where(place == 1.0, one.high, inner)
         return found
 
-    def solve(self, given: Arrays, outputs: tuple[str, ...]) -> Arrays:
-        """Solve scenes."""
-        return solve_given(self.plain, given, (), self.block, self.threads, outputs=outputs)
-
-    def all_values(self, places: NDArray[np.float64], cells: NDArray[np.int64]) -> NDArray[np.float64]:
-        """Return the merits by all goals, along a first axis; each as `gradhesion.core.answers.optimum.Merit` says."""
+    def all_values(self, places: Floats, cells: Integers) -> Floats:
+        """Return the merits by all goals, along a first axis."""
         search = self.study.search
-        found = self.solve(self.at(places, cells), search.solved)
+        given = self.at(places, cells)
+        found = solve_given(self.plain, given, self.block, self.threads, outputs=search.solved)
         meets = np.ones(np.broadcast_shapes(places.shape[1:], np.shape(cells)), bool)
         for name, low, high in search.limits:
             meets &= (found[name] >= low) & (found[name] <= high)
@@ -69,18 +96,18 @@ class _Cells:
         goals = [sign * found[goal] for sign, goal in zip(search.signs, search.goals, strict=True)]
         return np.array([np.where(meets | np.isnan(goal), goal, -np.inf) for goal in goals])
 
-    def values(self, places: NDArray[np.float64], cells: NDArray[np.int64]) -> NDArray[np.float64]:
+    def values(self, places: Floats, cells: Integers) -> Floats:
         """Return the merits by one goal."""
         return np.asarray(self.all_values(places, cells)[self.goal])
 
-    def slopes(self, places: NDArray[np.float64], cells: NDArray[np.int64]) -> NDArray[np.float64] | None:
+    def slopes(self, places: Floats, cells: Integers) -> Floats | None:
         """Return the slopes of merits to the places, where they are known."""
         study, goal = self.study, self.study.search.goals[self.goal]
         name = f"{goal.removesuffix(SI)}_sensitivity"
         if not study.knows_slopes or name not in POWERS:
             return None
         given = self.at(places, cells)
-        found = self.solve(given, (goal.removesuffix(SI), name))
+        found = solve_given(self.plain, given, self.block, self.threads, outputs=(goal.removesuffix(SI), name))
         labels = replace(self.plain, outputs=(name,)).labels[PARAMETER]
         powers = POWERS[name] if goal.endswith(SI) else {}
         keys = [one.name for one in study.search.inputs]
@@ -92,56 +119,24 @@ class _Cells:
         return np.array(np.broadcast_arrays(*along))
 
 
-def best_of_block(study: Study, block: Block, threads: int | None) -> Arrays:
-    """Find the optimum of each cell of a block: the values of its variables and `status`."""
-    cells = _Cells(study=study, block=block, threads=threads)
-    shape = shape_of(block)
-    count = int(np.prod(shape))
-    merits = sweep(cells.values, len(study.search.inputs), count, study.search.resolution)
-    found = optima_of(cells, merits)
-    places = found.places
-    values = _reported(cells, places, np.arange(count))
-    status = _status_of(values, found, merits)
-    known = (*study.variables, *((STEEP,) if study.watches_slope else ()))
-    shaped = {name: own.reshape((*shape, *own.shape[1:])) for name, own in values.items() if name in known}
-    return shaped | {ON_BOUND: _bounds_met(places).reshape(shape), "status": status.reshape(shape)}
-
-
-def fronts_of_block(study: Study, block: Block, threads: int | None) -> Arrays:
-    """Find the best compromises of each cell of a block, along a last dimension, padded to the longest."""
-    cells = [_Cells(study=study, block=block, threads=threads, goal=goal) for goal in (0, 1)]
-    shape, search = shape_of(block), study.search
-    count, inputs = int(np.prod(shape)), len(search.inputs)
-    axis = axis_of(search.resolution)
-    swept = sweep(cells[0].all_values, inputs, count, search.resolution)
-    ends = [optima_of(one, merits) for one, merits in zip(cells, swept, strict=True)]
+def _fronts(cells: _Cells, swept: Floats, ends: Sequence[Optima]) -> Floats:
+    """Find the places of the best compromises of each cell: of the sweep and of the optima, padded to the longest."""
+    inputs, count = ends[0].places.shape
+    axis = axis_of(cells.study.search.resolution)
     grid = axis[np.indices((axis.size,) * inputs).reshape(inputs, -1)]
     fronts = []
     for cell in range(count):
         best = np.stack([end.places[:, cell] for end in ends], axis=1)
         places = np.concatenate([grid, best], axis=1)
-        merits = np.concatenate([swept[..., cell].reshape(2, -1), cells[0].all_values(best, np.array(cell))], axis=1)
+        merits = np.concatenate([swept[..., cell].reshape(2, -1), cells.all_values(best, np.array(cell))], axis=1)
         fronts.append(places.take(front(np.where(np.isneginf(merits), np.nan, merits)), axis=1))
-    longest = max(1, *(places.shape[1] for places in fronts))
-    padded = np.full((inputs, count, longest), np.nan)
+    padded = np.full((inputs, count, max(1, *(places.shape[1] for places in fronts))), np.nan)
     for cell, places in enumerate(fronts):
         padded[:, cell, : places.shape[1]] = places
-    found = _reported(cells[0], padded, np.arange(count)[:, None])
-    first = _status_of({"status": np.bitwise_or.reduce(_known(found), axis=-1)}, ends[0], swept[0])
-    second = _status_of({"status": np.zeros(count, np.int16)}, ends[1], swept[1])
-    shaped = {name: own.reshape((*shape, longest)) for name, own in found.items() if name in study.variables}
-    if study.watches_slope:
-        shaped[STEEP] = found[STEEP].max(axis=-1).reshape(shape)
-    return shaped | {"status": (first | second).reshape(shape)}
+    return padded
 
 
-def _known(found: Arrays) -> NDArray[np.int16]:
-    """Give the status of the points of fronts, 0 where there is none."""
-    status = found["status"].astype(np.int16)
-    return np.where(status & NO_VALUE, 0, status).astype(np.int16)
-
-
-def _bounds_met(places: NDArray[np.float64]) -> NDArray[np.int8]:
+def _bounds_met(places: Floats) -> NDArray[np.int8]:
     """Give the flags of the bounds that an optimum is at: two for each input."""
     flags = np.zeros(places.shape[1:], np.int8)
     for number, place in enumerate(places):
@@ -150,29 +145,27 @@ def _bounds_met(places: NDArray[np.float64]) -> NDArray[np.int8]:
     return flags
 
 
-def _reported(cells: _Cells, places: NDArray[np.float64], numbers: NDArray[np.int64]) -> Arrays:
+def _reported(cells: _Cells, places: Floats, numbers: Integers) -> Arrays:
     """Solve the optima for all that is reported of them."""
-    study = cells.study
-    given = cells.at(places, numbers)
+    study, given, watch = cells.study, cells.at(places, numbers), cells.study.watches_slope
     slopes = (study.search.slope,) if study.has_slopes else ()
     whole = replace(cells.plain, method=study.method)
     # the outputs of the search as well, so that status says of loading what it said there
     requested = tuple(dict.fromkeys((*study.search.solved, *slopes)))
-    found = solve_given(whole, given, (), cells.block, cells.threads, outputs=requested, watch=study.watches_slope)
-    status = found["status"]
-    steep = {STEEP: np.broadcast_to(found.pop(STEEP), status.shape)} if study.watches_slope else {}
-    values = {
+    found = solve_given(whole, given, cells.block, cells.threads, outputs=requested, watch=watch)
+    status = found.pop("status")
+    steep = {STEEP: np.broadcast_to(found.pop(STEEP), status.shape)} if watch else {}
+    best = {
         BEST + name: np.broadcast_to(own, (*status.shape, *own.shape[status.ndim :])) for name, own in found.items()
     }
-    inputs = {BEST + one.name: np.broadcast_to(given[one.name], status.shape) for one in study.search.inputs}
-    inputs = {name: np.where(np.isnan(places[0]), np.nan, own) for name, own in inputs.items()}
-    return values | inputs | steep | {"status": status}
+    for one in study.search.inputs:
+        best[BEST + one.name] = np.where(np.isnan(places[0]), np.nan, np.broadcast_to(given[one.name], status.shape))
+    return best | steep | {"status": status}
 
 
-def _status_of(values: Arrays, found: Optima, merits: NDArray[np.float64]) -> NDArray[np.int16]:
-    """Say of each cell what there is to report of its optimum, or why it has none."""
-    status = values["status"].astype(np.int16)
-    status = status | np.where(found.too_coarse, RESOLUTION_TOO_COARSE, 0).astype(np.int16)
+def _status_of(reported: NDArray[np.int16], found: Optima, merits: Floats) -> NDArray[np.int16]:
+    """Say of each cell what there is to report of its optimum by one goal, or why it has none."""
+    status = reported | np.where(found.too_coarse, RESOLUTION_TOO_COARSE, 0).astype(np.int16)
     some = ~np.isnan(merits.reshape(-1, merits.shape[-1])).all(axis=0)
     none = np.isnan(found.merits)
     return np.where(none, np.where(some, NOTHING_FEASIBLE, NO_VALUE), status).astype(np.int16)

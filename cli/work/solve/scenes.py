@@ -1,18 +1,71 @@
-"""Scenes solved for outputs of every sort: those of the solvers, and those that are known without solving."""
+"""Scenes as a study gives them, solved by the core for outputs of every sort, in SI units as well."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion import core
+from gradhesion.cli.names.outputs import OF_PHYSICAL, PARAMETER, PHYSICAL_PARAMETER, SI
 from gradhesion.cli.names.scenes import STEEP
-from gradhesion.core import SENSITIVITIES, VALIDITY
+from gradhesion.cli.names.units import UNITS
+from gradhesion.cli.study.study import Study
+from gradhesion.cli.study.tiling import Block
+from gradhesion.core import PARAMETERS, RANGE, SENSITIVITIES, VALIDITY
 from gradhesion.core.closed.reach import is_steep
+from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.names import CONTACT_SLOPE
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.status import NO_VALUE
+
+Arrays = dict[str, NDArray[Any]]
+
+
+def solve_given(
+    study: Study,
+    given: Arrays,
+    block: Block,
+    threads: int | None,
+    *,
+    outputs: tuple[str, ...] | None = None,
+    watch: bool = False,
+    scenes: Arrays | None = None,
+) -> Arrays:
+    """
+    Solve scenes that are given as those of a study are.
+
+    Parameters
+    ----------
+    given
+        What the study gives; the arrays broadcast to the scenes.
+    block
+        Which of its solvers, and which random punches.
+    outputs
+        What is solved for; by default the outputs of the study.
+    watch
+        Whether the slopes that contacts reach are looked at: see `solve`.
+    scenes
+        The parameters of the scenes, if they are known.
+
+    Returns
+    -------
+    The outputs, those in SI units and by quantities with units, and `status`: along the solvers, if there are several,
+    the scenes, and random punches.
+    """
+    study = study if outputs is None else replace(study, outputs=outputs)
+    several, _, profiles = study.apart(block)
+    solvers = study.method.solver
+    scenes = scenes_from(given) if scenes is None else scenes
+    settings: dict[str, Any] = {"check_contact": study.method.check_contact, "threads": threads, "watch": watch}
+    settings |= driven_by(study)
+    by_solver = []
+    for solver in (solvers,) if isinstance(solvers, str) else solvers[several[0]]:
+        each = [solve(scenes, study.outputs, solver=solver, profile=one, **settings) for one in profiles]
+        by_solver.append(each[0] if study.spectrum is None else _stacked(each, each[0]["status"].ndim))
+    found = by_solver[0] if isinstance(solvers, str) else _stacked(by_solver, 0)
+    return found | _with_units(study, given, found)
 
 
 def solve(
@@ -22,7 +75,7 @@ def solve(
     profile: Profile,
     watch: bool = False,
     **settings: Any,
-) -> dict[str, NDArray[Any]]:
+) -> Arrays:
     """
     Solve scenes as `gradhesion.core.solve` does, for the outputs of `gradhesion.core.validity` as well.
 
@@ -46,7 +99,7 @@ def solve(
         return solved
     from gradhesion.core.closed.applicability import validity  # noqa: PLC0415 (300 ms for SciPy)
 
-    found: dict[str, NDArray[Any]] = {**validity(scenes, known, profile)}
+    found: Arrays = {**validity(scenes, known, profile)}
     shape = np.broadcast_shapes(solved["status"].shape, *(values.shape for values in found.values()))
     whole = {
         name: np.broadcast_to(values, (*shape, *values.shape[len(shape) :]) if name in SENSITIVITIES else shape)
@@ -55,3 +108,55 @@ def solve(
     failed = (whole["status"] & NO_VALUE) != 0
     whole |= {name: np.where(failed, np.nan, whole[name]) for name in known}
     return {name: whole[name] for name in (*outputs, *((STEEP,) if watch else ()), "status")}
+
+
+def scenes_from(given: Arrays) -> Arrays:
+    """Give the parameters of scenes as the core knows them, from what a study gives; NaN is one that does not exist."""
+    if given.keys() >= {*PARAMETERS}:
+        return given
+    from gradhesion.core.closed.reduced import parameters_from  # noqa: PLC0415 (300 ms for SciPy)
+
+    return parameters_from(given)
+
+
+def driven_by(study: Study) -> dict[str, Any]:
+    """Give the arguments of the core that say how the punch is driven, and what its edge meets."""
+    more = {"toughness": study.toughness, "rate": study.rate}
+    return {"loading": study.loading} | {name: one for name, one in more.items() if one is not None}
+
+
+def scales_of(study: Study, given: Mapping[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
+    """Give what results of scenes are multiplied by for SI units, by the unit; nothing if the study has none."""
+    if not study.in_si:
+        return {}
+    from gradhesion.core.closed.reduced import scales_in_si  # noqa: PLC0415 (300 ms for SciPy)
+
+    scales = scales_in_si(given["R"], given["work_of_adhesion"])
+    if any(UNITS[name] == "Pa" for name in study.in_si):
+        from gradhesion.core.equations.quadrature import pressure_unit  # noqa: PLC0415 (300 ms for SciPy)
+
+        scales["Pa"] = pressure_unit(given["R"], given["work_of_adhesion"])
+    return scales
+
+
+def _with_units(study: Study, given: Arrays, found: Arrays) -> Arrays:
+    """Give results in SI units, and the sensitivities to quantities with units, where the study has them."""
+    if study.spectrum is not None:  # whose punches are the last dimension
+        given = {name: np.asarray(values)[..., None] for name, values in given.items()}
+    scales = scales_of(study, given)
+    more = {name + SI: found[name] * scales[UNITS[name]] for name in study.in_si}
+    if PHYSICAL_PARAMETER not in study.labels:
+        return more
+    from gradhesion.core.answers.slopes_to_keys import POWERS, relative_slopes  # noqa: PLC0415 (300 ms for SciPy)
+
+    plain = {name: values for name, values in given.items() if name != RANGE and INPUTS[name].gives != RANGE}
+    quantities, parameters = study.labels[PHYSICAL_PARAMETER], study.labels[PARAMETER]
+    for name in (one for one in study.outputs if one in SENSITIVITIES):
+        slopes = relative_slopes(plain, quantities, parameters, found[name], POWERS[name])
+        more[name + OF_PHYSICAL] = np.stack([*slopes.values()], axis=-1)
+    return more
+
+
+def _stacked(found: Sequence[Arrays], axis: int) -> Arrays:
+    """Put results beside each other along a new axis."""
+    return {name: np.stack([values[name] for values in found], axis) for name in found[0]}

@@ -12,7 +12,7 @@ from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.rules.answers import Uncertainty
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, shape_of
-from gradhesion.cli.work.solve.given import Arrays, solve_given
+from gradhesion.cli.work.solve.scenes import Arrays, solve_given
 from gradhesion.core.answers.flags import LINEAR_DEVIATION_OFF
 from gradhesion.core.answers.slopes_to_keys import POWERS, slopes_to_keys
 from gradhesion.core.answers.uncertainty import (
@@ -37,15 +37,13 @@ class _Centre:
     study: Study
     """Without its uncertain inputs."""
     given: Arrays
-    several: Block
     block: Block
     threads: int | None
     spreads: Mapping[str, Spread]
 
     def solve(self, given: Arrays, outputs: tuple[str, ...], *, watch: bool = False) -> Arrays:
         """Solve scenes that are given as these are, for other outputs."""
-        own = (self.several, self.block, self.threads)
-        return solve_given(self.study, given, *own, outputs=outputs, watch=watch)
+        return solve_given(self.study, given, self.block, self.threads, outputs=outputs, watch=watch)
 
     def aligned(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Give an input the dimensions of results: random punches are their last."""
@@ -54,11 +52,10 @@ class _Centre:
 
 def solve_uncertain(study: Study, block: Block, threads: int | None) -> Arrays:
     """Solve a block of a study with uncertain inputs: the values of its variables and `status`."""
-    several, axes, _ = study.apart(block)
+    _, axes, _ = study.apart(block)
     centre = _Centre(
         study=replace(study, uncertainty=Uncertainty()),
         given=study.parameters_of(axes),
-        several=several,
         block=block,
         threads=threads,
         spreads={name: Spread(**asdict(one)) for name, one in study.uncertainty.deviations},
@@ -97,17 +94,16 @@ def _linear(centre: _Centre, name: str, found: Arrays) -> dict[str, Arrays]:
     sensitivity = f"{name}_sensitivity"
     labels = replace(centre.study, outputs=(sensitivity,)).labels[PARAMETER]
     ways: dict[str, dict[str, float]] = {name: {}} | ({name + SI: POWERS[sensitivity]} if name + SI in found else {})
-    keys = [*centre.spreads]
     return {
-        own: slopes_to_keys(given, keys, labels, found[own], found[sensitivity], powers) for own, powers in ways.items()
+        own: slopes_to_keys(given, [*centre.spreads], labels, found[own], found[sensitivity], powers)
+        for own, powers in ways.items()
     }
 
 
 def _deviation(centre: _Centre, slopes: Arrays) -> NDArray[np.float64]:
     """Give the standard deviation of a value by its slopes."""
-    deviations = [
-        spread.standard_deviation(centre.aligned(centre.given[key])) for key, spread in centre.spreads.items()
-    ]
+    inputs = {key: centre.aligned(centre.given[key]) for key in centre.spreads}
+    deviations = [spread.standard_deviation(inputs[key]) for key, spread in centre.spreads.items()]
     return linear_deviation([*slopes.values()], deviations)
 
 
@@ -126,11 +122,13 @@ def _off_the_line(centre: _Centre, seed: int, found: Arrays, linear: Mapping[str
 def _sampled(centre: _Centre, requested: Uncertainty, shape: tuple[int, ...]) -> Arrays:
     """Give the statistics of all values by samples of the inputs."""
     outputs = tuple(name for name in centre.study.outputs if name in SPREADABLE)
-    axis, made = len(centre.several), dict[str, NDArray[Any]]()
+    several, *_ = centre.study.apart(centre.block)
+    axis, made = len(several), dict[str, NDArray[Any]]()
     for part, _, samples in _samples_of(centre, requested.samples, requested.seed, outputs):
         place = (*(slice(None) for _ in range(axis)), *part)
         for name, values in samples.items():
-            whole = np.moveaxis(_whole(values, requested.samples, axis), axis, -1)
+            size = (*values.shape[:axis], requested.samples, *values.shape[axis + 1 :])  # some do not depend on them
+            whole = np.moveaxis(np.broadcast_to(values, size), axis, -1)
             for way, one in statistics_of(whole).items():
                 made.setdefault(_named(name, way), np.empty(shape))[place] = one
     return made
@@ -148,7 +146,8 @@ def _samples_of(
     along an axis before those of the scenes.
     """
     shares = drawn_shares(len(centre.spreads), count, seed)
-    for part in _pieces(centre, count):
+    _, axes, profiles = centre.study.apart(centre.block)
+    for part in Tiling(shape_of(axes), max(1, SCENES // (count * len(profiles))), 1):
         given = {key: _cut(values, part)[None] for key, values in centre.given.items()}
         for (key, spread), own in zip(centre.spreads.items(), shares, strict=True):
             if key == "work_of_adhesion_closing":  # an edge opens at no less than it closes at
@@ -156,19 +155,6 @@ def _samples_of(
             given[key] = spread.quantiles(given[key], own.reshape(-1, *(1 for _ in part)))
         found = centre.solve(given, outputs)
         yield part, given, {name: values for name, values in found.items() if name != "status"}
-
-
-def _whole(values: NDArray[Any], samples: int, axis: int) -> NDArray[Any]:
-    """Repeat values that do not depend on the samples along their axis."""
-    shape = list(values.shape)
-    shape[axis] = samples
-    return np.broadcast_to(values, shape)
-
-
-def _pieces(centre: _Centre, samples: int) -> Iterator[Block]:
-    """Cut the axes of a block into pieces whose samples are solved at once, beginning at 0."""
-    _, axes, profiles = centre.study.apart(centre.block)
-    yield from Tiling(shape_of(axes), max(1, SCENES // (samples * len(profiles))), 1)
 
 
 def _cut(values: NDArray[Any], part: Block) -> NDArray[Any]:

@@ -10,7 +10,7 @@ from click.testing import Result
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.study.text.source import read_source
-from gradhesion.cli.terminal.printable import printable_line
+from gradhesion.cli.terminal.messages import printable_line
 
 GOOD = """\
 title = "Good"

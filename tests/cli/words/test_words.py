@@ -10,8 +10,8 @@ import pytest
 from click.testing import Result
 
 import gradhesion as gr
+from gradhesion.cli.installation import refuse_without_threads
 from gradhesion.cli.study import load_study, study_from
-from gradhesion.cli.terminal.room import refuse_without_threads
 
 Call = Callable[..., Result]
 

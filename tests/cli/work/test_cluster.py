@@ -17,7 +17,7 @@ from distributed import LocalCluster
 from gradhesion.cli.work.folder import folder_of, parts_in
 from tests.faults.trials import values_of
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("small_blocks")]
 
 Call = Callable[..., Result]
 PRELOAD = """
@@ -43,12 +43,6 @@ if (order / "other_version").exists():
     cluster.versions = lambda: folder.versions() | {{"numba": "0.0"}}
 """
 """Workers that suffer what files tell them to."""
-
-
-@pytest.fixture(autouse=True)
-def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Cut the small study of 24 scenes into 6 blocks."""
-    monkeypatch.setenv("GRADHESION_CHUNK", "2")
 
 
 @pytest.fixture

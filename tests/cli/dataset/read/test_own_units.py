@@ -8,7 +8,7 @@ import xarray
 from pint_xarray import unit_registry
 
 import gradhesion as gr
-from gradhesion.cli.dataset.read.own_units import in_own_units
+from gradhesion.cli.dataset.read.reader import in_own_units
 
 PROBE = {"nu": 0.5, "E": "2 MPa", "work_of_adhesion": "50 mJ/m^2", "k": 0.0, "wavelength": "5 um", "A": 0.02}
 

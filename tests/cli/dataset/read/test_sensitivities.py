@@ -45,8 +45,7 @@ def test_the_parameter_is_the_last_dimension(data: dict[str, Any]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("loading", "more"),
-    [({}, []), ({"control": "machine", "machine_stiffness": 2.0}, ["machine_stiffness"])],
+    ("loading", "more"), [({}, []), ({"control": "machine", "machine_stiffness": 2.0}, ["machine_stiffness"])]
 )
 def test_a_turn_and_a_machine_are_a_parameter_more(
     loading: dict[str, Any], more: list[str], data: dict[str, Any]
@@ -114,22 +113,7 @@ def test_info_names_the_strongest_which_is_no_difference_of_k_or_nu(gradhesion: 
     assert strongest(none, ["k", "A", "modulus"]).tolist() == [1, -1, 2]
 
 
-@pytest.mark.parametrize("options", [["--at", "a_max_over_R=0.7"], ["--at", "k=0.31", "--at", "A=0.023"]])
-def test_plot_draws_the_strongest_and_each(gradhesion: Call, file: Path, tmp_path: Path, options: list[str]) -> None:
-    picture = tmp_path / "picture.svg"
-    result = gradhesion("plot", file, "--variable", FORCE, "-o", picture, *options)
-    assert result.exit_code == 0, result.output
-    assert picture.stat().st_size > 10_000
-
-
 def test_verify_leaves_them_out(gradhesion: Call, file: Path) -> None:
     result = gradhesion("verify", file, "--sample", "1")
     assert result.exit_code == 0
     assert f"{FORCE}, {ENERGY}: " in result.stdout
-
-
-def test_they_are_as_doubtful_as_their_values() -> None:
-    punch = {"k": 0.0, "nu": 0.3, "modulus": 500.0, "lambda_over_R": 0.1, "a_max_over_R": 1.0, "A": 0.1}
-    found = gr.solve(punch, ["dissipated_energy", *SENSITIVITIES])
-    assert found.gr.flagged("loading_contact_not_one_disc").item()
-    assert [found.gr.valid(name).item() for name in (FORCE, ENERGY)] == [True, False]

@@ -108,7 +108,6 @@ def test_scenes_without_curves_lose_nothing(drawn: Callable[..., Path], gradhesi
         assert failed["path_branch"].isnull().all()
         assert np.isfinite(fine["path_load"]).all()
         np.testing.assert_allclose(failed["smooth_load"], fine["smooth_load"], rtol=1e-12)  # but for its units
-    assert "status: 1 of 2 scenes (50.0%) have values" in gradhesion("info", path).stdout
     path = drawn(one | {"lambda_over_R": 1e-9}, ["path_load"], 3)
     assert "no value in any scene" in gradhesion("info", path).stdout
     assert gradhesion("plot", path).exit_code == 2
@@ -139,17 +138,15 @@ def test_what_stood_there_stays_until_all_is_drawn(
 
 def test_info_tells_curves_in_words(gradhesion: Call, drawn: Callable[..., Path]) -> None:
     path = drawn()
-    told = gradhesion("info", path).stdout
+    told = " ".join(gradhesion("info", path).stdout.split())
     with opened(path) as dataset:
         points = dataset["load"].count("point")
         loading = ((dataset["path_jump"] == 1) & (dataset["path_unloading"] == 0)).sum("path_point")
         least, greatest = float(dataset["load"].min()), float(dataset["load"].max())
     assert int(loading.max()) > 1
     for words in (
-        "6 scenes",
-        f"equilibrium: {int(points.min())} to {int(points.max())} points per scene stable branches 1 to",
-        f"jumps on loading 1 to {int(loading.max())} jumps on unloading 1 to",
-        f" load {least:.6g} to {greatest:.6g} load P/(1.5 pi R dgamma) in equilibrium",
-        "status: 6 of 6 scenes (100.0%) have values",
+        f"equilibrium: {int(points.min())} to {int(points.max())} points per scene",
+        f"jumps on loading 1 to {int(loading.max())}",
+        f" load {least:.6g} to {greatest:.6g} ",
     ):
-        assert words in " ".join(told.split()), words
+        assert words in told, words

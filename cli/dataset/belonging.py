@@ -10,7 +10,7 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.coordinates import following
+from gradhesion.cli.dataset.describe import following
 from gradhesion.cli.dataset.read.reader import study_text
 from gradhesion.cli.errors import DatasetError, StudyError
 from gradhesion.cli.names.outputs import labels_of
@@ -20,9 +20,6 @@ from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.outputs import GIVEN_UP
-
-ONLY_SCENES: Final = "`gradhesion verify` accepts the dataset that it was taken from"
-"""What to do with values that are not those of scenes."""
 
 CLOSE: Final = 16 * 2.0**-52
 """Of a coordinate: logarithmic spacing may differ by some units in the last place from one numpy to the next."""
@@ -87,17 +84,15 @@ def _points_of(dataset: xarray.Dataset, data: dict[str, Any], path: Path) -> dic
         for name, values in dataset.coords.items()
         if name in INPUTS and values.ndim == 1 and str(values.attrs.get("comment", "")).startswith(COMMENT)
     }
-    if not columns:
-        return {}
     for folder in (Path(), path.parent):
-        if not points_of(data, folder).mistakes:
+        if columns and not points_of(data, folder).mistakes:
             return {"folder": folder}
-    return {"columns": columns}
+    return {"columns": columns} if columns else {}
 
 
 def _check_variables(dataset: xarray.Dataset, study: Study, path: Path) -> None:
     """Check that a dataset has what its study asks for, along its axes or a part of them."""
-    sizes = dict(dataset["status"].sizes)
+    sizes = {str(axis): size for axis, size in dataset["status"].sizes.items()}
     for name in (*study.variables, "status"):
         if name not in dataset.data_vars and name in study.spreads:
             continue  # which earlier versions did not write, and nobody recomputes
@@ -106,11 +101,10 @@ def _check_variables(dataset: xarray.Dataset, study: Study, path: Path) -> None:
         own = labels_of(name)
         if dict(dataset[name].sizes) != sizes | ({own: len(study.labels[own])} if own else {}):
             raise _apart(path, f"the axes of {name} are not those of status")
-    for axis in [axis for axis in study.sizes if axis not in dataset.variables and axis != SCENE]:
-        raise DatasetError(
-            f"{path}: was reduced over {axis}, so that its values are not those of scenes; {ONLY_SCENES}"
-        )
-    for axis, size in ((str(axis), size) for axis, size in sizes.items()):
+    for axis in study.sizes:
+        if axis not in dataset.variables and axis != SCENE:
+            raise DatasetError(f"{path}: was reduced over {axis}: its values are not those of scenes; give the whole")
+    for axis, size in sizes.items():
         if size > (own_size := study.sizes.get(axis, 0)):
             raise _apart(path, f"its study has {own_size:,} items of {axis}, the dataset {size:,}")
     solvers = [str(solver) for solver in np.ravel(dataset[SOLVER].values if SOLVER in dataset else ())]

@@ -9,8 +9,8 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
+from gradhesion.cli.dataset.belonging import study_of
 from gradhesion.cli.dataset.dataset import assembled
-from gradhesion.cli.dataset.verify.belonging import study_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.reading import study_from
@@ -18,7 +18,18 @@ from gradhesion.cli.study.study import Study
 from gradhesion.core.problem.inputs import INPUTS
 
 WANTED: Final = "only maps and optima on a grid can be joined"
-SHARED: Final = ("kind", "search", "outputs", "method", "profile", "spectrum", "loading", "uncertainty")
+SHARED: Final = (
+    "kind",
+    "search",
+    "outputs",
+    "method",
+    "profile",
+    "spectrum",
+    "loading",
+    "toughness",
+    "rate",
+    "uncertainty",
+)
 """What the studies of datasets that are joined have in common, beside the keys of their scenes."""
 
 
@@ -35,7 +46,7 @@ def joined(sources: Mapping[Path, xarray.Dataset], history: str) -> tuple[Study,
     studies = {
         file: study_of(dataset, file, kinds=("map", "optimum"), wanted=WANTED) for file, dataset in sources.items()
     }
-    (first, one), *others = studies.items()
+    (first, one), *_ = studies.items()
     for file, study in studies.items():
         if study.layout != "grid":
             raise DatasetError(f"{file}: {WANTED}, not points")
@@ -43,36 +54,21 @@ def joined(sources: Mapping[Path, xarray.Dataset], history: str) -> tuple[Study,
             raise DatasetError(f"{file}: has only a part of the scenes of its study; join whole datasets")
         if missing := [name for name in study.variables if name not in sources[file]]:
             raise DatasetError(f"{file}: lacks {missing[0]}, which earlier versions did not write; run it again")
-    for file, other in others:
-        _check_shared(first, one, file, other)
-        written = [sources[each].attrs["source"] for each in (first, file)]
-        if written[0] != written[1]:
-            raise DatasetError(
-                f"{file}: was written by {written[1]}, and {first} by {written[0]}; run one of them again"
-            )
+        apart = [what for what in SHARED if getattr(one, what) != getattr(study, what)]
+        apart += sorted(one.parameters.keys() ^ study.parameters.keys())
+        apart += ["source"] * (sources[first].attrs["source"] != sources[file].attrs["source"])
+        if apart:
+            raise DatasetError(f"{file}: differs from {first} in {', '.join(apart)}; join datasets that share them")
     axes = {
         name: np.unique(np.concatenate([np.atleast_1d(study.parameters[name]) for study in studies.values()]))
         for name, values in one.parameters.items()
-        if any(not np.array_equal(values, other.parameters[name]) for _, other in others)
+        if any(not np.array_equal(values, other.parameters[name]) for other in studies.values())
     }
     if not axes:
-        raise DatasetError(
-            f"{', '.join(map(str, studies))}: have the same scenes; join datasets that differ in an axis"
-        )
+        files = ", ".join(map(str, studies))
+        raise DatasetError(f"{files}: have the same scenes; join datasets that differ in an axis")
     study = study_from(_with_axes(tomllib.loads(one.text), axes), one.name)
     return study, assembled(study, _values(study, studies, sources, axes), history)
-
-
-def _check_shared(first: Path, one: Study, file: Path, other: Study) -> None:
-    """Check that two studies differ in nothing but the values of their parameters."""
-    for what in SHARED:
-        if getattr(one, what) != getattr(other, what):
-            raise DatasetError(f"{file}: differs from {first} in {what}; join datasets that share it")
-    if one.parameters.keys() != other.parameters.keys():
-        keys = ", ".join(sorted(one.parameters.keys() ^ other.parameters.keys()))
-        raise DatasetError(
-            f"{file}: gives its scenes by different keys from {first} ({keys}); join datasets that share them"
-        )
 
 
 def _with_axes(data: dict[str, Any], axes: Mapping[str, NDArray[np.float64]]) -> dict[str, Any]:
@@ -93,20 +89,20 @@ def _values(
 ) -> dict[str, NDArray[Any]]:
     """Put the values of all sources where they belong in the dataset of their common study."""
     names = [*study.variables, "status", *([STEEP] if any(STEEP in source for source in sources.values()) else [])]
-    there = np.zeros(study.shape, bool)
-    found: dict[str, NDArray[Any]] = {}
-    for file, source in reversed([*sources.items()]):
-        own = studies[file].parameters
-        along = {axis: np.searchsorted(values, np.atleast_1d(own[axis])) for axis, values in axes.items()}
-        place = np.ix_(*(along.get(axis, np.arange(size)) for axis, size in study.sizes.items()))
-        there[place] = True
-        for name in names:
-            values = source[name] if name in source else xarray.zeros_like(source["status"])  # no scene is marked
-            values = values.expand_dims([axis for axis in axes if axis not in values.dims]).transpose(*study.sizes, ...)
-            whole = found.setdefault(name, np.empty(study.shape_of(name, study.shape), values.dtype))
-            whole[place] = values.values
-    if not there.all():
-        missing = f"{np.count_nonzero(~there):,} scenes of their common grid are in none of them"
-        files = ", ".join(map(str, sources))
-        raise DatasetError(f"{files}: differ in {' and '.join(axes)}, and {missing}; join datasets that fill it")
-    return found
+    types: dict[str, Any] = {}
+    whole = xarray.Dataset()
+    for file, source in sources.items():
+        none = xarray.zeros_like(source["status"].variable)  # no scene is marked
+        part = xarray.Dataset({name: source[name].variable if name in source else none for name in names})
+        types |= {name: part[name].dtype for name in names}
+        part = part.expand_dims([axis for axis in axes if axis not in part.dims])
+        # Of its study: a logarithmic axis of another numpy may be off in the last place.
+        own = {axis: np.atleast_1d(studies[file].parameters[axis]) for axis in axes}
+        whole = whole.combine_first(part.assign_coords(own))
+    if missing := int(whole["status"].isnull().sum()):
+        raise DatasetError(
+            f"{', '.join(map(str, sources))}: differ in {' and '.join(axes)}, and {missing:,} scenes of their common "
+            "grid are in none of them; join datasets that fill it"
+        )
+    whole = whole.sel(axes).transpose(*study.sizes, ...)
+    return {name: whole[name].values.astype(types[name]) for name in names}

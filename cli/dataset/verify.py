@@ -11,11 +11,12 @@ from typing import Final
 import numpy as np
 import xarray
 
-from gradhesion.cli.dataset.verify.belonging import study_of
+from gradhesion.cli.dataset.belonging import study_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import SI, labels_of
 from gradhesion.cli.names.scenes import REALISATION, SOLVER
 from gradhesion.cli.study.study import Study
+from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core import FAILED, PARAMETERS
 from gradhesion.core.answers.spectrum import random_profile
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, NO_VALUE
@@ -24,6 +25,8 @@ from gradhesion.twin.general import Shape
 
 CANDIDATES: Final = 20
 """Scenes that may be drawn for each one of the sample, where some are left out."""
+ROWS: Final = 12
+"""Deviations that are printed one by one."""
 
 Progress = Callable[[int], AbstractContextManager[Callable[[int], None]]]
 
@@ -36,6 +39,8 @@ class Scene:
     solver: str
     parameters: Mapping[str, float]
     place: Mapping[str, float | str]
+    shape: Shape
+    """Of its punch, and what is prescribed."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,29 +97,27 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
         raise DatasetError(f"{path}: its status is no integer; give the dataset as it was before `where`")
     solvers = [str(solver) for solver in np.ravel(dataset[SOLVER].values if SOLVER in dataset else study.method.solver)]
     known = tuple(solver for solver in solvers if solver in stated.SOLVERS)
-    if not known:
+    if not known or study.rate is not None:
+        what = f"the solver {' and '.join(solvers)}" if not known else "edges with a speed"
         raise DatasetError(
-            f"{path}: made with the solver {' and '.join(solvers)}, an approximation without an independent twin; "
-            f"`gradhesion verify` accepts {' and '.join(stated.SOLVERS)}"
-        )
-    if study.rate is not None:
-        raise DatasetError(
-            f"{path}: edges with a speed have no independent twin; `gradhesion verify` accepts only those at rest"
+            f"{path}: of {what}, without an independent twin; `gradhesion verify` accepts the solvers "
+            f"{' and '.join(stated.SOLVERS)}, and edges at rest"
         )
     outputs = [name for name in study.outputs if name in stated.KNOWN]
-    total = dataset["status"].size // len(solvers) * len(known)
     found = Recomputed(
-        seed=random.SystemRandom().randrange(10**6) if seed is None else seed, total=total, solvers=known
-    )
-    found.unknown = (
-        *(name for name in study.outputs if name not in outputs and not name.endswith("_error")),
-        *(f"all of the solver {solver}" for solver in solvers if solver not in known),
+        seed=random.SystemRandom().randrange(10**6) if seed is None else seed,
+        total=dataset["status"].size // len(solvers) * len(known),
+        solvers=known,
+        unknown=(
+            *(name for name in study.outputs if name not in outputs and not name.endswith("_error")),
+            *(f"all of the solver {solver}" for solver in solvers if solver not in known),
+        ),
     )
     scenes = _drawn(dataset, study, outputs, sample, found)
     scenes.sort(key=lambda scene: scene.parameters["k"])  # scenes of one exponent share what is known of it
     with progress(len(scenes)) as advance:
         for scene in scenes:
-            found.deviations += _compared(dataset, scene, _shape_of(study, scene), outputs, found)
+            found.deviations += _compared(dataset, scene, outputs, found)
             advance(1)
     if not found.deviations:
         raise DatasetError(
@@ -123,18 +126,6 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
         )
     found.deviations.sort(key=lambda one: (-one.share, -one.deviation))
     return found
-
-
-def _shape_of(study: Study, scene: Scene) -> Shape:
-    """Give the reference solver the shape of the punch of a scene, and what is prescribed."""
-    profile = study.profile
-    if study.spectrum is not None:
-        profile = random_profile(study.spectrum, int(scene.place[REALISATION]), profile.exponent)
-    harmonics = tuple((wave.n, wave.cos, wave.sin) for wave in profile.harmonics)
-    pattern = () if study.toughness is None else study.toughness.harmonics
-    waves = tuple((wave.n, wave.cos, wave.sin) for wave in pattern if wave.cos != 0.0 or wave.sin != 0.0)
-    of = "toughness" if study.toughness is None else study.toughness.of
-    return Shape(profile.exponent, harmonics, study.loading.control, waves, of)
 
 
 def _drawn(
@@ -157,16 +148,16 @@ def _drawn(
                 found.deviations += _without_value(dataset, scene, study.variables)
         elif missing := [name for name in PARAMETERS if math.isnan(scene.parameters[name])]:
             found.deviations += [_unlike(scene, name, math.nan, "a value, by its status") for name in missing]
-        elif _is_within_reach(scene, _shape_of(study, scene), outputs):
+        elif _is_within_reach(scene, outputs):
             scenes.append(scene)
         else:
             found.beyond += 1
     return scenes
 
 
-def _is_within_reach(scene: Scene, shape: Shape, outputs: Collection[str]) -> bool:
+def _is_within_reach(scene: Scene, outputs: Collection[str]) -> bool:
     try:
-        return stated.within_reach(scene.parameters, outputs, scene.solver, shape)
+        return stated.within_reach(scene.parameters, outputs, scene.solver, scene.shape)
     except ArithmeticError:  # which says so again when it is solved
         return True
 
@@ -175,24 +166,33 @@ def _scene(dataset: xarray.Dataset, study: Study, cells: xarray.Dataset, number:
     """Find the cell of a number among those that can be recomputed; `solver` is theirs where they have no other."""
     status = cells["status"]
     index = dict(zip(map(str, status.dims), map(int, np.unravel_index(number, status.shape)), strict=True))
-    cell = cells.isel(index)
-    values = {str(name): cell[name].item() for name in cell.coords}
+    values = {str(name): one.item() for name, one in cells.isel(index).coords.items()}
     solver = str(values.pop(SOLVER, solver))
-    parameters = {name: float(value) for name, value in values.items() if name != REALISATION}
+    place = {name: value for name, value in values.items() if isinstance(study.parameters.get(name), np.ndarray)}
+    if SOLVER in dataset.coords:
+        place = {SOLVER: solver} | place
     if SOLVER in index:  # among all solvers
         index[SOLVER] = dataset[SOLVER].values.tolist().index(solver)
-    place = {name: value for name, value in values.items() if isinstance(study.parameters.get(name), np.ndarray)}
-    place = ({SOLVER: solver} if SOLVER in dataset.coords else {}) | place
-    place |= {REALISATION: values[REALISATION]} if REALISATION in values else {}
-    return Scene(index=index, solver=solver, parameters=parameters, place=place)
+    profile = study.profile
+    if study.spectrum is not None:
+        place[REALISATION] = values.pop(REALISATION)
+        profile = random_profile(study.spectrum, int(place[REALISATION]), profile.exponent)
+    pattern = () if study.toughness is None else study.toughness.harmonics
+    shape = Shape(
+        profile.exponent,
+        tuple((wave.n, wave.cos, wave.sin) for wave in profile.harmonics),
+        study.loading.control,
+        tuple((wave.n, wave.cos, wave.sin) for wave in pattern if wave.cos != 0.0 or wave.sin != 0.0),
+        "toughness" if study.toughness is None else study.toughness.of,
+    )
+    parameters = {name: float(value) for name, value in values.items()}
+    return Scene(index=index, solver=solver, parameters=parameters, place=place, shape=shape)
 
 
 def _without_value(dataset: xarray.Dataset, scene: Scene, outputs: Collection[str]) -> Iterator[Deviation]:
     """Check that a scene without values has none."""
     for name in outputs:
-        if labels_of(name):
-            continue
-        value = float(dataset[name][scene.index])
+        value = float("nan") if labels_of(name) else float(dataset[name][scene.index])
         if not (math.isnan(value) or (name.endswith("_jumps") and value == -1.0)):
             yield _unlike(scene, name, value, "none, by its status")
 
@@ -203,11 +203,11 @@ def _unlike(scene: Scene, output: str, value: float, expected: str) -> Deviation
 
 
 def _compared(
-    dataset: xarray.Dataset, scene: Scene, shape: Shape, outputs: Collection[str], found: Recomputed
+    dataset: xarray.Dataset, scene: Scene, outputs: Collection[str], found: Recomputed
 ) -> Iterator[Deviation]:
     """Recompute one scene and compare."""
     try:
-        expected = stated.expected(scene.parameters, outputs, scene.solver, shape)
+        expected = stated.expected(scene.parameters, outputs, scene.solver, scene.shape)
     except ArithmeticError:
         found.unsure += 1
         return
@@ -228,3 +228,45 @@ def _compared(
         yield Deviation(
             output=name, scene=scene.place, value=value, expected=str(one), deviation=deviation, stated=error
         )
+
+
+def in_words(found: Recomputed, title: str, file: Path) -> Iterator[str]:
+    """Report what was found, line by line: the deviations, the worst first, what was left out, and the verdict."""
+    every = found.deviations
+    width = max(len("worst of each"), *(len(one.output) for one in every))
+
+    def row(one: Deviation, words: str) -> str:
+        return f"{one.output:<{width}} {one.deviation:<10.2g} {one.stated:<10.2g} {one.share:<9.2g} {words}"
+
+    yield title
+    yield (
+        f"{file}: {found.scenes:,} of {counted(found.total, 'scene')} recomputed (--seed {found.seed}), "
+        f"{counted(len(every), 'value')}, solver {' and '.join(found.solvers)}"
+    )
+    heads = f"{'deviation':<10} {'stated':<10} {'share':<9}"
+    yield from ("", f"{'worst first':<{width}} {heads} scene")
+    for one in every[:ROWS]:
+        place = [f"{name} = {value if isinstance(value, str) else f'{value:g}'}" for name, value in one.scene.items()]
+        yield row(one, ", ".join(place) or "the only scene")
+    if len(every) > ROWS:
+        yield f"... and {len(every) - ROWS:,} more, none beyond {every[ROWS].share:.2g} of its stated error"
+    yield from ("", f"{'worst of each':<{width}} {heads} values")
+    for output in dict.fromkeys(one.output for one in every):
+        of_output = [one for one in every if one.output == output]
+        yield row(of_output[0], f"{len(of_output):,}")
+    reasons = [
+        (found.beyond, "sampled scenes have more waves than can be followed; others were drawn instead"),
+        (found.failed, "sampled scenes have failed, as their status shows"),
+        (found.unsure, "scenes lie too close to where two folds meet, or too far out, for 51 digits"),
+        *((count, f"values may be either of two ({reason})") for reason, count in found.near.items()),
+    ]
+    written = [f"  {count:,} {reason}" for count, reason in reasons if count]
+    if found.unknown:
+        written.append(f"  {', '.join(found.unknown)}: there is no independent solution to compare with")
+    if written:
+        yield from ("", "left out", *written)
+    yield ""
+    if found.exceeding:
+        yield f"{found.exceeding:,} of {counted(len(every), 'value')} deviate by more than their stated errors"
+    else:
+        yield f"all {len(every):,} values are within their stated errors"

@@ -1,0 +1,214 @@
+"""The variables of a study's dataset by CF-1.11: dimensions, types and attributes, and where coordinates come from."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.cli.names.curves import (
+    CURVES,
+    EXTENTS,
+    INTEGERS,
+    MEANINGS,
+    NAMED_STATES,
+    RAGGED,
+    STATE,
+    extent_of,
+    is_of_a_state,
+    is_ragged,
+)
+from gradhesion.cli.names.outputs import BEST, OF_PHYSICAL, ON_BOUND, OUTPUTS, PARETO_POINT, SI, SPREADS, labels_of
+from gradhesion.cli.names.scenes import IDLE, REALISATION, REALISATIONS, SOLVER, SOLVERS, STATUS, STEEP_CONTACT
+from gradhesion.cli.names.units import unit_of
+from gradhesion.cli.study.files import COMMENT
+from gradhesion.cli.study.study import Study
+from gradhesion.cli.study.tiling import Block, shape_of
+from gradhesion.cli.work.solve.curves import blank_of
+from gradhesion.cli.work.solve.scenes import scenes_from
+from gradhesion.core import FLAGS
+from gradhesion.core.answers.flags import FLAGS as ALL_FLAGS
+from gradhesion.core.problem.inputs import INPUTS, REDUCED
+from gradhesion.core.problem.names import CONTACT_SLOPE
+from gradhesion.core.problem.outputs import without_scale
+from gradhesion.core.problem.status import OF_EVERY_MAP, TOO_MANY_WAVES
+
+RMS: Final = {
+    "A": "rms height over wavelength of the random waviness",
+    "amplitude": "rms height A lambda of the random waviness",
+    "chi": "roughness parameter chi = r/s of one cosine as high as the rms height of the random waviness",
+}
+"""What the amplitude is of random roughness."""
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A variable of a dataset; a coordinate knows its values, an output gets them block by block."""
+
+    dimensions: tuple[str, ...]
+    dtype: str
+    attributes: dict[str, Any]
+    values: NDArray[Any] | None = None
+    made: Callable[[Block], NDArray[np.float64]] | None = None
+    """Makes the values of a block of a coordinate that may be as large as an output."""
+    blank: float | None = None
+    """What stands where there is no value, if `_FillValue` says so."""
+
+
+def variables(study: Study) -> dict[str, Variable]:
+    """Describe the variables of a study's dataset, coordinates first."""
+    found = _labels(study) | _parameters(study)
+    apart = (*study.sizes, *study.labels, STATE)
+    beside = " ".join(name for name in found if name not in apart)
+    outputs = {name: _output(study, name) for name in study.variables}
+    own = ALL_FLAGS if study.has_answers else FLAGS if study.turns_at_a_depth else OF_EVERY_MAP
+    flags = {name: bit for name, bit in own.items() if bit != TOO_MANY_WAVES}
+    flags |= {name: bit for name, bit in FLAGS.items() if bit == TOO_MANY_WAVES and study.follows_waves}
+    attributes = {"units": "1", "long_name": STATUS} | flags_of(flags, study.status_type)
+    outputs["status"] = Variable(tuple(study.sizes), study.status_type, attributes)
+    for name, variable in outputs.items():
+        if beside and not is_ragged(name):
+            variable.attributes["coordinates"] = beside
+    return found | outputs
+
+
+def flags_of(bits: Mapping[str, int], dtype: str) -> dict[str, Any]:
+    """Give the attributes of a variable whose bits have these names."""
+    return {"flag_masks": np.array(list(bits.values()), dtype=dtype), "flag_meanings": " ".join(bits)}
+
+
+def steep_contact(study: Study) -> Variable | None:
+    """Describe the coordinate that marks steep contacts, where a study has any; None beside their slope itself."""
+    if CONTACT_SLOPE in study.variables:
+        return None
+    attributes: dict[str, Any] = {"units": "1", "long_name": STEEP_CONTACT}
+    attributes |= {"flag_values": np.array([0, 1], dtype="i1"), "flag_meanings": "shallow steep"}
+    return Variable(tuple(study.sizes), "i1", attributes)
+
+
+def following(study: Study, name: str) -> tuple[str, ...]:
+    """Name the axes along which a parameter varies that is not given but made from others."""
+    from gradhesion.core.closed.reduced import sources_of  # noqa: PLC0415 (300 ms for SciPy)
+
+    sources = sources_of(name, dict.fromkeys(study.given))
+    return tuple(axis for axis in study.axes if axis in sources or study.layout == "points")
+
+
+def _labels(study: Study) -> dict[str, Variable]:
+    """Describe the coordinates that are no parameters: solvers, realisations, states, and what sensitivities are to."""
+    found = {}
+    if SOLVER in study.sizes:
+        found[SOLVER] = _words(SOLVER, study.method.solver, SOLVERS)
+    if study.spectrum is not None:
+        numbers = np.arange(study.spectrum.realisations, dtype=np.int32)
+        found[REALISATION] = Variable((REALISATION,), "i4", {"units": "1", "long_name": REALISATIONS}, numbers)
+    if study.states:
+        about = {"units": "1", "long_name": "contact radius a/R of a state of equilibrium"}
+        found[STATE] = Variable((STATE,), "f8", about, np.array(study.states))
+    elif any(is_of_a_state(name) for name in study.outputs):
+        found[STATE] = _words(STATE, NAMED_STATES, "state of a loading cycle")
+    return found | {name: _words(name, own, "parameter of the sensitivity") for name, own in study.labels.items()}
+
+
+def _words(name: str, words: object, about: str) -> Variable:
+    """Describe a dimension whose items are words."""
+    return Variable((name,), "str", {"long_name": about}, np.array(words, dtype=object))
+
+
+def _parameters(study: Study) -> dict[str, Variable]:
+    """Describe the parameters of the scenes: those that are given, and those that follow from them."""
+    axes, found = tuple(study.axes), dict[str, Variable]()
+    for name, key in INPUTS.items():
+        attributes = {"units": key.unit, "long_name": key.about}
+        if study.spectrum is not None:
+            attributes["long_name"] = RMS.get(name, key.about)
+        if name in study.left_out:
+            attributes["comment"] = f"{IDLE} where {key.idle_without} = 0; the study leaves it out"
+        if name in study.points.inputs:
+            attributes["comment"] = COMMENT + study.points.file
+        if name in study.parameters:
+            values = np.asarray(study.parameters[name])
+            own: tuple[str, ...] = (name,) if name in axes else ()
+            if study.layout == "points":
+                own, values = axes, np.broadcast_to(values, tuple(study.axes.values()))
+            found[name] = Variable(own, "f8", attributes, values)
+        elif name in study.made:
+            own = following(study, name)
+            blank = np.nan if REDUCED.keys() & study.parameters.keys() else None  # where there is no a_2
+            found[name] = Variable(own, "f8", attributes, made=partial(_made, study, name, own), blank=blank)
+    return found
+
+
+def _made(study: Study, name: str, own: tuple[str, ...], block: Block) -> NDArray[Any]:
+    """Compute a block, of its own axes, of a parameter that is made from others."""
+    cuts = dict(zip(own, block, strict=True))
+    whole = tuple(cuts.get(axis, slice(0, 1)) for axis in study.axes)
+    given = study.parameters_of(whole) | {one.name: np.asarray(one.low) for one in study.search.inputs}
+    return np.broadcast_to(scenes_from(given)[name], shape_of(whole)).reshape(shape_of(block))
+
+
+def _output(study: Study, name: str) -> Variable:
+    """Describe a result, perhaps in SI units."""
+    plain = name.removesuffix(SI)
+    if study.kind == "curve":
+        found = _of_curve(study, plain)
+    elif plain == ON_BOUND:
+        ends = [f"{one.name}_at_its_{end}_bound" for one in study.search.inputs for end in ("lower", "upper")]
+        attributes: dict[str, Any] = {"units": "1", "long_name": "bounds at which the optimum lies (0: none)"}
+        attributes |= flags_of({end: 1 << i for i, end in enumerate(ends)}, "i1")
+        found = Variable(tuple(study.sizes), "i1", attributes)
+    else:
+        found = _of_scenes(study, plain)
+    if plain != name:
+        unit = unit_of(name)
+        found.attributes.update(units=unit, long_name=without_scale(found.attributes["long_name"], unit))
+    return found
+
+
+def _of_scenes(study: Study, name: str) -> Variable:
+    """Describe a value of each scene of a map, or of each optimum."""
+    attributes = {"units": "1", "ancillary_variables": "status", "long_name": _long_name(study, name)}
+    if name.endswith("_std"):
+        sampled = bool(study.uncertainty.samples)
+        attributes["comment"] = "of samples of the uncertain inputs" if sampled else "linear, by sensitivities"
+    if name.removeprefix(BEST) in INPUTS:
+        attributes["units"] = unit_of(name)
+    if name.endswith("_jumps") and not study.search:
+        return Variable(tuple(study.sizes), "i4", attributes)
+    labels = (labels_of(name),) if labels_of(name) else ()
+    points = (PARETO_POINT,) if study.search.is_front else ()
+    return Variable((*study.sizes, *labels, *points), "f8", attributes, blank=np.nan)
+
+
+def _long_name(study: Study, name: str) -> str:
+    """Say what a variable of a map or of optima is, also the sensitivity of one in SI units."""
+    plain = name.removeprefix(BEST)
+    if plain in INPUTS:
+        return f"best {INPUTS[plain].about}"
+    meaning = (OUTPUTS | SPREADS)[plain.removesuffix(OF_PHYSICAL)]
+    if plain.endswith(OF_PHYSICAL):
+        meaning = meaning.split(" to each parameter")[0] + " in SI units to each quantity q with a unit: d ln/d ln q"
+    if study.search:
+        return f"{meaning}, at the optimum"
+    if name in ("dissipated_energy", "unloading_energy") and study.loading.control == "load":
+        return meaning.replace(",", " without its jump-out, which has no bound,")
+    return meaning
+
+
+def _of_curve(study: Study, name: str) -> Variable:
+    """Describe a variable of a curve, along a dimension of its own."""
+    scenes, dtype = tuple(study.sizes), INTEGERS.get(name, "f8")
+    attributes: dict[str, Any] = {"units": "1", "ancillary_variables": "status"}
+    attributes["long_name"] = next(own[name] for own in CURVES.values() if name in own)
+    if name in MEANINGS:
+        attributes |= {"flag_values": np.array([0, 1], dtype=dtype), "flag_meanings": MEANINGS[name]}
+    if name in RAGGED.values():
+        attributes["sample_dimension"] = next(EXTENTS[one] for one in RAGGED if name in CURVES[one])
+        return Variable(scenes, dtype, attributes)
+    if is_ragged(name):
+        del attributes["ancillary_variables"]  # `status` has other dimensions
+        return Variable((extent_of(name),), dtype, attributes)
+    states = (STATE,) if is_of_a_state(name) else ()
+    return Variable((*scenes, *states, extent_of(name)), dtype, attributes, blank=blank_of(name))

@@ -1,1 +1,0 @@
-"""Datasets against the studies in them: whether they belong together, recomputed, and several joined."""
