@@ -18,13 +18,7 @@ PICTURES: Final[dict[str, Callable[..., None]]] = {
 }
 """What draws each picture into the axes that it is given: one, or as many as it has panels."""
 
-PANELS: Final = {
-    "fig4a": 3,
-    "extra_roughness": 2,
-    "extra_best_wavelength": 2,
-    "extra_split": 2,
-    "extra_speed": 2,
-}
+PANELS: Final = {"fig4a": 3, "extra_roughness": 2, "extra_best_wavelength": 2, "extra_split": 2, "extra_speed": 2}
 """The pictures of several panels, side by side."""
 
 STUDIES: Final = Path(__file__).resolve().parents[1] / "configs"

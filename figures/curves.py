@@ -12,11 +12,7 @@ from figures.style import DEPTH, INK, LOAD, RADIUS, zero_lines
 
 Values = NDArray[np.float64]
 
-PLANES: Final = {
-    "a": ("indentation", "load"),
-    "b": ("contact_radius", "indentation"),
-    "c": ("contact_radius", "load"),
-}
+PLANES: Final = {"a": ("indentation", "load"), "b": ("contact_radius", "indentation"), "c": ("contact_radius", "load")}
 """Abscissa and ordinate of the three panels of a path."""
 
 LABELS: Final = {"contact_radius": RADIUS, "indentation": DEPTH, "load": LOAD}

@@ -43,11 +43,7 @@ def closing(axes: Axes, dataset: xarray.Dataset) -> None:
 
 def split(smooth: Axes, wavy: Axes, dataset: xarray.Dataset) -> None:
     """Draw the three parts of the energy one above the other, for a smooth punch and a wavy one."""
-    parts = {
-        "loading_energy": "jumps of loading",
-        "unloading_energy": "jumps of unloading",
-        "front_energy": "edge",
-    }
+    parts = {"loading_energy": "jumps of loading", "unloading_energy": "jumps of unloading", "front_energy": "edge"}
     top = 1.4 * float(dataset["dissipated_energy"].max())
     for axes, A in zip((smooth, wavy), dataset["A"].values, strict=True):
         own = dataset.sel(A=A)
