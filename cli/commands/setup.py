@@ -21,7 +21,7 @@ def warmup(everything: bool, workers: int | None, quiet: bool) -> None:  # noqa:
     wave need is compiled. It is kept in the user's cache, or in the folder NUMBA_CACHE_DIR, for all runs of this
     version.
     """
-    from gradhesion.cli.work.compiling import alone, refuse_without_compiler, say_why
+    from gradhesion.cli.work.compiling import SECONDS, alone, refuse_without_compiler, say_why
     from gradhesion.core import place
 
     refuse_without_compiler()
@@ -34,7 +34,7 @@ def warmup(everything: bool, workers: int | None, quiet: bool) -> None:  # noqa:
             messages.say(f"{kind}: {seconds:.1f} s")
 
     start = time.monotonic()
-    with alone():
+    with alone(*(SECONDS if everything else ("forces", "energies", "curves"))):
         warm_up(report, everything=everything)
     if not quiet:
         where = f", kept in {place().folder}" if place().folder else ""

@@ -1,7 +1,7 @@
-"""The compilation of the solver by the first run of a version: announced once, and done by one process.
+"""The compilation of what a kind of study needs, by the first one of a version: announced, and done by one process.
 
-Processes that start meanwhile wait for it: they would all compile the same. What a later study needs beyond that is
-compiled, and kept, while it is solved.
+Processes that start meanwhile wait for it: they would all compile the same. What a scene needs beyond that, as many
+waves do, is compiled, and kept, while it is solved.
 """
 
 from collections.abc import Iterator
@@ -16,35 +16,52 @@ from gradhesion.cli.errors import CompilerError
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.work.solve.blocks import solve_block
-from gradhesion.core import place
+from gradhesion.core import SENSITIVITIES, place
+from gradhesion.core.problem.names import PULL_OFF
 
-SECONDS: Final = 60
-"""About how long one core compiles what both outputs of a first map need: 45 s on one machine, 90 s on another."""
-_MARK: Final = "compiled"
-"""A file in the folder of the kernels: a process has compiled, and has said so."""
+SECONDS: Final = {"forces": 15, "energies": 45, "sensitivities": 45, "speeds": 15, "curves": 20, "fits": 25}
+"""About how long a free processor compiles what each kind of study needs; a slow one takes twice that."""
 
-_begun: Final[set[Path | None]] = set()
-"""The folders for which this process has; None where nothing is kept."""
+_begun: Final[set[tuple[Path | None, str]]] = set()
+"""The folders (None where nothing is kept) and kinds for which this process has compiled."""
+
+
+def need_of(study: Study | None) -> str:
+    """Return which of the kinds of SECONDS a study is; None stands for a fit.
+
+    What it needs first is marked in the folder of kernels by a file of that name.
+    """
+    if study is None:
+        return "fits"
+    if study.kind != "map":
+        return "curves"
+    if study.rate is not None:
+        return "speeds"
+    if {*study.outputs} & {*SENSITIVITIES}:
+        return "sensitivities"
+    return "forces" if {*study.outputs} <= {*PULL_OFF} else "energies"
 
 
 def prepare(study: Study | None = None) -> None:
-    """Where no process has compiled this version of the solver, say that it takes a while, and do so for a study."""
+    """Where no process of this version has compiled for such a study, say that it takes a while, and do so.
+
+    A map is compiled for before it is solved, curves and fits (None) while they are.
+    """
     refuse_without_compiler()
-    folder = place().folder
-    if folder in _begun or (folder and (folder / _MARK).exists()):
+    folder, need = place().folder, need_of(study)
+    if (folder, need) in _begun or (folder and (folder / need).exists()):
         return
-    say_why()
-    messages.say(f"compiling the solver, about {SECONDS} s, once per version")
-    with alone():
-        if study is not None and study.kind == "map":  # the first and the last of its scenes, of others nothing
+    if not _begun:
+        say_why()
+    messages.say(f"compiling the solver for {need}, about {SECONDS[need]} s of a free processor, once per version")
+    with alone(need):
+        if study is not None and study.kind == "map":  # the first and the last of its scenes
             first, last = study.tiling[0], study.tiling[len(study.tiling) - 1]
             for scene in (
                 tuple(slice(part.start, part.start + 1) for part in first),
                 tuple(slice(part.stop - 1, part.stop) for part in last),
             ):
-                with suppress(
-                    Exception
-                ):  # which is raised again, and reported, when the block is solved for its values
+                with suppress(Exception):  # it is raised again, and reported, when the block is solved for its values
                     solve_block(study, scene, 1)
 
 
@@ -61,15 +78,16 @@ def say_why() -> None:
 
 
 @contextmanager
-def alone() -> Iterator[None]:
-    """Compile while no other process of this version does."""
+def alone(*needs: str) -> Iterator[None]:
+    """Compile for some kinds of studies while no other process of this version compiles, and mark that it is done."""
     folder = place().folder
     with ExitStack() as stack:
         if folder is not None:
             with suppress(OSError):
                 stack.enter_context(FileLock(folder / "lock"))
         yield
-        _begun.add(folder)
-        with suppress(OSError):
-            if folder is not None:
-                (folder / _MARK).touch()
+        for need in needs:
+            _begun.add((folder, need))
+            with suppress(OSError):
+                if folder is not None:
+                    (folder / need).touch()

@@ -48,12 +48,15 @@ def test_a_plan_and_python_say_it_as_well_and_another_process_does_not_say_it_ag
     (folder / "another").mkdir()
     monkeypatch.setattr(compiling, "place", lambda: Place(folder / "another", ""))
     scene = dict.fromkeys(data["parameters"], 0.3) | {"A": 0.01}
-    gr.solve(scene, "pull_off_force")
-    gr.curves(scene, "path")
-    assert len(capsys.readouterr().err.splitlines()) == 1
-    monkeypatch.setattr(compiling, "_begun", set())
-    compute(study_from(data))
+    for said in (1, 0):
+        for call in (lambda: gr.solve(scene, "pull_off_force"), lambda: gr.curves(scene, "path")):
+            call()  # each compiles something else
+            assert len(capsys.readouterr().err.splitlines()) == said
+        monkeypatch.setattr(compiling, "_begun", set())
+    compute(study_from(data | {"outputs": ["pull_off_force"]}))
     assert capsys.readouterr().err == ""
+    compute(study_from(data | {"outputs": ["dissipated_energy"]}))
+    assert len(capsys.readouterr().err.splitlines()) == 1
 
 
 def test_where_nothing_is_kept_it_says_why_once(
