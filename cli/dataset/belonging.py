@@ -53,10 +53,9 @@ def study_of(
         data["outputs"] = [name for name in data["outputs"] if name not in GIVEN_UP]
     try:
         study = study_from(_with_fit(dataset, data), "its study", **_points_of(dataset, data, path))
-    except StudyError as error:
-        raise DatasetError(
-            f"{path}: its study is not valid in this version ({error.mistakes[0]}); write it again"
-        ) from None
+    except ValueError as error:  # of the study, or of what was fitted to the file of its profile
+        reason = error.mistakes[0] if isinstance(error, StudyError) else str(error)
+        raise DatasetError(f"{path}: its study is not valid in this version ({reason}); write it again") from None
     if study.search.is_front:
         raise DatasetError(f"{path}: contains Pareto fronts, whose size differs from cell to cell; {wanted}")
     _check(dataset, study, path)
@@ -71,9 +70,10 @@ def _with_fit(dataset: xarray.Dataset, data: dict[str, Any]) -> dict[str, Any]:
     fit = tomllib.loads(str(dataset.attrs.get("profile_fit", "")))
     names = ("R", "wavelength", "amplitude") if isinstance(data.get("physical"), Mapping) else ("lambda_over_R", "A")
     home = "physical" if len(names) == 3 else "parameters"
-    numbers = {name: float(dataset[name]) for name in names}
+    numbers = {name: float(dataset[name]) for name in names if name in dataset and dataset[name].ndim == 0}
     own = {name: f"{value!r} m" if home == "physical" else value for name, value in numbers.items()}
-    return {**data, "profile": fit, home: {**data[home], **own}}
+    given = data.get(home)
+    return {**data, "profile": fit, home: {**(given if isinstance(given, Mapping) else {}), **own}}
 
 
 def _points_of(dataset: xarray.Dataset, data: dict[str, Any], path: Path) -> dict[str, Any]:
