@@ -95,10 +95,7 @@ def data_of(dataset: Data) -> AbstractContextManager[xarray.Dataset]:
     """
     Open a dataset, if it is not open; one whose variables were given other units is taken in those of our files.
 
-    Raises
-    ------
-    DatasetError
-        It was not written by this program.
+    DatasetError says that it was not written by this program.
     """
     if isinstance(dataset, xarray.Dataset):
         check_ours(dataset, "the dataset")

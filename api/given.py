@@ -61,10 +61,7 @@ class Given:
         """
         Check everything as a study is checked; of arrays the ends of their values stand in it.
 
-        Raises
-        ------
-        StudyError
-            Something is wrong; the error lists all of them.
+        StudyError lists all that is wrong.
         """
         short = {name: self._ends(name, array) for name, array in self.arrays.items()}
         if not self.is_grid and "k" in short:  # whether k = 1 meets nu = 1/2 is asked of each scene instead

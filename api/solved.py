@@ -25,20 +25,10 @@ Arrays = Mapping[str, float | xarray.DataArray]
 
 def solved(study: Study, parameters: Arrays, threads: int | None = None) -> xarray.Dataset:
     """
-    Solve the scenes of a study whose parameters stand over dimensions of any names.
+    Solve the scenes of a study whose parameters, in plain numbers (SI), stand over dimensions of any names.
 
-    Parameters
-    ----------
-    study
-        What is asked for; its own parameters count by their names only. Without a text the dataset has no study.
-    parameters
-        The parameters of the study, in plain numbers (those with a unit in SI).
-    threads
-        Threads to use, all processors if None.
-
-    Returns
-    -------
-    The dataset that `gradhesion.cli.dataset.compute` gives of a grid or of points, if the dimensions are theirs.
+    The study says what is asked for; its own parameters count by their names only, and without a text the dataset has
+    no study. Of a grid or of points the dataset is that which `gradhesion.cli.dataset.compute` gives.
     """
     sizes = sizes_of(parameters)
     arrays = {name: _along(sizes, value) for name, value in parameters.items()}

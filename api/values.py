@@ -15,13 +15,8 @@ def array_of(name: str, value: Any) -> xarray.DataArray:
     """
     Give the value of a parameter as an array; plain arrays of one dimension are axes of its name.
 
-    Raises
-    ------
-    ValueError
-        It has no shape, or more dimensions than have names.
+    ValueError says that it has no shape, or more dimensions than have names.
 
-    Examples
-    --------
     >>> array_of("A", [0.1, 0.2]).dims, array_of("A", 0.1).dims
     (('A',), ())
     """
@@ -73,14 +68,8 @@ def numbers_of(name: str, array: xarray.DataArray) -> NDArray[np.float64] | None
     Give the values of a parameter as plain numbers, those of quantities in SI units; None if they are neither.
 
     Strings have their units with them, an array may have them as its attribute `units`; numbers without are in SI.
+    ValueError says that the unit is not known, or has another dimension.
 
-    Raises
-    ------
-    ValueError
-        The unit is not known, or has another dimension.
-
-    Examples
-    --------
     >>> numbers_of("R", array_of("R", ["1 um", "2 mm"])), numbers_of("A", array_of("A", True))
     (array([1.e-06, 2.e-03]), None)
     """

@@ -29,16 +29,6 @@ _ENDINGS: Final = {
 """What files are by their names."""
 
 
-def is_file(path: Path) -> bool:
-    """
-    Check whether a file is there, or a link to one; unlike that of pathlib it raises nothing, whatever the name.
-
-    >>> is_file(Path("x" * 1000)), is_file(Path("/"))
-    (False, False)
-    """
-    return os.path.isfile(path)  # noqa: PTH113
-
-
 def read_at_most(path: Path, most: int) -> bytes:
     """
     Read a file of at most so many bytes, and nothing else: a device has no end, and a pipe may never begin.

@@ -1,5 +1,6 @@
 """`gradhesion merge`: join the blocks that shards have computed, or datasets that differ along axes."""
 
+import os
 import time
 from contextlib import ExitStack
 from pathlib import Path
@@ -19,7 +20,6 @@ from gradhesion.cli.commands.shared import (
 )
 from gradhesion.cli.commands.status import status_of
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.files import is_file
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.terminal.progress import progress
 
@@ -68,7 +68,7 @@ def _of_shards(file: Path) -> "Study | None":
 
     folder = folder_of(file)
     study = study_in(folder)
-    if study is None and not is_file(file):
+    if study is None and not os.path.isfile(file):  # noqa: PTH113 (that of pathlib raises where a name is too long)
         raise DatasetError(f"{file}: has no blocks to join; compute them first, with `gradhesion run --shard`")
     if study is None:
         status_of(file)  # which refuses what is no dataset

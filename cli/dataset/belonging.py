@@ -10,11 +10,11 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.describe import following
+from gradhesion.cli.dataset.describe import variables
 from gradhesion.cli.dataset.read.reader import study_text
 from gradhesion.cli.errors import DatasetError, StudyError
 from gradhesion.cli.names.outputs import labels_of
-from gradhesion.cli.names.scenes import SCENE, SOLVER
+from gradhesion.cli.names.scenes import SOLVER
 from gradhesion.cli.study.files import COMMENT, points_of
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
@@ -53,14 +53,12 @@ def study_of(
         data["outputs"] = [name for name in data["outputs"] if name not in GIVEN_UP]
     try:
         study = study_from(_with_fit(dataset, data), "its study", **_points_of(dataset, data, path))
-    except StudyError as error:
-        raise DatasetError(
-            f"{path}: its study is not valid in this version ({error.mistakes[0]}); write it again"
-        ) from None
+    except ValueError as error:  # of the study, or of what was fitted to the file of its profile
+        reason = error.mistakes[0] if isinstance(error, StudyError) else str(error)
+        raise DatasetError(f"{path}: its study is not valid in this version ({reason}); write it again") from None
     if study.search.is_front:
         raise DatasetError(f"{path}: contains Pareto fronts, whose size differs from cell to cell; {wanted}")
-    _check_variables(dataset, study, path)
-    _check_coordinates(dataset, study, path)
+    _check(dataset, study, path)
     return study
 
 
@@ -72,9 +70,10 @@ def _with_fit(dataset: xarray.Dataset, data: dict[str, Any]) -> dict[str, Any]:
     fit = tomllib.loads(str(dataset.attrs.get("profile_fit", "")))
     names = ("R", "wavelength", "amplitude") if isinstance(data.get("physical"), Mapping) else ("lambda_over_R", "A")
     home = "physical" if len(names) == 3 else "parameters"
-    numbers = {name: float(dataset[name]) for name in names}
+    numbers = {name: float(dataset[name]) for name in names if name in dataset and dataset[name].ndim == 0}
     own = {name: f"{value!r} m" if home == "physical" else value for name, value in numbers.items()}
-    return {**data, "profile": fit, home: {**data[home], **own}}
+    given = data.get(home)
+    return {**data, "profile": fit, home: {**(given if isinstance(given, Mapping) else {}), **own}}
 
 
 def _points_of(dataset: xarray.Dataset, data: dict[str, Any], path: Path) -> dict[str, Any]:
@@ -90,42 +89,37 @@ def _points_of(dataset: xarray.Dataset, data: dict[str, Any], path: Path) -> dic
     return {"columns": columns} if columns else {}
 
 
-def _check_variables(dataset: xarray.Dataset, study: Study, path: Path) -> None:
-    """Check that a dataset has what its study asks for, along its axes or a part of them."""
+def _check(dataset: xarray.Dataset, study: Study, path: Path) -> None:
+    """Check that a dataset has what its study describes, along its axes, at its parameters, or at a part of them."""
     sizes = {str(axis): size for axis, size in dataset["status"].sizes.items()}
-    for name in (*study.variables, "status"):
-        if name not in dataset.data_vars and name in study.spreads:
-            continue  # which earlier versions did not write, and nobody recomputes
-        if name not in dataset.data_vars:
-            raise _apart(path, f"its study requests {name}, which the dataset lacks")
-        own = labels_of(name)
-        if dict(dataset[name].sizes) != sizes | ({own: len(study.labels[own])} if own else {}):
-            raise _apart(path, f"the axes of {name} are not those of status")
-    for axis in study.sizes:
-        if axis not in dataset.variables and axis != SCENE:
-            raise DatasetError(f"{path}: was reduced over {axis}: its values are not those of scenes; give the whole")
     for axis, size in sizes.items():
         if size > (own_size := study.sizes.get(axis, 0)):
             raise _apart(path, f"its study has {own_size:,} items of {axis}, the dataset {size:,}")
+    for name, variable in variables(study).items():
+        if name not in dataset.variables:
+            if name in study.spreads:
+                continue  # which earlier versions did not write, and nobody recomputes
+            if name in study.sizes:
+                raise DatasetError(
+                    f"{path}: was reduced over {name}: its values are not those of scenes; give the whole"
+                )
+            raise _apart(path, f"its study has {name}, which the dataset lacks")
+        own = labels_of(name)
+        whole = sizes | ({own: len(study.labels[own])} if own else {})
+        is_output = name in (*study.variables, "status")
+        fits = dict(dataset[name].sizes) == whole if is_output else {*dataset[name].dims} <= {*variable.dimensions}
+        if not fits:
+            raise _apart(path, f"the axes of {name} are not those of its study")
+        if name in study.parameters:
+            here, given = np.ravel(dataset[name].values), np.ravel(study.parameters[name])
+            nearest = given if here.size == given.size else _nearest(given, here)
+            wrong = np.flatnonzero(~np.isclose(here, nearest, rtol=CLOSE, atol=0.0))
+            if wrong.size:
+                at = f"[{wrong[0]}]" if dataset[name].ndim else ""
+                raise _apart(path, f"{name}{at} is {here[wrong[0]]!s}, in its study {nearest[wrong[0]]!s}")
     solvers = [str(solver) for solver in np.ravel(dataset[SOLVER].values if SOLVER in dataset else ())]
     if [solver for solver in np.ravel(study.method.solver) if solver in solvers] != solvers:
         raise _apart(path, "its solvers are not those of its study")
-
-
-def _check_coordinates(dataset: xarray.Dataset, study: Study, path: Path) -> None:
-    """Check that the parameters of a dataset are those of its study, or some of them."""
-    for name, values in study.parameters.items():
-        if name not in dataset.coords:
-            raise _apart(path, f"its study has {name}, which the dataset lacks")
-        here, given = np.ravel(dataset[name].values), np.ravel(values)
-        nearest = given if here.size == given.size else _nearest(given, here)
-        wrong = np.flatnonzero(~np.isclose(here, nearest, rtol=CLOSE, atol=0.0))
-        if wrong.size:
-            at = f"[{wrong[0]}]" if dataset[name].ndim else ""
-            raise _apart(path, f"{name}{at} is {here[wrong[0]]!s}, in its study {nearest[wrong[0]]!s}")
-    for name in study.made:
-        if name not in dataset.coords or not {*dataset[name].dims} <= {*following(study, name)}:
-            raise _apart(path, f"the axes of {name} are not those of its study")
 
 
 def _nearest(given: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np.float64]:

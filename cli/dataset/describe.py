@@ -88,7 +88,7 @@ def steep_contact(study: Study) -> Variable | None:
     return Variable(tuple(study.sizes), "i1", attributes)
 
 
-def following(study: Study, name: str) -> tuple[str, ...]:
+def _following(study: Study, name: str) -> tuple[str, ...]:
     """Name the axes along which a parameter varies that is not given but made from others."""
     from gradhesion.core.closed.reduced import sources_of  # noqa: PLC0415 (300 ms for SciPy)
 
@@ -135,7 +135,7 @@ def _parameters(study: Study) -> dict[str, Variable]:
                 own, values = axes, np.broadcast_to(values, tuple(study.axes.values()))
             found[name] = Variable(own, "f8", attributes, values)
         elif name in study.made:
-            own = following(study, name)
+            own = _following(study, name)
             blank = np.nan if REDUCED.keys() & study.parameters.keys() else None  # where there is no a_2
             found[name] = Variable(own, "f8", attributes, made=partial(_made, study, name, own), blank=blank)
     return found

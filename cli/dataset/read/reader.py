@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.files import is_file, kind_of
+from gradhesion.cli.files import kind_of
 from gradhesion.cli.names.curves import EXTENTS, RAGGED, variables_of_curves
 from gradhesion.cli.names.fits import FIT, FIT_POINTS, PARAMETER_UNITS
 from gradhesion.cli.names.outputs import BEST, OUTPUTS, SI
@@ -60,7 +60,7 @@ def found(path: Path, *, kept: bool) -> "xarray.Dataset":
     import xarray  # noqa: PLC0415 (450 ms that `run` does not need)
 
     kind = kind_of(path)
-    if not is_file(path):
+    if not os.path.isfile(path):  # noqa: PTH113 (that of pathlib raises where a name is too long)
         what = f"is not a file, but {kind or 'cannot be read'}" if os.path.lexists(path) else "does not exist"
         raise DatasetError(f"{path}: {what}; name a dataset that `gradhesion run` wrote")
     try:

@@ -139,7 +139,7 @@ def test_another_toughness_is_told(gradhesion: Call, written: Callable[..., Path
     assert "toughness" in result.stderr
 
 
-LIES = ["nu = 0.29", "not TOML", "[" * 5000, "outputs = []", 'kind = "map"', "a.b.c = 1"]
+LIES = ["nu = 0.29", "not TOML", "[" * 5000, "outputs = []", 'profile = { file = "x.csv" }', "a.b.c = 1"]
 
 
 @pytest.mark.parametrize("text", LIES)
