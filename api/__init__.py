@@ -1,5 +1,4 @@
-"""
-Adhesive contact of wavy punches on power-law graded materials, for scripts and notebooks: `import gradhesion as gr`.
+"""Adhesive contact of wavy punches on power-law graded materials, for scripts and notebooks: `import gradhesion as gr`.
 
 Names are imported when they are first asked for, so that the import itself costs next to nothing. Datasets of xarray
 have the accessor `dataset.gr` from the first call of a function of this package on, or from its import on where xarray

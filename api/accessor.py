@@ -15,8 +15,7 @@ from gradhesion.core.problem.status import ANOTHER_MINIMUM, FAILED, OF_FITS, POO
 
 @xarray.register_dataset_accessor("gr")  # type: ignore[no-untyped-call]
 class Accessor:
-    """
-    What the bits of `status` say, scene by scene; `dataset.gr` of any dataset of this program.
+    """What the bits of `status` say, scene by scene; `dataset.gr` of any dataset of this program.
 
     Raises
     ------
@@ -52,8 +51,7 @@ class Accessor:
         )
 
     def valid(self, variable: str | None = None) -> xarray.DataArray:
-        """
-        Report which scenes have valid values.
+        """Report which scenes have valid values.
 
         Parameters
         ----------
@@ -80,8 +78,7 @@ class Accessor:
         return (self._dataset["status"].astype(np.int16) & bits) == 0
 
     def flagged(self, flag: str) -> xarray.DataArray:
-        """
-        Report which scenes have a flag.
+        """Report which scenes have a flag.
 
         Parameters
         ----------
@@ -103,8 +100,7 @@ class Accessor:
         return (self._dataset["status"].astype(np.int16) & known[flag]) != 0
 
     def outside(self, number: str = "contact_slope") -> xarray.DataArray:
-        """
-        Report which scenes leave the range of the model, by a validity number.
+        """Report which scenes leave the range of the model, by a validity number.
 
         Parameters
         ----------

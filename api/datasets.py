@@ -20,8 +20,7 @@ Data = xarray.Dataset | str | Path
 
 
 def open_dataset(file: str | Path) -> xarray.Dataset:
-    """
-    Open a dataset that `gradhesion run` wrote, or `dataset.to_netcdf`; values are read when they are used.
+    """Open a dataset that `gradhesion run` wrote, or `dataset.to_netcdf`; values are read when they are used.
 
     Parameters
     ----------
@@ -48,8 +47,7 @@ def open_dataset(file: str | Path) -> xarray.Dataset:
 
 
 def verify(dataset: Data, *, sample: int = 20, seed: int | None = None) -> "Recomputed":
-    """
-    Recompute a random sample of a map's scenes to 30 digits by other means, and compare.
+    """Recompute a random sample of a map's scenes to 30 digits by other means, and compare.
 
     Parameters
     ----------
@@ -92,8 +90,7 @@ def verify(dataset: Data, *, sample: int = 20, seed: int | None = None) -> "Reco
 
 
 def data_of(dataset: Data) -> AbstractContextManager[xarray.Dataset]:
-    """
-    Open a dataset, if it is not open; one whose variables were given other units is taken in those of our files.
+    """Open a dataset, if it is not open; one whose variables were given other units is taken in those of our files.
 
     DatasetError says that it was not written by this program.
     """

@@ -58,8 +58,7 @@ class Given:
         self.mistakes.append(f"{self.caller}: {what}: {sentence}")
 
     def study(self) -> Study:
-        """
-        Check everything as a study is checked; of arrays the ends of their values stand in it.
+        """Check everything as a study is checked; of arrays the ends of their values stand in it.
 
         StudyError lists all that is wrong.
         """
@@ -82,8 +81,7 @@ class Given:
         return study
 
     def parameters(self, study: Study) -> dict[str, float | xarray.DataArray]:
-        """
-        Give every parameter of the checked study: a number, or an array over its dimensions.
+        """Give every parameter of the checked study: a number, or an array over its dimensions.
 
         Of points all of them are arrays over all points.
         """
@@ -150,8 +148,7 @@ def given_in(
     settings: Mapping[str, Any],
     threads: object = None,
 ) -> Given:
-    """
-    Take the arguments of a call apart, which is named in messages: parameters in a mapping, and as keywords.
+    """Take the arguments of a call apart, which is named in messages: parameters in a mapping, and as keywords.
 
     These stand in the place of those in the mapping; `settings` are the arguments that stand for other keys of a study.
     """

@@ -91,8 +91,7 @@ def plot(
     inset: Limits | None = None,
     band: Literal["quantiles", "std", "none"] | None = None,
 ) -> Panels:
-    r"""
-    Draw a dataset: lines over one axis, a map over two, panels of maps over more; curves as curves, a fit as a whole.
+    r"""Draw a dataset: lines over one axis, a map over two, panels of maps over more; curves as curves, a fit whole.
 
     Parameters
     ----------
@@ -178,8 +177,7 @@ def explore(
     at: Mapping[str, Any] | None = None,
     overwrite: bool = False,
 ) -> Path:
-    """
-    Write a dataset as one page with maps, sections and sliders, for any browser.
+    """Write a dataset as one page with maps, sections and sliders, for any browser.
 
     Parameters
     ----------

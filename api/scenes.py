@@ -46,8 +46,7 @@ def solve(
     title: str | None = None,
     **more: Any,
 ) -> xarray.Dataset:
-    """
-    Solve scenes: every combination of axes, or arrays over named dimensions.
+    """Solve scenes: every combination of axes, or arrays over named dimensions.
 
     Parameters
     ----------
@@ -149,8 +148,7 @@ def curves(
     title: str | None = None,
     **more: Any,
 ) -> xarray.Dataset:
-    """
-    Draw the curves of scenes: contact radius, depth and load at points that adapt to them.
+    """Draw the curves of scenes: contact radius, depth and load at points that adapt to them.
 
     Parameters
     ----------

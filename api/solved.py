@@ -24,8 +24,7 @@ Arrays = Mapping[str, float | xarray.DataArray]
 
 
 def solved(study: Study, parameters: Arrays, threads: int | None = None) -> xarray.Dataset:
-    """
-    Solve the scenes of a study whose parameters, in plain numbers (SI), stand over dimensions of any names.
+    """Solve the scenes of a study whose parameters, in plain numbers (SI), stand over dimensions of any names.
 
     The study says what is asked for; its own parameters count by their names only, and without a text the dataset has
     no study. Of a grid or of points the dataset is that which `gradhesion.cli.dataset.compute` gives.
@@ -80,8 +79,7 @@ def _as_read(variable: Variable, dims: list[str], values: NDArray[Any], beside: 
 
 
 def sizes_of(parameters: Arrays) -> dict[str, int]:
-    """
-    List the dimensions of parameters: those of other names as they are met, then the axes as a study orders them.
+    """List the dimensions of parameters: those of other names as they are met, then the axes as a study orders them.
 
     >>> A, k = xarray.DataArray([[0.1], [0.2]], dims=["nu", "x"]), xarray.DataArray([0.0, 0.5], dims="k")
     >>> sizes_of({"A": A, "k": k, "modulus": 500.0})

@@ -23,8 +23,7 @@ def load(
     *,
     set: Mapping[str, Any] | None = None,  # noqa: A002 (as the option --set)
 ) -> Study | FitStudy:
-    """
-    Read a study, check it as a whole, and expand its axes.
+    """Read a study, check it as a whole, and expand its axes.
 
     Parameters
     ----------
@@ -66,8 +65,7 @@ def run(
     set: Mapping[str, Any] | None = None,  # noqa: A002 (as the option --set)
     threads: int | None = None,
 ) -> xarray.Dataset:
-    """
-    Compute a study in memory.
+    """Compute a study in memory.
 
     Parameters
     ----------

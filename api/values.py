@@ -12,8 +12,7 @@ from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
 
 
 def array_of(name: str, value: Any) -> xarray.DataArray:
-    """
-    Give the value of a parameter as an array; plain arrays of one dimension are axes of its name.
+    """Give the value of a parameter as an array; plain arrays of one dimension are axes of its name.
 
     ValueError says that it has no shape, or more dimensions than have names.
 
@@ -64,8 +63,7 @@ def _plain(name: str, array: xarray.DataArray) -> xarray.DataArray:
 
 
 def numbers_of(name: str, array: xarray.DataArray) -> NDArray[np.float64] | None:
-    """
-    Give the values of a parameter as plain numbers, those of quantities in SI units; None if they are neither.
+    """Give the values of a parameter as plain numbers, those of quantities in SI units; None if they are neither.
 
     Strings have their units with them, an array may have them as its attribute `units`; numbers without are in SI.
     ValueError says that the unit is not known, or has another dimension.

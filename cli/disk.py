@@ -45,8 +45,7 @@ def rewritten(path: Path) -> Iterator[BinaryIO]:
 
 @contextmanager
 def replacement(path: Path, *, overwrite: bool) -> Iterator[Path]:
-    """
-    Give a temporary file beside `path` that takes its place, complete and on disk, when the body ends.
+    """Give a temporary file beside `path` that takes its place, complete and on disk, when the body ends.
 
     If the body fails, or is interrupted, the temporary file goes and what stood at `path` is as it was.
 
@@ -82,8 +81,7 @@ def refuse_existing(path: Path, *, overwrite: bool) -> None:
 
 
 def settle(temporary: Path, path: Path, *, overwrite: bool) -> None:
-    """
-    Give a finished file its name as soon as it is on disk; nothing is replaced without `overwrite`.
+    """Give a finished file its name as soon as it is on disk; nothing is replaced without `overwrite`.
 
     Raises
     ------

@@ -1,5 +1,4 @@
-"""
-The ways to fail: one exception and one exit code each; every message says what to do next.
+"""The ways to fail: one exception and one exit code each; every message says what to do next.
 
 They are plain exceptions, for the command line (`gradhesion.cli.main` prints them) as for a notebook.
 """
@@ -23,8 +22,7 @@ EXIT_CODES: Final = {
 
 
 class GradhesionError(Exception):
-    """
-    A failure that the user can fix: `mistakes` has a sentence for each thing that is wrong, `str()` all of them.
+    """A failure that the user can fix: `mistakes` has a sentence for each thing that is wrong, `str()` all of them.
 
     Parameters
     ----------

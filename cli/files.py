@@ -30,8 +30,7 @@ _ENDINGS: Final = {
 
 
 def read_at_most(path: Path, most: int) -> bytes:
-    """
-    Read a file of at most so many bytes, and nothing else: a device has no end, and a pipe may never begin.
+    """Read a file of at most so many bytes, and nothing else: a device has no end, and a pipe may never begin.
 
     Raises
     ------
@@ -47,8 +46,7 @@ def read_at_most(path: Path, most: int) -> bytes:
 
 
 def kind_of(path: Path) -> str:
-    """
-    Say what stands at a path, by how it begins and by its name; "" where nothing is known of it.
+    """Say what stands at a path, by how it begins and by its name; "" where nothing is known of it.
 
     >>> kind_of(Path("/"))
     'a directory'
@@ -66,8 +64,7 @@ def kind_of(path: Path) -> str:
 
 
 def kind_by_content(begins: bytes) -> str:
-    r"""
-    Say what a file is by how it begins; "" where that may be anything.
+    r"""Say what a file is by how it begins; "" where that may be anything.
 
     >>> kind_by_content(b"PK\x03\x04 and so on")
     'an archive (ZIP, or a workbook)'

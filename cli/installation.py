@@ -10,8 +10,7 @@ from gradhesion.cli.errors import CompilerError, MissingExtraError
 
 
 def unmet() -> list[tuple[str, str, str]]:
-    """
-    List the requirements that the installed packages do not meet: of this package, and of those that it needs.
+    """List the requirements that the installed packages do not meet: of this package, and of those that it needs.
 
     Returns
     -------
@@ -71,8 +70,7 @@ def checked() -> Iterator[None]:
 
 
 def refuse_without_threads() -> None:
-    """
-    Make sure that the compiler may have a thread: numba fails at its import otherwise, or prints a traceback.
+    """Make sure that the compiler may have a thread: numba fails at its import otherwise, or prints a traceback.
 
     An empty number is that of a shell variable which is not set; it is removed.
 

@@ -11,8 +11,7 @@ _GROUP_OF_PROCESS: Final = Path("/proc/self/cgroup")
 
 
 def processors() -> int:
-    """
-    Count the processors that this process may use.
+    """Count the processors that this process may use.
 
     A job with 4 of 96 processors is bound to these (its affinity); a container may run on all 96 and have the time of 4
     (its quota). More threads than that wait for each other.
@@ -48,8 +47,7 @@ def _quota() -> float:
 
 
 def _share(limit: str) -> float:
-    """
-    Read a limit, the time of a group and the period that it is for.
+    """Read a limit, the time of a group and the period that it is for.
 
     >>> _share("150000 100000"), _share("max 100000"), _share("-1 100000")
     (1.5, inf, inf)

@@ -79,8 +79,7 @@ def within_reach(parameters: Mapping[str, float], outputs: Collection[str], solv
 def expected(
     parameters: Mapping[str, float], outputs: Collection[str], solver: str, shape: Shape = PLAIN
 ) -> dict[str, Expected]:
-    """
-    Solve a scene for the outputs that the twin knows.
+    """Solve a scene for the outputs that the twin knows.
 
     Parameters
     ----------
@@ -176,8 +175,7 @@ def _reduced_modulus(parameters: Mapping[str, float]) -> arb:
 
 
 def in_si(found: Mapping[str, Expected], parameters: Mapping[str, float]) -> dict[str, Expected]:
-    """
-    Give expected values in SI units, by the name of the output with `_si` after it.
+    """Give expected values in SI units, by the name of the output with `_si` after it.
 
     >>> depth = {"delta_max": Expected(arb(0.25), 1e-14)}
     >>> float(in_si(depth, {"R": 2.0, "work_of_adhesion": 0.5})["delta_max_si"].value)

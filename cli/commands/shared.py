@@ -33,8 +33,7 @@ choosing = click.option(
 
 
 def example(*calls: str) -> str:
-    r"""
-    Write calls of the program below each other, as click leaves them.
+    r"""Write calls of the program below each other, as click leaves them.
 
     >>> example("init", "init curve")
     '\x08\nExamples:\n  gradhesion init\n  gradhesion init curve'

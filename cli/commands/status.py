@@ -30,7 +30,10 @@ def status(file: Path, as_json: bool) -> None:
     else:
         left = found["seconds_left"]
         end = f"; about {duration(left)} left" if left is not None else ""
-        end = "; the same command resumes" if found["state"] == "stopped" else end
+        if found["state"] == "stopped":
+            whole = found["kept"] == found["blocks"] > 0
+            end = "; `gradhesion merge` joins shards, and" if whole else ";"
+            end += " the same command resumes"
         kept = f"{found['kept']:,} of {counted(found['blocks'], 'block')} ({found['scenes']:,} scenes) are kept"
         show(f"{file}: {found['state']}; {kept}{end}")
 

@@ -32,8 +32,7 @@ def study_of(
     kinds: Sequence[str] = ("map",),
     wanted: str = "`gradhesion verify` accepts only maps",
 ) -> Study:
-    """
-    Read the study of some kinds out of its dataset; `wanted` says of another which are wanted.
+    """Read the study of some kinds out of its dataset; `wanted` says of another which are wanted.
 
     Raises
     ------
@@ -123,8 +122,7 @@ def _check(dataset: xarray.Dataset, study: Study, path: Path) -> None:
 
 
 def _nearest(given: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """
-    Find for each of some values the nearest of those that a study gives.
+    """Find for each of some values the nearest of those that a study gives.
 
     >>> _nearest(np.array([np.inf, 1.0, 2.0]), np.array([1.9, np.inf]))
     array([ 2., inf])

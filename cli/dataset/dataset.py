@@ -26,8 +26,7 @@ if TYPE_CHECKING:
 
 
 def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
-    """
-    Compute a study in memory.
+    """Compute a study in memory.
 
     Parameters
     ----------

@@ -34,8 +34,7 @@ SHARED: Final = (
 
 
 def joined(sources: Mapping[Path, xarray.Dataset], history: str) -> tuple[Study, xarray.Dataset]:
-    """
-    Join datasets in memory; where several have a scene, the first one's values hold.
+    """Join datasets in memory; where several have a scene, the first one's values hold.
 
     Raises
     ------

@@ -17,8 +17,7 @@ from gradhesion.cli.terminal.amounts import counted
 
 
 def selected(dataset: xarray.Dataset, at: Sequence[str] = (), over: Sequence[str] = ()) -> xarray.Dataset:
-    """
-    Take a part of a dataset: axes fixed or cut, as `selection_of` reads it, then axes reduced; of fits one loop.
+    """Take a part of a dataset: axes fixed or cut, as `selection_of` reads it, then axes reduced; of fits one loop.
 
     A flag of a reduced scene is that of any of those that it is reduced from. A part without reductions is loaded when
     it is used.
@@ -62,8 +61,7 @@ def _reduced(dataset: xarray.Dataset, selection: Selection) -> xarray.Dataset:
 
 
 def one_loop(dataset: xarray.Dataset, choices: Sequence[str]) -> xarray.Dataset:
-    """
-    Take the loop that `loop=FILE` or `loop=NUMBER` (from 0) wishes, without what it is padded with.
+    """Take the loop that `loop=FILE` or `loop=NUMBER` (from 0) wishes, without what it is padded with.
 
     Raises
     ------

@@ -84,8 +84,7 @@ class Recomputed:
 
 
 def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | None, progress: Progress) -> Recomputed:
-    """
-    Recompute a random sample of a dataset's scenes.
+    """Recompute a random sample of a dataset's scenes.
 
     Raises
     ------

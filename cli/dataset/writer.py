@@ -68,8 +68,7 @@ def write(
     threads: int | None = None,
     advance: Advance = lambda *_, **__: None,
 ) -> Written:
-    """
-    Compute a study into a file, which takes the place of `path` when it is complete and on disk.
+    """Compute a study into a file, which takes the place of `path` when it is complete and on disk.
 
     Until then each finished block of a map of several is kept beside it, and the next call reuses it.
 

@@ -20,8 +20,7 @@ MOST: Final = 20_000_000
 
 
 def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[str]) -> xarray.Dataset:
-    """
-    Cut a dataset down to some variables and to some values of axes; `status` stays.
+    """Cut a dataset down to some variables and to some values of axes; `status` stays.
 
     See Also
     --------

@@ -35,8 +35,7 @@ Entry = dict[str, Any]
 
 
 def rounded(values: NDArray[Any]) -> NDArray[np.floating[Any]]:
-    """
-    Round values to 6 digits, in single precision where its range holds them: written to 6 digits they are exact.
+    """Round values to 6 digits, in single precision where its range holds them: written to 6 digits they are exact.
 
     >>> rounded(np.array([0.12345649, 1234565.1]))
     array([1.23456e-01, 1.23457e+06], dtype=float32)
@@ -54,8 +53,7 @@ def rounded(values: NDArray[Any]) -> NDArray[np.floating[Any]]:
 
 
 def study_data(dataset: xarray.Dataset, units: Mapping[str, Unit] = MappingProxyType({})) -> tuple[Entry, list[Entry]]:
-    """
-    Make the data of a page from a dataset that is cut down to what it shall show.
+    """Make the data of a page from a dataset that is cut down to what it shall show.
 
     Parameters
     ----------
@@ -113,8 +111,7 @@ def _words(name: str, title: str, values: list[str]) -> Entry:
 
 
 def _placed(values: NDArray[np.float64]) -> Entry:
-    """
-    Place numbers in rising order along a picture, at their logarithms if it has that scale; inf stands one step beyond.
+    """Place rising numbers along a picture, at their logarithms if it has that scale; inf stands one step beyond.
 
     >>> _placed(np.array([1.0, 2.0, np.inf]))["places"]
     array([1., 2., 3.])

@@ -21,8 +21,7 @@ UNLOADING: Final = [9, 6]
 
 
 def lines_of(dataset: xarray.Dataset) -> tuple[list[Plane], dict[str, Unit], Entry]:
-    """
-    List the planes that a dataset of curves fills, and the lines in them, in units if it has them.
+    """List the planes that a dataset of curves fills, and the lines in them, in units if it has them.
 
     Returns
     -------
@@ -65,8 +64,7 @@ def _line(track: Track) -> Entry:
 
 
 def _pixels(dash: Dash, width: float) -> list[int]:
-    """
-    Write a dash in pixels; none is a full line.
+    """Write a dash in pixels; none is a full line.
 
     >>> _pixels("-", 1.0), _pixels((0, (3, 2)), 2.0)
     ([], [9, 6])

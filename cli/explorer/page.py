@@ -29,8 +29,7 @@ _SCRIPTS: Final = ("numbers", "scene", "controls", "maps", "sections", "curves",
 
 
 def page(dataset: xarray.Dataset, file: str, variables: Sequence[str], places: Sequence[str]) -> str:
-    """
-    Write a dataset as a page.
+    """Write a dataset as a page.
 
     Parameters
     ----------

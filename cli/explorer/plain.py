@@ -18,8 +18,7 @@ _WORDS: Final = {
 
 
 def symbol(name: str) -> str:
-    """
-    Name a variable at an axis.
+    """Name a variable at an axis.
 
     >>> symbol("a_max_over_R"), symbol("dissipated_energy"), symbol("load")
     ('aₘₐₓ/R', 'dissipated energy H/(R²Δγ)', 'load')
@@ -28,8 +27,7 @@ def symbol(name: str) -> str:
 
 
 def plain(text: str) -> str:
-    r"""
-    Write what a picture writes in TeX in Unicode.
+    r"""Write what a picture writes in TeX in Unicode.
 
     >>> plain(r"load $P\,/\,\frac{3}{2}\pi R\Delta\gamma$"), plain("depth $a$ (nm)")
     ('load P/1.5 πRΔγ', 'depth a (nm)')
@@ -40,8 +38,7 @@ def plain(text: str) -> str:
 
 
 def title(name: str, long_name: str) -> str:
-    """
-    Name a variable in a list that may be cut short: as a picture does, a letter alone with its meaning behind it.
+    """Name a variable in a list that may be cut short: as a picture does, a letter alone with its meaning behind it.
 
     >>> title("lambda_over_R", "wavelength lambda/R of the waviness"), title("pull_off_force", "pull-off force F/...")
     ('λ/R – wavelength of the waviness', 'pull-off force F/(1.5 πRΔγ)')
@@ -54,8 +51,7 @@ def title(name: str, long_name: str) -> str:
 
 
 def words(long_name: str) -> str:
-    """
-    Write a `long_name` with the letters of the field.
+    """Write a `long_name` with the letters of the field.
 
     >>> words("pull-off force F/(1.5 pi R dgamma)"), words("reduced modulus E* = E0/(1 - nu^2)")
     ('pull-off force F/(1.5 π R Δγ)', 'reduced modulus E* = E₀/(1 − ν²)')

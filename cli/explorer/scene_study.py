@@ -15,8 +15,7 @@ from gradhesion.core.problem.inputs import INPUTS
 
 
 def scene_study(dataset: xarray.Dataset) -> Entry:
-    """
-    Describe the study of one scene but for the values of its parameters, as the study that the dataset holds has it.
+    """Describe the study of one scene but for the values of its parameters, as the study that the dataset holds has it.
 
     Returns
     -------

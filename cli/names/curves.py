@@ -36,8 +36,7 @@ _CURVE_OF: Final = {variable: curve for curve, own in CURVES.items() for variabl
 
 
 def curve_of(variable: str) -> str | None:
-    """
-    Name the curve that a variable belongs to, None if to none.
+    """Name the curve that a variable belongs to, None if to none.
 
     >>> curve_of("path_load_si"), curve_of("dissipated_energy")
     ('path', None)
@@ -46,8 +45,7 @@ def curve_of(variable: str) -> str | None:
 
 
 def is_of_a_state(variable: str) -> bool:
-    """
-    Report whether a variable belongs to a curve of a state.
+    """Report whether a variable belongs to a curve of a state.
 
     >>> is_of_a_state("surface_gap_si"), is_of_a_state("path_load")
     (True, False)
@@ -56,8 +54,7 @@ def is_of_a_state(variable: str) -> bool:
 
 
 def extent_of(variable: str) -> str:
-    """
-    Name the dimension along the curve that a variable belongs to.
+    """Name the dimension along the curve that a variable belongs to.
 
     >>> extent_of("path_load")
     'path_point'
@@ -66,8 +63,7 @@ def extent_of(variable: str) -> str:
 
 
 def is_ragged(variable: str) -> bool:
-    """
-    Report whether a variable has the items of one scene after those of the other.
+    """Report whether a variable has the items of one scene after those of the other.
 
     >>> is_ragged("jump_energy"), is_ragged("jump_count"), is_ragged("path_load")
     (True, False, False)
@@ -77,8 +73,7 @@ def is_ragged(variable: str) -> bool:
 
 
 def variables_of_curves(there: Container[Any]) -> dict[str, list[str]]:
-    """
-    List the variables of each curve among some names, those in SI after the others; a curve without any is left out.
+    """List the variables of each curve among some names, those in SI after the others; a curve without any is left out.
 
     >>> variables_of_curves(["status", "path_load", "path_jump", "path_load_si"])
     {'path': ['path_load', 'path_jump', 'path_load_si']}

@@ -31,8 +31,7 @@ OF_PHYSICAL: Final = "_physical"
 
 
 def labels_of(variable: str) -> str:
-    """
-    Name the dimension that a variable of a map has after those of the scenes; empty if it has none.
+    """Name the dimension that a variable of a map has after those of the scenes; empty if it has none.
 
     >>> labels_of("pull_off_force_sensitivity"), labels_of("pull_off_force")
     ('parameter', '')
@@ -66,8 +65,7 @@ _SPREAD_OF: Final = {f"{name}_{how}": name for name in SPREADABLE for how in SPR
 
 
 def value_of(variable: str) -> str:
-    """
-    Name the output that a variable of a map says something of: itself, or what it is the spread of.
+    """Name the output that a variable of a map says something of: itself, or what it is the spread of.
 
     >>> value_of("pull_off_force_std_linear_si"), value_of("delta_max")
     ('pull_off_force', 'delta_max')

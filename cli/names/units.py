@@ -12,8 +12,7 @@ UNITS: Final = _OWN | {name: _OWN[value_of(name)] for name in SPREADS if value_o
 
 
 def unit_of(name: str) -> str:
-    """
-    Give the unit of a variable of a dataset, as UDUNITS writes it.
+    """Give the unit of a variable of a dataset, as UDUNITS writes it.
 
     >>> unit_of("R"), unit_of("chi"), unit_of("dissipated_energy"), unit_of("dissipated_energy_si")
     ('m', '1', '1', 'J')

@@ -88,8 +88,7 @@ def drawn_curves(
     data: Path | None,
     notes: Callable[[str], None],
 ) -> Figure:
-    """
-    Draw curves of a dataset into three panels, in units if it has them; without any asked for, all of them.
+    """Draw curves of a dataset into three panels, in units if it has them; without any asked for, all of them.
 
     With x or y, the contact radius, indentation or load, those panels alone are drawn that have it there. Curves of
     states, over the distance from the axis, are drawn where they alone are asked for or there. Measured points come
@@ -155,8 +154,7 @@ def drawn_curves(
 
 
 def wants_si(there: Iterable[str], requested: Sequence[str]) -> bool:
-    """
-    Choose whether curves are drawn in units: they are if the dataset has them, unless variables without are asked for.
+    """Choose whether curves are drawn in units: they are if the dataset has them, and no variable without is asked for.
 
     >>> wants_si(["path_load", "path_load_si"], ["path"]), wants_si(["path_load", "path_load_si"], ["path_load"])
     (True, False)

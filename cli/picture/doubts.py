@@ -79,8 +79,7 @@ def doubts_in(status: NDArray[Any], variable: str, dataset: xarray.Dataset) -> l
 
 
 def marks_of(dataset: xarray.Dataset, values: xarray.DataArray, status: xarray.DataArray, name: str) -> Marks:
-    """
-    Mark the scenes of what is drawn of a variable that are in doubt, or beyond the range of the model, or at a bound.
+    """Mark the scenes of what is drawn of a variable that are in doubt, beyond the range of the model, or at a bound.
 
     A validity number shows its own limit alone. What is taken over an axis is marked if any scene on it is; what has no
     value is not.

@@ -52,8 +52,7 @@ LISTED: Final = 12
 def drawn_fits(
     dataset: xarray.Dataset, looks: Looks = PLAIN, choices: Sequence[str] = (), at: Sequence[str] = ()
 ) -> Figure:
-    """
-    Draw a fit, or of several loops a panel for each parameter: values with intervals, or a histogram of many.
+    """Draw a fit, or of several loops a panel for each parameter: values with intervals, or a histogram of many.
 
     `choices` are the options that were chosen of axes and variables, which fits do not have; `at` takes one of several
     loops, `loop=FILE` or `loop=NUMBER`.
@@ -104,8 +103,7 @@ def _found(dataset: xarray.Dataset) -> list[str]:
 
 
 def named(name: str, values: Any) -> tuple[str, Unit]:
-    """
-    Name what is fitted, with a unit that suits its values.
+    """Name what is fitted, with a unit that suits its values.
 
     >>> named("load_slope", [2e-3]), named("exponent", [0.5])
     (('tilt of the load', Unit(symbol='mN/m', power=-3)), ('exponent', Unit(symbol='', power=0)))
@@ -115,8 +113,7 @@ def named(name: str, values: Any) -> tuple[str, Unit]:
 
 
 def in_words(name: str, value: float, low: float, high: float) -> str:
-    r"""
-    Write a fitted value and its interval to two digits of the half of that.
+    r"""Write a fitted value and its interval to two digits of the half of that.
 
     >>> in_words("wavelength", 4.99918e-7, 4.99733e-7, 5.00107e-7), in_words("A", 0.0120055, 0.011965, 0.012046)
     ('$\\lambda$ = 499.92 (499.73 to 500.11) nm', '$A$ = 0.012006 (0.011965 to 0.012046)')

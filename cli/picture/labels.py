@@ -28,8 +28,7 @@ class Unit:
         return number(value / 10.0**self.power, digits)
 
     def numbers(self, values: Any) -> list[str]:
-        """
-        Write values in this unit, with so many digits that what differs reads differently.
+        """Write values in this unit, with so many digits that what differs reads differently.
 
         >>> Unit().numbers([1.0, 1.00001]), Unit(symbol="nm", power=-9).numbers([2e-6, 2.00025e-6])
         (['1', '1.00001'], ['2000', '2000.25'])
@@ -48,8 +47,7 @@ PLAIN: Final = Unit()
 
 
 def unit_for(name: str, values: Any, *, log: bool = False) -> Unit:
-    """
-    Choose a unit for values in SI, so that the greatest of them is 1 to 1000; on a logarithmic axis as many as can be.
+    """Choose a unit for values in SI: the greatest of them is 1 to 1000; on a logarithmic axis as many as can be.
 
     >>> unit_for("R", [5e-9, 5e-6]), unit_for("R", [5e-9, 5e-6], log=True), unit_for("A", [0.1])
     (Unit(symbol='µm', power=-6), Unit(symbol='nm', power=-9), Unit(symbol='', power=0))
@@ -74,8 +72,7 @@ def _symbol(unit: str) -> str:
 
 
 def number(value: float, digits: int = 4) -> str:
-    r"""
-    Write a number for a picture, to some digits; whole numbers below 100,000 to all.
+    r"""Write a number for a picture, to some digits; whole numbers below 100,000 to all.
 
     >>> number(0.25), number(1e-6), number(12346), number(float("inf")), number(float("nan"))
     ('0.25', '$10^{-6}$', '12346', '$\\infty$', 'nan')
@@ -90,8 +87,7 @@ def number(value: float, digits: int = 4) -> str:
 
 
 def equations(name: str, values: Any) -> list[str]:
-    r"""
-    Say of each of some values that a parameter has it, with so many digits that all differ.
+    r"""Say of each of some values that a parameter has it, with so many digits that all differ.
 
     >>> equations("A", [0.02, 0.020001]), equations("c0", [1e-8]), equations("solver", ["exact"])
     (['$A$ = 0.02', '$A$ = 0.020001'], ['$c_0$ = 10 nm'], ['exact'])
@@ -106,8 +102,7 @@ def equations(name: str, values: Any) -> list[str]:
 
 
 def label(name: str, unit: Unit | None = None) -> str:
-    """
-    Name a variable at an axis of a picture.
+    """Name a variable at an axis of a picture.
 
     >>> label("A"), label("R"), label("path_contact_radius_si", Unit(symbol="nm", power=-9))
     ('$A$', '$R$ (m)', 'contact radius $a$ (nm)')
@@ -117,8 +112,7 @@ def label(name: str, unit: Unit | None = None) -> str:
 
 
 def given(names: Any) -> list[str]:
-    """
-    List the keys among some names that give parameters; not the parameters that follow from others.
+    """List the keys among some names that give parameters; not the parameters that follow from others.
 
     >>> given(["k", "modulus", "lambda_over_R", "lambda_over_L", "pull_off_force"])
     ['k', 'modulus', 'lambda_over_L']

@@ -59,8 +59,7 @@ class Span:
     def limits(
         self, name: str, least: float = -math.inf, greatest: float = math.inf, *, log: bool = False
     ) -> tuple[float, float]:
-        """
-        Give the ends in SI, -inf and inf where there is none, on the axis of a variable with values between two others.
+        """Give the ends in SI, -inf and inf where there is none, on the axis of a variable with values between two.
 
         >>> Span(option="xlim", low="50 nm", high="2e-6").limits("R")
         (5e-08, 2e-06)
@@ -139,8 +138,7 @@ PLAIN: Final = Looks()
 
 
 def looks_of(**chosen: Any) -> Looks:
-    """
-    Check what a user has chosen, by the fields of `Looks`; None is no choice.
+    """Check what a user has chosen, by the fields of `Looks`; None is no choice.
 
     >>> looks_of(width="column").width, looks_of(levels="0.5, 1, 2").levels, looks_of(levels="8").levels
     (3.5433070866141736, (0.5, 1.0, 2.0), 8)
@@ -223,8 +221,7 @@ def _near(value: Any, known: Any) -> str:
 
 
 def _span(option: str, value: Any) -> Span:
-    """
-    Read what a user writes: "LOW:HIGH", or two ends in a sequence.
+    """Read what a user writes: "LOW:HIGH", or two ends in a sequence.
 
     >>> [(span.low, span.high) for span in (_span("xlim", "0.1:1 um"), _span("xlim", (0.1, None)))]
     [('0.1', '1 um'), ('0.1', None)]

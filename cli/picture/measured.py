@@ -51,8 +51,7 @@ class Points:
 
 
 def read_points(file: Path, planes: Sequence[tuple[str, str]], *, si: bool) -> Points:
-    """
-    Read measured points for a picture with some planes, from a table (CSV or NetCDF).
+    """Read measured points for a picture with some planes, from a table (CSV or NetCDF).
 
     It has two or more of the columns indentation, load (positive presses) and contact_radius; other columns are left
     aside, and so are rows without a number. The header has units if the picture has; else the columns are delta/R,

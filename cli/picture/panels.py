@@ -31,8 +31,7 @@ LIGHT: Final = 0.2
 
 
 def draw_map(axes: Axes, shown: Shown, x: Scale, y: Scale, looks: Looks) -> tuple[Any, QuadContourSet | None]:
-    """
-    Draw values as filled contours with lines at some levels; doubtful ones are hatched, what has none is grey.
+    """Draw values as filled contours with lines at some levels; doubtful ones are hatched, what has none is grey.
 
     Returns
     -------
@@ -101,8 +100,7 @@ def number_contours(lines: QuadContourSet, shown: Shown) -> None:
 
 
 def draw_lines(axes: Axes, shown: Shown, x: Scale, plan: Plan, looks: Looks) -> None:
-    """
-    Draw a line for each value of the second axis, or points of a colour, with their bands.
+    """Draw a line for each value of the second axis, or points of a colour, with their bands.
 
     A value between two gaps shows as a dot. Doubtful values have open markers, and a cross at the foot of the panel
     stands where there is none.

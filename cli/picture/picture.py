@@ -29,8 +29,7 @@ def picture_of(
     data: Path | None = None,
     notes: Callable[[str], None] = lambda _: None,
 ) -> Figure:
-    """
-    Draw a dataset of any kind, as `gradhesion plot` and `gr.plot` do.
+    """Draw a dataset of any kind, as `gradhesion plot` and `gr.plot` do.
 
     Axes are fixed or reduced by `at` and `over`, as options write them; `notes` takes what is to be known of that.
     """

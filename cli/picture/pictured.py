@@ -62,8 +62,7 @@ def finish(
     entries: Sequence[Artist] = (),
     laid_out: bool = False,
 ) -> None:
-    """
-    Size a picture, and put the words around its panels: title and caption above, a legend below.
+    """Size a picture, and put the words around its panels: title and caption above, a legend below.
 
     The size in inches is that which suits its panels; words and sides that are chosen come first. Numbers on contours
     and an inset need it `laid_out`, with everything in its place.
@@ -124,8 +123,7 @@ def _drawable(text: str) -> str:
 
 
 def _unbroken(words: str) -> str:
-    r"""
-    Keep an equation of a caption in one line, wherever matplotlib wraps the others.
+    r"""Keep an equation of a caption in one line, wherever matplotlib wraps the others.
 
     >>> _unbroken(r"$\pi R$ = 10 nm") == "$\\pi{}R$\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}10\N{NO-BREAK SPACE}nm"
     True

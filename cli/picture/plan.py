@@ -78,8 +78,7 @@ def planned(
 
 
 def plan_of(sizes: Mapping[str, int], x: str | None = None, y: str | None = None, kind: Kind | None = None) -> Plan:
-    """
-    Give the finest axes to the panels, the next two to columns and rows.
+    """Give the finest axes to the panels, the next two to columns and rows.
 
     Solvers are the lines of a panel if nothing else is, and columns otherwise. What is asked for comes first.
 
@@ -138,8 +137,7 @@ def within(dataset: xarray.Dataset, plan: Plan, looks: Looks) -> xarray.Dataset:
 
 
 def some_of(dataset: xarray.Dataset, plan: Plan) -> xarray.Dataset:
-    """
-    Choose what is drawn of each axis: some values in panels, the middle where there is no place, else nearly all.
+    """Choose what is drawn of each axis: some values in panels, the middle where there is no place, else nearly all.
 
     Panels that are some of many leave the value out at which a side of theirs has no effect, as that of smooth punches.
     """

@@ -111,8 +111,7 @@ class Scale:
 
 
 def scale(values: Places, name: str = "", span: Span = ALL) -> Scale:
-    """
-    Choose the scale of an axis of a name: logarithmic where its values are nearer to that than to an even spacing.
+    """Choose the scale of an axis of a name: logarithmic where its values are nearer to that than to an even spacing.
 
     Its values rise. Of a span of it, ticks and the unit suit what is seen.
 

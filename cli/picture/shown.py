@@ -145,8 +145,7 @@ def padded(least: float, greatest: float) -> tuple[float, float]:
 
 
 def levels_of(shown: Shown, looks: Looks) -> tuple[Values, Normalize]:
-    """
-    Choose round contour levels, rising by ratios where values differ much, and their colours.
+    """Choose round contour levels, rising by ratios where values differ much, and their colours.
 
     Those that are listed are taken as they are, with the ends of the values beyond them.
     """

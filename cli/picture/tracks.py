@@ -155,8 +155,7 @@ def draw_marks(axes: Axes, points: Values, start: float, apart: float, **looks: 
 def draw_arrows(
     axes: Axes, track: Track, scene: xarray.Dataset, plane: Plane, colour: Colour, taken: list[Values]
 ) -> None:
-    """
-    Put an arrow on each jump of a path, and on each part between two of them, where it has room.
+    """Put an arrow on each jump of a path, and on each part between two of them, where it has room.
 
     The limits of the panel must stand. An arrow gives way to those of `taken`, the places in the panel of others.
     """

@@ -81,8 +81,7 @@ def drawn(
 
 
 def _chosen(dataset: xarray.Dataset, requested: Sequence[str]) -> tuple[xarray.Dataset, list[str]]:
-    """
-    Check the variables that are asked for; otherwise take force and energy, in SI units if they have them.
+    """Check the variables that are asked for; otherwise take force and energy, in SI units if they have them.
 
     Of an optimum it is what is best, and where. A sensitivity becomes a variable for each thing that it is to.
     """

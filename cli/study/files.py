@@ -59,8 +59,7 @@ class FromFile:
         return bool(self.mistakes) and not self.file
 
     def beside(self, data: Mapping[str, Any]) -> dict[str, Any]:
-        """
-        Give the keys of a study with one valid value for each input that the file gives.
+        """Give the keys of a study with one valid value for each input that the file gives.
 
         So that all that is known of a key is asked of what the study gives beside the file.
         """
@@ -207,8 +206,7 @@ def fitted(
 
 
 def exponent_of(text: str) -> float | str:
-    """
-    Read the power of a punch: a number above 1, or "fit"; ValueError where it is neither.
+    """Read the power of a punch: a number above 1, or "fit"; ValueError where it is neither.
 
     >>> exponent_of("2.5"), exponent_of("fit")
     (2.5, 'fit')

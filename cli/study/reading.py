@@ -37,8 +37,7 @@ MOST_MISTAKES: Final = 30
 
 
 def load_study(path: str | Path, overrides: Iterable[str] = ()) -> Study:
-    """
-    Read a study from a file, with `overrides` in the form of `--set` (`"parameters.A=0.02"`).
+    """Read a study from a file, with `overrides` in the form of `--set` (`"parameters.A=0.02"`).
 
     Raises
     ------
@@ -55,8 +54,7 @@ def study_from(
     folder: str | Path = "",
     columns: Mapping[str, NDArray[np.float64]] | None = None,
 ) -> Study:
-    """
-    Make a study from a mapping with the keys of a study file.
+    """Make a study from a mapping with the keys of a study file.
 
     Parameters
     ----------
@@ -169,8 +167,7 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
 
 
 def variables_of(kind: str, requested: Iterable[str]) -> tuple[str, ...]:
-    """
-    Give the variables that are asked for, in the order of the dataset: a curve stands for all of its own.
+    """Give the variables that are asked for, in the order of the dataset: a curve stands for all of its own.
 
     >>> variables_of("curve", ["jump_energy", "smooth"])[-2:]
     ('jump_count', 'jump_energy')

@@ -16,8 +16,7 @@ _CONTROLS: Final = {
 
 
 def shape_in_words(profile: Profile, spectrum: Spectrum | None = None) -> str:
-    """
-    Write the shape of a punch as a formula; of random roughness what it is drawn from.
+    """Write the shape of a punch as a formula; of random roughness what it is drawn from.
 
     >>> shape_in_words(Profile())
     'r^2/(2 R) + lambda A [1 - cos(2 pi x)], x = r/lambda'
@@ -35,8 +34,7 @@ def shape_in_words(profile: Profile, spectrum: Spectrum | None = None) -> str:
 
 
 def profile_table(profile: Profile) -> str:
-    """
-    Write the shape of a punch as the keys of a table [profile].
+    """Write the shape of a punch as the keys of a table [profile].
 
     >>> print(profile_table(Profile(exponent=1.5)))
     exponent  = 1.5
@@ -54,8 +52,7 @@ def control_in_words(loading: Loading) -> str:
 
 
 def toughness_in_words(toughness: Toughness) -> str:
-    """
-    Write how the toughness varies with the radius as a formula.
+    """Write how the toughness varies with the radius as a formula.
 
     >>> toughness_in_words(Toughness((ToughnessHarmonic(n=1, cos=0.5), ToughnessHarmonic(n=2, sin=-0.1))))
     'K_c times 1 + t [0.5 cos(2 pi y) - 0.1 sin(4 pi y)], y = r/lambda_t'
@@ -65,8 +62,7 @@ def toughness_in_words(toughness: Toughness) -> str:
 
 
 def rate_in_words(rate: Rate) -> str:
-    """
-    Write how the work of adhesion grows with the speed of the edge.
+    """Write how the work of adhesion grows with the speed of the edge.
 
     >>> rate_in_words(Rate(exponent=0.6))
     'G = w_o [1 + (v/v*)^0.6] while the edge opens, G = w_c while it closes'

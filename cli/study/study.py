@@ -43,8 +43,7 @@ class Method:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Study:
-    """
-    A valid study, its parameters expanded: a float is fixed, an array is an axis (or, in points, a list).
+    """A valid study, its parameters expanded: a float is fixed, an array is an axis (or, in points, a list).
 
     >>> from gradhesion.cli.study import study_from
     >>> study = study_from({

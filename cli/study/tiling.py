@@ -24,8 +24,7 @@ def cells_of_chunk() -> int:
 
 @dataclass(frozen=True)
 class Tiling:
-    """
-    A shape cut into blocks of whole chunks, so that no chunk is written twice; blocks have numbers in C order.
+    """A shape cut into blocks of whole chunks, so that no chunk is written twice; blocks have numbers in C order.
 
     >>> tiling = Tiling((5, 131_072))
     >>> len(tiling), tiling.chunk, tiling[2]
@@ -72,8 +71,7 @@ class Tiling:
 
 
 def tile(shape: tuple[int, ...], cells: int) -> tuple[int, ...]:
-    """
-    Cut a shape into even tiles of at most `cells` cells, the trailing axes whole as long as they fit.
+    """Cut a shape into even tiles of at most `cells` cells, the trailing axes whole as long as they fit.
 
     Leading axes are cut first, since all a_max (the last axis) of one curve share its trace.
 

@@ -20,8 +20,7 @@ _LARGEST: Final = 2.0**53
 
 
 def number(cell: str) -> float:
-    """
-    Give the number in a cell; NaN if it is empty, or an error of a spreadsheet.
+    """Give the number in a cell; NaN if it is empty, or an error of a spreadsheet.
 
     >>> number("1e3"), number(" "), number("-inf")
     (1000.0, nan, -inf)
@@ -50,8 +49,7 @@ def is_number(cell: str) -> bool:
 
 
 def word(cell: str, words: Mapping[str, float]) -> float:
-    """
-    Give the number for a word, or that in its place; NaN if there is none.
+    """Give the number for a word, or that in its place; NaN if there is none.
 
     >>> word("Unloading", {"loading": 0.0, "unloading": 1.0}), word("1.0", {"loading": 0.0, "unloading": 1.0})
     (1.0, 1.0)
@@ -66,8 +64,7 @@ def word(cell: str, words: Mapping[str, float]) -> float:
 
 
 def whole_number(cell: str) -> float:
-    """
-    Give the whole number in a cell; NaN if there is none.
+    """Give the whole number in a cell; NaN if there is none.
 
     >>> whole_number("7.0"), whole_number("")
     (7.0, nan)

@@ -26,8 +26,7 @@ class Wanted:
     """The columns of whole numbers."""
 
     def named(self, names: Sequence[str], heads: Sequence[str] = ()) -> tuple[str, ...]:
-        """
-        Give the columns of a file the names that are wanted of them, where they differ in case or have their unit.
+        """Give the columns of a file the names that are wanted of them, where they differ in case or have their unit.
 
         >>> Wanted(only=("height", "Load (nN)")).named(["Height", "Load"], ["Height (nm)", "Load (nN)"])
         ('height', 'Load (nN)')
@@ -69,8 +68,7 @@ class Columns:
 
 
 def tidy(unit: str) -> str:
-    """
-    Give a unit as it is written; nothing for what says that there is none.
+    """Give a unit as it is written; nothing for what says that there is none.
 
     >>> tidy("um"), tidy("-"), tidy("1")
     ('um', '', '')

@@ -21,8 +21,7 @@ def read_columns(
     words: Mapping[str, Mapping[str, float]] | None = None,
     whole: Collection[str] = (),
 ) -> Columns:
-    """
-    Read a file.
+    """Read a file.
 
     Parameters
     ----------

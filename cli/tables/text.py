@@ -99,8 +99,7 @@ def _lines(text: str) -> Iterator[tuple[int, str]]:
 
 
 def _cells_of(place: int, line: str, separator: str | None) -> list[str]:
-    """
-    Cut a line into cells.
+    """Cut a line into cells.
 
     >>> _cells_of(1, '1; "2;3" ;', ";")
     ['1', '2;3', '']

@@ -2,8 +2,7 @@
 
 
 def counted(number: int, noun: str) -> str:
-    """
-    Write a number of things.
+    """Write a number of things.
 
     >>> counted(1, "scene"), counted(1200, "scene"), counted(0, "block")
     ('1 scene', '1,200 scenes', '0 blocks')
@@ -12,8 +11,7 @@ def counted(number: int, noun: str) -> str:
 
 
 def bytes_in_words(number: float) -> str:
-    """
-    Write a number of bytes in the unit that fits.
+    """Write a number of bytes in the unit that fits.
 
     >>> bytes_in_words(2.5e9), bytes_in_words(300)
     ('2.5 GB', '0.3 kB')
@@ -23,8 +21,7 @@ def bytes_in_words(number: float) -> str:
 
 
 def percent(count: int, whole: int) -> str:
-    """
-    Give a share with two digits.
+    """Give a share with two digits.
 
     >>> percent(1, 6), percent(6, 6), percent(1, 3000)
     ('17 %', '100 %', '0.033 %')
@@ -34,8 +31,7 @@ def percent(count: int, whole: int) -> str:
 
 
 def duration(seconds: float) -> str:
-    """
-    Write a time in the unit that fits.
+    """Write a time in the unit that fits.
 
     >>> duration(0.31), duration(75.0), duration(1e4), duration(float("inf"))
     ('0.3 s', '75 s', '2.8 h', 'any time')

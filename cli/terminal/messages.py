@@ -14,8 +14,7 @@ _UNSAFE: Final = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-
 
 
 def printable(text: str) -> str:
-    r"""
-    Write characters that a terminal would obey, or cannot show, as their escapes; ends of lines and tabs stay.
+    r"""Write characters that a terminal would obey, or cannot show, as their escapes; ends of lines and tabs stay.
 
     >>> printable("\x1b[2Jout.nc"), printable("caf\u00e9\n\udcff")
     ('\\x1b[2Jout.nc', 'café\n\\udcff')
@@ -24,8 +23,7 @@ def printable(text: str) -> str:
 
 
 def printable_line(text: str) -> str:
-    r"""
-    Do so for a text that is to be one line: the name of a file may have several.
+    r"""Do so for a text that is to be one line: the name of a file may have several.
 
     >>> printable_line("out\n.nc")
     'out\\n.nc'
@@ -39,8 +37,7 @@ def show(line: str) -> None:
 
 
 def show_block(text: str) -> None:
-    """
-    Print what was asked for to stdout: one or several lines.
+    """Print what was asked for to stdout: one or several lines.
 
     Raises
     ------

@@ -72,8 +72,7 @@ def _lines(total: int, noun: str) -> Advance:
 
 
 def rate(scenes: int, seconds: float) -> str:
-    """
-    Write a number of scenes per second with two significant digits or so.
+    """Write a number of scenes per second with two significant digits or so.
 
     >>> rate(123_456, 1.0), rate(30, 10.0)
     ('120,000', '3')

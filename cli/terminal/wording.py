@@ -21,8 +21,7 @@ CALLED: Final[Mapping[str, tuple[str, ...]]] = {
 
 
 def did_you_mean(word: str, known: Sequence[str]) -> str:
-    """
-    Suggest the nearest of the known words, or list them all.
+    """Suggest the nearest of the known words, or list them all.
 
     >>> did_you_mean("pull_of_force", ["pull_off_force", "delta_max"])
     'did you mean "pull_off_force"?'
@@ -34,8 +33,7 @@ def did_you_mean(word: str, known: Sequence[str]) -> str:
 
 
 def nearest(word: str, known: Sequence[str]) -> str | None:
-    """
-    Find the known word that is most like this one, if any is: a slip of the pen, or the first with this part.
+    """Find the known word that is most like this one, if any is: a slip of the pen, or the first with this part.
 
     >>> known = ["dissipated_energy", "energy_gain"]
     >>> nearest("energy", known), nearest("energy_gian", known)
@@ -55,8 +53,7 @@ def nearest(word: str, known: Sequence[str]) -> str | None:
 
 
 def shown(value: object) -> str:
-    """
-    Write a value as TOML would, cut short where it is long.
+    """Write a value as TOML would, cut short where it is long.
 
     >>> shown(True), shown("a"), shown([1.0, float("inf")])
     ('true', '"a"', '[1.0, inf]')

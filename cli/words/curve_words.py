@@ -30,8 +30,7 @@ def about(variable: xarray.DataArray) -> str:
 
 
 def number_range(numbers: Any) -> str:
-    """
-    Report a number of each scene.
+    """Report a number of each scene.
 
     >>> number_range([3, 1200, 4]), number_range([5])
     ('3 to 1,200', '5')

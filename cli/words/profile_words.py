@@ -31,8 +31,7 @@ def tables_of(fit: FittedProfile, file: Path, terms: int, exponent: float | str)
 
 
 def _with_error(value: float, error: float, scale: float = 1.0) -> str:
-    """
-    Write a value with its standard deviation.
+    """Write a value with its standard deviation.
 
     >>> _with_error(1.23456e-6, 2e-9, 1e6)
     '1.23456 +- 0.002'

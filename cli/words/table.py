@@ -35,8 +35,7 @@ def columns_of(dataset: xarray.Dataset, names: Sequence[str], like: xarray.DataA
 
 
 def tabled(dataset: xarray.Dataset, file: Path, chosen: Sequence[str]) -> Iterator[str]:
-    """
-    Write maps or curves, some lines at a time: first the names, then parameters, variables and status.
+    """Write maps or curves, some lines at a time: first the names, then parameters, variables and status.
 
     Numbers have all their digits. `chosen` are variables, or curves, of a dataset that has several curves one.
     """

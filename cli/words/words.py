@@ -110,8 +110,7 @@ def _parameters(dataset: xarray.Dataset) -> Iterator[str]:
 
 
 def _spacing(values: NDArray[np.float64]) -> str:
-    """
-    Report how the values of an axis are spaced, inf apart.
+    """Report how the values of an axis are spaced, inf apart.
 
     >>> _spacing(np.array([0.01, 0.1, 1.0, np.inf])), _spacing(np.array([0.0, 0.1, 0.2]))
     ('log-spaced', 'evenly spaced')

@@ -39,8 +39,7 @@ def require_dask() -> None:
 
 
 def on_cluster(scheduler: str | None = None, workers: int | None = None, *, quiet: bool = False) -> Engine:
-    """
-    Have blocks solved by the workers of a scheduler (its address or its file), or by processes of this machine.
+    """Have blocks solved by the workers of a scheduler (its address or its file), or by processes of this machine.
 
     The engine raises ClusterError where no scheduler answers or a worker has another version, and OutputError where the
     cluster is lost.
@@ -111,8 +110,7 @@ def solve_there(study: Study, number: int, needed: dict[str, Any]) -> tuple[int,
 
 @contextmanager
 def _client(scheduler: str | None, workers: int | None, most: int) -> Iterator[Any]:
-    """
-    Make a client of a scheduler, or of `most` processes of one thread on this machine; ClusterError if that fails.
+    """Make a client of a scheduler, or of `most` processes of one thread on this machine; ClusterError if that fails.
 
     These listen on the loopback interface alone, and to those alone who have a certificate that is made here: on a
     machine with several users the others cannot run code as this one.

@@ -113,8 +113,7 @@ def timed_scenes(study: Study, numbers: list[int]) -> tuple[int, float]:
 
 
 def _piece(block: Block, cells: int, place: float) -> Block:
-    """
-    Take one of the pieces that a block is cut into, as blocks are cut themselves: what scenes share, they share there.
+    """Take one of the pieces of a block, cut as blocks are cut themselves: what scenes share, they share there.
 
     >>> _piece((slice(2, 4), slice(0, 6)), 3, 0.3)
     (slice(2, 3, None), slice(3, 6, None))

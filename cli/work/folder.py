@@ -161,8 +161,7 @@ def is_running(folder: Path, locks: str = r"lock.*") -> bool:
 
 @contextmanager
 def claimed(output: Path, shard: str = "") -> Iterator[None]:
-    """
-    Hold the folder of an output for one run, or for one shard beside others; it goes at the end if no block is in it.
+    """Hold the folder of an output for one run, or for one shard beside others; it goes at the end if it has no block.
 
     Raises
     ------

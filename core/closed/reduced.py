@@ -144,7 +144,7 @@ def _way(parameter: str, given: Mapping[str, Any]) -> tuple[str, tuple[str, ...]
 
 
 def scales_in_si(R: ArrayLike, work_of_adhesion: ArrayLike) -> dict[str, _Array]:
-    """Return the units of results in SI: of a force 1.5 pi R dgamma, an energy R^2 dgamma, a length R.
+    """Return the units of results in SI: of a force 1.5 pi R dgamma, an energy R^2 dgamma, a length R, an area R^2.
 
     Parameters
     ----------
@@ -155,7 +155,7 @@ def scales_in_si(R: ArrayLike, work_of_adhesion: ArrayLike) -> dict[str, _Array]
 
     Returns
     -------
-    Arrays by the unit "N", "J" and "m".
+    Arrays by the unit "N", "J", "m" and "m^2".
 
     Examples
     --------
@@ -163,4 +163,4 @@ def scales_in_si(R: ArrayLike, work_of_adhesion: ArrayLike) -> dict[str, _Array]
     1.0
     """
     radius, work = np.asarray(R, dtype=float), np.asarray(work_of_adhesion, dtype=float)
-    return {"N": 1.5 * math.pi * radius * work, "J": radius * radius * work, "m": radius}
+    return {"N": 1.5 * math.pi * radius * work, "J": radius * radius * work, "m": radius, "m^2": radius * radius}

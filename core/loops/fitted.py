@@ -92,10 +92,7 @@ class CannotTellApartError(ValueError):
     def __init__(self, names: Sequence[str]) -> None:
         self.names = tuple(names)
         listed = " and ".join(names) if len(names) < 3 else f"{', '.join(names[:-1])} and {names[-1]}"
-        super().__init__(
-            f"a loop cannot tell {listed} apart: together they have one effect on it (modulus, c0 and nu act through "
-            "one number); fix all but one of them"
-        )
+        super().__init__(f"a loop cannot tell {listed} apart; give one of them as a number")
 
 
 def poor_from(degrees: int) -> float:

@@ -7,10 +7,16 @@ OVER: Final = {
     "N": ("/(1.5 pi R dgamma)",),
     "J": ("/(R^2 dgamma)", ", in R^2 dgamma", " over R^2 dgamma"),
     "m": ("/R",),
+    "m^2": ("/R^2", ", in R^2"),
     "Pa": (" R/dgamma",),
 }
 """How the words of a value say what it is over, by its unit in SI."""
-_OVER_AS_SYMBOL: Final = {"N": r"\,/\,(\frac{3}{2}\pi R\Delta\gamma)", "J": r"\,/\,(R^2\Delta\gamma)", "m": "/R"}
+_OVER_AS_SYMBOL: Final = {
+    "N": r"\,/\,(\frac{3}{2}\pi R\Delta\gamma)",
+    "J": r"\,/\,(R^2\Delta\gamma)",
+    "m": "/R",
+    "m^2": "/R^2",
+}
 """The same in a symbol."""
 
 

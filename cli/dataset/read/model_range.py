@@ -38,8 +38,7 @@ STEEPEST: Final = 0.5
 
 
 def doubts_of(variable: str, dataset: "xarray.Dataset") -> int:
-    """
-    Give the bits that cast doubt on a variable of a dataset, whatever it says of its output.
+    """Give the bits that cast doubt on a variable of a dataset, whatever it says of its output.
 
     >>> import xarray
     >>> none = xarray.Dataset()
@@ -119,8 +118,7 @@ def slope_warnings(dataset: "xarray.Dataset") -> Iterator[str]:
 
 
 def tabor_warnings(number: float, comment: str) -> Iterator[str]:
-    """
-    Say where a Tabor parameter is too small for JKR; `comment` says of which range of the attraction it is.
+    """Say where a Tabor parameter is too small for JKR; `comment` says of which range of the attraction it is.
 
     >>> list(tabor_warnings(12.0, "")), list(tabor_warnings(0.05, "with a range of 1 nm"))[0][:58]
     ([], 'Tabor parameter 0.05 (with a range of 1 nm) is below 0.1: ')
@@ -135,8 +133,7 @@ def tabor_warnings(number: float, comment: str) -> Iterator[str]:
 
 
 def steepness(rows: NDArray[np.float64]) -> float:
-    """
-    Give the steepest slope of waves over A, by their rows (n, cos, sin): 2 pi of one cosine.
+    """Give the steepest slope of waves over A, by their rows (n, cos, sin): 2 pi of one cosine.
 
     >>> steepness(np.array([[1.0, 1.0, 0.0]])) == 2.0 * math.pi
     True

@@ -41,8 +41,7 @@ def opened(path: Path) -> Iterator["xarray.Dataset"]:
 
 
 def found(path: Path, *, kept: bool) -> "xarray.Dataset":
-    """
-    Open a dataset; it is the caller's to close.
+    """Open a dataset; it is the caller's to close.
 
     Parameters
     ----------
@@ -158,8 +157,7 @@ def tiling_of(variable: "xarray.DataArray") -> Tiling:
 
 
 def in_own_units(dataset: "xarray.Dataset") -> "xarray.Dataset":
-    """
-    Give a dataset with plain numbers in the units of our files, whether it was quantified or its units were changed.
+    """Give a dataset with plain numbers in the units of our files, whether it was quantified or its units were changed.
 
     Values of a file are only read where they change.
     """

@@ -48,8 +48,7 @@ def without_failed(taken: Taken) -> Taken:
 
 
 def interpolated(taken: Taken, place: Between) -> Taken:
-    """
-    Give values between two items, the only ones of an axis that are left; flags of either hold.
+    """Give values between two items, the only ones of an axis that are left; flags of either hold.
 
     Numbers of jumps and flags have nothing between them: they are those of the nearer item.
     """
@@ -63,8 +62,7 @@ def interpolated(taken: Taken, place: Between) -> Taken:
 
 
 def reduced(taken: Taken, axis: str, how: str) -> Taken:
-    """
-    Reduce an axis to an extreme, its place, or the mean of its items; what has no value (NaN) is left out.
+    """Reduce an axis to an extreme, its place, or the mean of its items; what has no value (NaN) is left out.
 
     The status is that of the scene of the extreme, or has the flags of all scenes of a mean, a sum or a quantile.
     """

@@ -40,8 +40,7 @@ class Selection:
     """The reduction of each of some axes, in the order in which they are done."""
 
     def narrowed(self, dataset: xarray.Dataset) -> xarray.Dataset:
-        """
-        Fix axes; nothing is loaded.
+        """Fix axes; nothing is loaded.
 
         An axis that is fixed becomes a coordinate without dimension that has the value really used. One that is
         fixed between two items keeps these two, and one that is to be reduced stays: that takes values, see `taken`.
@@ -80,8 +79,7 @@ class Selection:
 def selection_of(
     dataset: xarray.Dataset, at: Sequence[str] = (), over: Sequence[str] = (), *, interpolate: bool = False
 ) -> Selection:
-    """
-    Read wishes such as at = ["lambda_over_R=0.1", "solver=exact"] and over = ["A=max"].
+    """Read wishes such as at = ["lambda_over_R=0.1", "solver=exact"] and over = ["A=max"].
 
     Parameters
     ----------

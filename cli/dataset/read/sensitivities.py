@@ -23,8 +23,7 @@ def parts_of(dataset: xarray.Dataset, name: str) -> dict[str, str]:
 
 
 def part_of(name: str) -> tuple[str, str] | None:
-    """
-    Name the sensitivity that a variable is a part of, and what this part is to; None for another variable.
+    """Name the sensitivity that a variable is a part of, and what this part is to; None for another variable.
 
     >>> part_of("best_pull_off_force_sensitivity_A"), part_of("dissipated_energy_sensitivity_physical_R")
     (('best_pull_off_force_sensitivity', 'A'), ('dissipated_energy_sensitivity_physical', 'R'))
@@ -38,8 +37,7 @@ def part_of(name: str) -> tuple[str, str] | None:
 
 
 def spread(dataset: xarray.Dataset) -> xarray.Dataset:
-    """
-    Give each sensitivity as variables over the scenes alone: the strongest, by its place, and one for each parameter.
+    """Give each sensitivity as variables over the scenes alone: the strongest, by its place, and one a parameter.
 
     The first has the name of the sensitivity and numbers the parameters from 0 on in the order of its `parameters`;
     the others have the name of the parameter added. A dataset without sensitivities comes back as it is.
@@ -78,8 +76,7 @@ def with_influence(dataset: xarray.Dataset, name: str, parts: Sequence[str]) -> 
 
 
 def strongest(values: NDArray[np.float64], labels: list[str]) -> NDArray[np.int64]:
-    """
-    Find which item along the last axis is the largest in size; -1 where there is none, or all are 0.
+    """Find which item along the last axis is the largest in size; -1 where there is none, or all are 0.
 
     k and nu stand apart, since theirs are no sensitivities to a relative change.
 

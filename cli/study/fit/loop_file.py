@@ -75,8 +75,7 @@ class LoopFile:
 def read_loops(
     folder: Path, table: DataTable, fitted: list[str], *, average: bool, through_machine: bool
 ) -> tuple[tuple[LoopFile, ...], LoopFileError | None]:
-    """
-    Read all loops of a study, sorted by the names of their files; and say why none of them can be fitted.
+    """Read all loops of a study, sorted by the names of their files; and say why none of them can be fitted.
 
     There must be points enough for what is `fitted`; one of several loops that cannot be is kept with its problem. Many
     points are averaged if `average`; depths are displacements of a machine if `through_machine`.
@@ -102,8 +101,7 @@ def read_loops(
 
 
 def _names_of(folder: Path, file: str) -> list[str]:
-    """
-    Name the files that a pattern means, sorted; a file that has the name is meant itself.
+    """Name the files that a pattern means, sorted; a file that has the name is meant itself.
 
     >>> _names_of(Path("no such folder"), "loop.csv"), _names_of(Path("no such folder"), "*.csv")
     (['loop.csv'], [])

@@ -159,8 +159,7 @@ def fit_of(source: Source, form: Form, loops: tuple[LoopFile, ...]) -> FitStudy:
 
 
 def unit_of_parameter(name: str) -> str:
-    """
-    Give the unit in SI of what is fitted.
+    """Give the unit in SI of what is fitted.
 
     >>> [unit_of_parameter(name) for name in ("E_star", "A", "exponent", "load_offset", "load_slope")]
     ['Pa', '1', '1', 'N', 'N/m']

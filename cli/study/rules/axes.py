@@ -19,8 +19,7 @@ DIGITS: Final = 12
 
 
 def expanded(entry: Entry) -> Values:
-    """
-    Expand a valid input of a study; a range begins and ends at exactly its `start` and `stop`.
+    """Expand a valid input of a study; a range begins and ends at exactly its `start` and `stop`.
 
     >>> expanded(0.3)
     0.3
@@ -41,8 +40,7 @@ def expanded(entry: Entry) -> Values:
 
 
 def _shortest(values: NDArray[np.float64], size: NDArray[np.float64] | float) -> NDArray[np.float64]:
-    """
-    Move values to decimals of a few digits that are within the rounding of a range of this `size`.
+    """Move values to decimals of a few digits that are within the rounding of a range of this `size`.
 
     So that a value can be selected by what one would write: 0.69 and not 0.6900000000000001.
 

@@ -91,8 +91,7 @@ def _ways(asked: Asked, own: Input, kin: list[str]) -> Found:
 
 
 def left_out(values: Mapping[str, Values], *, with_units: bool) -> dict[str, float]:
-    """
-    Give the inputs that a valid study leaves out, with the values that they then have.
+    """Give the inputs that a valid study leaves out, with the values that they then have.
 
     >>> left_out({"k": 0.0, "nu": 0.3, "modulus": 500.0, "A": 0.1, "lambda_over_R": 0.2}, with_units=False)
     {'a_max_over_R': inf, 'c0_over_R': 1.0}

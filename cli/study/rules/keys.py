@@ -147,8 +147,7 @@ def input_key(own: Input) -> tuple[Any, Any]:
 
 
 def deviation_of(value: object, name: str) -> Deviation:
-    """
-    Read the deviation of an input; ValueError says what to write instead of what is none.
+    """Read the deviation of an input; ValueError says what to write instead of what is none.
 
     >>> deviation_of("5 %", "modulus").deviation, deviation_of("20 nm", "c0").deviation
     (0.05, 2e-08)

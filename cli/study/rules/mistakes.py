@@ -73,8 +73,7 @@ def _tables_in(annotation: Any) -> list[type[Table]]:
 
 
 def line_of(*path: str | int) -> str:
-    """
-    Write a line that would do.
+    """Write a line that would do.
 
     >>> line_of("parameters", "k", 3), line_of("physical", "R", "stop")
     ('k = 0.5 or k = [0.0, 0.5]', 'stop = "1 mm"')

@@ -30,8 +30,7 @@ _PLAIN: Final = (str, bool, int, float, type(None))
 
 
 def apart(value: Any) -> tuple[Any, str]:
-    """
-    Take what has a unit apart: its numbers, and the unit as pint reads it; of all else there is none.
+    """Take what has a unit apart: its numbers, and the unit as pint reads it; of all else there is none.
 
     >>> apart([1.0, 2.0])
     ([1.0, 2.0], '')
@@ -84,8 +83,7 @@ def _text(unit: Any) -> str:
 
 
 def as_written(value: Any, path: tuple[str, ...] = (), *, bare: bool = True) -> Any:
-    """
-    Turn a value made in Python into what TOML would give: quantities are texts, as "25 um"; all else stays as it is.
+    """Turn a value made in Python into what TOML would give: quantities are texts, as "25 um"; all else stays as it is.
 
     `path` has the keys of a study that lead to it; quantities without a dimension become numbers if `bare`.
 

@@ -49,8 +49,7 @@ _POWER: Final = re.compile(r"([^\W\d_])([+-]?\d)")
 
 
 def si_value(value: object, name: str) -> float:
-    """
-    Give a quantity in its unit in SI; an infinite one needs no unit. ValueError says what to write instead.
+    """Give a quantity in its unit in SI; an infinite one needs no unit. ValueError says what to write instead.
 
     >>> si_value("1 um", "R"), si_value("20 mJ/m^2", "work_of_adhesion"), si_value("20 mN m-1", "work_of_adhesion")
     (1e-06, 0.02, 0.02)
@@ -77,8 +76,7 @@ def _parts_of(text: str) -> tuple[str, str]:
 
 
 def _comma_in(text: str) -> str:
-    """
-    Describe the comma in a number, and how to write the number without it; "" without one.
+    """Describe the comma in a number, and how to write the number without it; "" without one.
 
     >>> _comma_in("300,5 nm"), _comma_in("1,000 nm"), _comma_in("1,234.5 nm")  # doctest: +NORMALIZE_WHITESPACE
     ('a decimal comma; write a point, 300.5', 'a comma of decimals or between thousands; write 1.000 or 1000',
@@ -110,8 +108,7 @@ def _expected(name: str) -> str:
 
 
 def in_si(numbers: NDArray[Any], written: str, name: str) -> NDArray[np.float64]:
-    """
-    Give numbers in some unit in that of a key, of which a ratio has none; their range is not checked.
+    """Give numbers in some unit in that of a key, of which a ratio has none; their range is not checked.
 
     >>> in_si(np.array([1.0, 25.0]), "um", "R"), in_si(np.array([5.0]), "percent", "A")
     (array([1.0e-06, 2.5e-05]), array([0.05]))
@@ -133,8 +130,7 @@ def factor_of(written: str, name: str) -> Decimal:
 
 
 def factor_of_column(found: Columns, name: str, key: str, written: str = "") -> Decimal:
-    """
-    Report how many of the unit of a key the unit of a column is: the one written in a study, or in the file.
+    """Report how many of the unit of a key the unit of a column is: the one written in a study, or in the file.
 
     ColumnsError where there is none, it has another dimension, or the two differ.
     """
@@ -154,8 +150,7 @@ def factor_of_column(found: Columns, name: str, key: str, written: str = "") -> 
 
 
 def scaled(numbers: NDArray[Any], factor: Decimal) -> NDArray[np.float64]:
-    """
-    Multiply numbers, as the shortest decimals that they are, by a factor; each product is rounded once.
+    """Multiply numbers, as the shortest decimals that they are, by a factor; each product is rounded once.
 
     So that 25 um is 2.5e-05 m, which the product of 25.0 and 1e-06 is not.
     """
@@ -174,8 +169,7 @@ def _registry() -> "UnitRegistry[Any]":
 
 @cache
 def factor_between(written: str, unit: str) -> Decimal | None:
-    """
-    Report how many of one unit another is: None if it is not known, 0 if it is one of something else.
+    """Report how many of one unit another is: None if it is not known, 0 if it is one of something else.
 
     >>> [str(factor_between(*units)) for units in (("um", "m"), ("mJ m-2", "kg/s^2"), ("%", "1"), ("N", "m"))]
     ['0.000001', '0.001', '0.01', '0']

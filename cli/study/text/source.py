@@ -99,8 +99,7 @@ def _read(path: Path, most: int, above: tuple[Path, ...]) -> tuple[dict[str, Any
 def included(
     data: Mapping[str, Any], folder: Path, where: str, above: tuple[Path, ...] = (), most: int = MOST_BYTES
 ) -> tuple[dict[str, Any], _Lines]:
-    """
-    Give the keys of a study with those of the one that it includes, and the places of these.
+    """Give the keys of a study with those of the one that it includes, and the places of these.
 
     The keys of the study win; tables at the top are merged key by key, and all other values replaced. A message begins
     with `where`, the place of `include`; `above` are the files that include this one.
@@ -204,8 +203,7 @@ def _parsed(key: str, value: str) -> Any:
 
 
 def _fitted_value(path: Path, key: str) -> float | str:
-    """
-    Give the value of a key as a study writes it: in its unit if it has one.
+    """Give the value of a key as a study writes it: in its unit if it has one.
 
     ValueError where the file is no fit of one loop, or the fit has no such key, or is flagged.
     """
@@ -232,8 +230,7 @@ def _fitted_value(path: Path, key: str) -> float | str:
 
 
 def is_deep(data: Any, levels: int = _DEEPEST) -> bool:
-    """
-    Check whether tables and lists are nested more deeply than in any study.
+    """Check whether tables and lists are nested more deeply than in any study.
 
     >>> is_deep({"parameters": {"k": [0.0, 0.5]}}), is_deep(eval(40 * '[' + 40 * ']'))
     (False, True)

@@ -22,8 +22,7 @@ _STEPS: Final = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
 
 
 def dotted(path: Path) -> str:
-    """
-    Write a path as a message shows it.
+    """Write a path as a message shows it.
 
     >>> dotted(("parameters", "k", 3))
     'parameters.k[3]'
@@ -32,8 +31,7 @@ def dotted(path: Path) -> str:
 
 
 def steps_of(path: str) -> Path:
-    """
-    Take a dotted key apart.
+    """Take a dotted key apart.
 
     >>> steps_of("parameters.k[3]")
     ('parameters', 'k', 3)
@@ -42,8 +40,7 @@ def steps_of(path: str) -> Path:
 
 
 def lines_of(text: str) -> dict[Path, int]:
-    r"""
-    Find the line (from 1) of each table and each key of a valid TOML text; those within a value are at its beginning.
+    r"""Find the line (from 1) of each table and key of a valid TOML text; those within a value are at its beginning.
 
     >>> lines_of("layout = 'grid'\n[parameters]\nk = [\n  0.1,\n  0.2,\n]\nA = 0.3\n")
     {('layout',): 1, ('parameters',): 2, ('parameters', 'k'): 3, ('parameters', 'A'): 7}
@@ -84,8 +81,7 @@ def toml_of(data: Mapping[str, Any]) -> str:
 
 
 def with_fingerprint(data: Mapping[str, Any], text: str, path: Path, sha256: str) -> tuple[dict[str, Any], str]:
-    r"""
-    Give the keys and the text of a study with the SHA-256 of a file, where it names the file.
+    r"""Give the keys and the text of a study with the SHA-256 of a file, where it names the file.
 
     The path is that of a key with the name of the file, which becomes a table, or of a table with a key `file`. There
     is no text where none gives just these keys; it is then to be made.

@@ -70,8 +70,7 @@ def _awaited(future: Future[_T]) -> _T:
 
 
 def within(name: str, block: Block, part: NDArray[Any], begun: int = 0) -> Block:
-    """
-    Report where a part goes that may have further dimensions than its block, or none of it, after `begun` items.
+    """Report where a part goes that may have further dimensions than its block, or none of it, after `begun` items.
 
     >>> import numpy as np
     >>> within("path_load", (slice(2, 3),), np.zeros((1, 5)))

@@ -28,8 +28,7 @@ def blank_of(variable: str) -> float:
 
 
 def draw(study: Study, block: Block) -> Arrays:
-    """
-    Draw the curves of one scene, along one more dimension than its block; one that has none is a point without value.
+    """Draw the curves of one scene, along one more dimension than its block; without any, a point of no value.
 
     Ragged curves have their own dimension alone.
     """

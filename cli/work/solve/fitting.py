@@ -11,7 +11,7 @@ from gradhesion.core.closed.applicability import validity
 from gradhesion.core.closed.reduced import parameters_from
 from gradhesion.core.loops.fit import fit_loop
 from gradhesion.core.loops.fitted import FittedLoop, poor_from
-from gradhesion.core.loops.paths.model import EXPONENT, Model
+from gradhesion.core.loops.paths.model import AMPLITUDES, EXPONENT, Model
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, RANGE
 from gradhesion.core.problem.status import POOR_FIT
@@ -57,8 +57,7 @@ def fitted(study: FitStudy, loop: LoopFile) -> FittedLoop:
 
 
 def fits_of(study: FitStudy, advance: Callable[[int], None] = lambda _: None) -> list[Fit]:
-    """
-    Fit every loop of a study, one after the other; `advance` is called with 1 after each.
+    """Fit every loop of a study, one after the other; `advance` is called with 1 after each.
 
     Raises
     ------
@@ -125,6 +124,10 @@ def doubts_of(found: FittedLoop) -> Iterator[str]:
         remedy = "widen the range, or give it as a number; or the data do not show it"
         if name in OFFSETS:
             remedy = "widen it with offsets under [fit], or look at the base line of the data"
+        elif name == "k" and low == 0.0 and found.values[name] < 0.5 * high:
+            remedy = "the loop shows no gradient of the modulus: write k = 0"
+        elif name in AMPLITUDES and 2.0 * found.values[name] < low + high:
+            remedy = "the loop shows no waves: leave them out"
         elif name == CLOSING and 2.0 * found.values[name] > 1.0 + low:
             remedy = f"the loop shows one work of adhesion for closing and opening: leave {CLOSING} out"
         yield f"{name} is at an end of its range ({found.values[name]:.4g} of {low:.4g} to {high:.4g}); {remedy}"

@@ -23,8 +23,7 @@ Integers = NDArray[np.int64]
 
 
 def solve_optima(study: Study, block: Block, threads: int | None) -> Arrays:
-    """
-    Find the optimum of each cell of a block: the values of its variables and `status`.
+    """Find the optimum of each cell of a block: the values of its variables and `status`.
 
     Of two goals these are the best compromises, along a last dimension, padded to the longest.
     """

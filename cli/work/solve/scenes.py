@@ -33,8 +33,7 @@ def solve_given(
     watch: bool = False,
     scenes: Arrays | None = None,
 ) -> Arrays:
-    """
-    Solve scenes that are given as those of a study are.
+    """Solve scenes that are given as those of a study are.
 
     Parameters
     ----------
@@ -76,8 +75,7 @@ def solve(
     watch: bool = False,
     **settings: Any,
 ) -> Arrays:
-    """
-    Solve scenes as `gradhesion.core.solve` does, for the outputs of `gradhesion.core.validity` as well.
+    """Solve scenes as `gradhesion.core.solve` does, for the outputs of `gradhesion.core.validity` as well.
 
     All have the shape of all parameters together; where a scene has no value, none has. With `watch` comes `STEEP`:
     1 where the contact reaches a slope of the punch that is not small.

@@ -79,8 +79,7 @@ def solve_uncertain(study: Study, block: Block, threads: int | None) -> Arrays:
 
 
 def _named(name: str, way: str) -> str:
-    """
-    Name the variable of a spread.
+    """Name the variable of a spread.
 
     >>> _named("pull_off_force_si", "std")
     'pull_off_force_std_si'
@@ -137,8 +136,7 @@ def _sampled(centre: _Centre, requested: Uncertainty, shape: tuple[int, ...]) ->
 def _samples_of(
     centre: _Centre, count: int, seed: int, outputs: tuple[str, ...]
 ) -> Iterator[tuple[Block, Arrays, Arrays]]:
-    """
-    Solve the samples of all scenes, the same set for each, some scenes at a time.
+    """Solve the samples of all scenes, the same set for each, some scenes at a time.
 
     Yields
     ------
