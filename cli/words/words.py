@@ -25,7 +25,7 @@ from gradhesion.core import FAILED
 from gradhesion.core.answers.flags import FLAG_WORDS
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.inputs import INPUTS
-from gradhesion.core.problem.names import CONTACT_SLOPE
+from gradhesion.core.problem.names import CONTACT_SLOPE, PULL_OFF, RESULTS
 
 FEW: Final = 8
 """Values of an axis that are listed one by one."""
@@ -62,6 +62,8 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
     failed = sum(int(np.count_nonzero(status[block].values.astype(np.int16) & FAILED)) for block in tiling_of(status))
     written = f"{scenes - failed:,} of {counted(scenes, 'scene')} ({(scenes - failed) / scenes:.1%})"
     yield from ("", f"status: {written} have values", *_flag_counts(status))
+    if not has_curves(dataset) and not any(name in dataset for name in RESULTS if name not in PULL_OFF):
+        yield "  whether the contact is one disc was not tested: nothing but the pull-off was asked for"
     if beyond := list(_beyond_the_model(dataset)):
         yield from ("", "outside the range of the model", *beyond)
     yield from origin_lines(dataset)
