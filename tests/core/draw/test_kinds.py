@@ -124,6 +124,7 @@ REFUSED: list[tuple[dict[str, float], str, dict[str, Any], str]] = [
     ({"machine_stiffness": 1.0}, "path", {}, "machine_stiffness"),
     (LENGTH, "envelope", {"toughness": PATTERN}, "envelope"),
     (LENGTH, "path", {}, "toughness_wavelength"),
+    ({"indentation_max_over_R": 0.1, "load_max": 1.0}, "path", {}, "turns at one of them"),
 ]
 
 
