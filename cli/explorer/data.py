@@ -98,6 +98,7 @@ def _axis(dataset: xarray.Dataset, name: str) -> Entry:
     """Describe an axis: its values, and where they stand along a picture."""
     if name in dataset.coords and dataset[name].dtype.kind in "fiu":
         named, values = _named(dataset, name)
+        values = np.asarray(values, dtype=float)  # realisations are whole numbers
         return named | {"values": values} | _placed(values)
     size = dataset.sizes[name]
     values = np.arange(1, size + 1) if name == SCENE else dataset[name].values

@@ -26,14 +26,8 @@ TOGETHER: Final = 0.9
 WIDENED: Final = 1.1
 """The widening of intervals from which on it is said."""
 NOISE: Final = ("noise_of_indentation", "noise_of_load")
-_SAME: Final = {
-    "measured_unloading": "other points (rows or branch)",
-    "measured_indentation": "other depths",
-    "measured_load": "other loads",
-    "noise_of_indentation": "another noise of the depth",
-    "noise_of_load": "another noise of the load",
-}
-"""What fits that are compared have in common, and what is said of others."""
+SAME: Final = ("data_sha256", "measured_unloading", "measured_indentation", "measured_load", *NOISE)
+"""What fits that are compared have in common."""
 
 
 def fits_described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
@@ -181,8 +175,8 @@ def fits_compared(datasets: Sequence[xarray.Dataset], files: Sequence[Path]) -> 
             raise DatasetError(f"{file}: contains no fit; only fits can be compared, so name one file")
         if why := _apart(first, dataset):
             raise DatasetError(
-                f"{file}: {why} than {files[0]}, so that their misfits cannot be compared; fit the same points with "
-                "the same noise"
+                f"{file}: differs from {files[0]} in {why}, so that their misfits cannot be compared; fit the same "
+                "points with the same noise"
             )
         if np.isnan(dataset["chi_square"].values).any():
             raise DatasetError(f"{file}: a loop has no fit, so that the total misfit is undefined; leave its file out")
@@ -211,11 +205,9 @@ def fits_compared(datasets: Sequence[xarray.Dataset], files: Sequence[Path]) -> 
 
 
 def _apart(one: xarray.Dataset, other: xarray.Dataset) -> str:
-    """Say in which of their data two fits differ; nothing if in none."""
-    if one.attrs.get("data_sha256") != other.attrs.get("data_sha256"):
-        return "is a fit of other data (sha256)"
-    for name, what in _SAME.items():
+    """Name what two fits differ in of their data; nothing if they are of the same."""
+    for name in SAME:
         mine, others = (np.asarray(each[name] if name in each else each.attrs.get(name)) for each in (one, other))
         if mine.shape != others.shape or not np.array_equal(mine, others, equal_nan=mine.dtype.kind == "f"):
-            return f"has {what}"
+            return name
     return ""

@@ -34,6 +34,7 @@ STUDIES: dict[str, dict[str, Any]] = {
     "curves in units": {"kind": "curve", "outputs": ["equilibrium", "path"], "parameters": {"k": [0.1, 0.3], "nu": 0.27, "A": [0.0, 0.023, 0.07]}, "physical": TIP},
     "machine": {"outputs": ["pull_off_force"], "parameters": {"k": 0.3, "nu": 0.27, "A": 0.03}, "loading": {"control": "machine"},
                 "physical": TIP | {"R": ["1 um", "2 um", "3 um"], "spring_constant": "2 N/m"}, "profile": {"exponent": 2.0, "harmonics": [{"n": 1}, {"n": 2, "cos": 0.2}]}},
+    "rough": {"outputs": ["pull_off_force"], "parameters": PUNCH | {"lambda_over_R": [0.11, 0.3]}, "profile": {"spectrum": {"hurst": 0.8, "first": 1, "last": 4, "realisations": 5, "seed": 1}}},
     "sensitivities": {"outputs": [*VALUES, *(f"{name}_sensitivity" for name in VALUES)], "parameters": PUNCH | {"k": [0.0, 0.3, 0.6], "lambda_over_R": WAVES | {"spacing": "linear"}}},
 }  # fmt: skip
 AXES = ("k", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
@@ -343,6 +344,9 @@ def test_lines_are_those_of_all_solvers_and_points_are_dots_over_a_parameter(ope
     drawn = page.js("explorer.parts.sections[0].x.lines.data.ys.map(line => Array.from(line))")
     np.testing.assert_allclose(drawn, page.dataset["pull_off_force"], rtol=5e-6)  # six digits
     assert page.text("lines").split() == ["exact", "envelope"]
+    page = open_page("rough")
+    page.press("realisation", "End")
+    page.shows(realisation=4, lambda_over_R=0)
     page = open_page("points")
     page.choose("along-x", "λ/R – wavelength of the waviness")
     page.check("log-0", on=False)

@@ -211,10 +211,18 @@ def test_fits_are_compared_by_the_criterion(gradhesion: Call, models: dict[str, 
     assert [int(rows[name][1]) for name in ("zeros", "tilt")] == [4, 5]
 
 
-@pytest.mark.parametrize("name", ["other", "noise", "branch"])
-def test_what_differs_is_not_compared(gradhesion: Call, models: dict[str, Path], name: str) -> None:
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("other", "in data_sha256"),
+        ("noise", "in noise_of_load"),
+        ("branch", "in measured_unloading"),
+    ],
+)
+def test_what_differs_is_not_compared(gradhesion: Call, models: dict[str, Path], name: str, words: str) -> None:
     result = gradhesion("info", str(models["zeros"]), str(models[name]))
     assert (result.exit_code, result.stderr.count("\n"), result.stdout) == (2, 1, "")
+    assert words in result.stderr
 
 
 def test_a_tabor_parameter_has_a_range_and_a_long_one_is_said(
