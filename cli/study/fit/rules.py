@@ -51,10 +51,7 @@ def _profile(asked: Asked) -> Found:
     """Check that the punch is one that a loop is drawn of."""
     for name in ("file", "spectrum", "sha256", "terms", "up_to"):
         if asked.has(f"profile.{name}"):
-            yield (
-                f"profile.{name}",
-                "a loop has one punch; give its harmonics, as `gradhesion profile FILE.csv` prints them",
-            )
+            yield f"profile.{name}", "a loop has one punch; give the harmonics that `gradhesion profile` prints"
     if asked.form.profile.exponent == "fit":
         yield "profile.exponent", "there is no file to fit it to; write a number"
 
