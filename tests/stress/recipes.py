@@ -59,8 +59,8 @@ CONTROL = {
     ],
     "cli/study/shape_words.py": [
         (
-            '        "load": "load, so',
-            '        "own spring": "displacement through a spring of stiffness E* R",\n        "load": "load, so',
+            '    "load": "load, so',
+            '    "own spring": "displacement through a spring of stiffness E* R",\n    "load": "load, so',
         ),
     ],
     "cli/picture/pictured.py": [
