@@ -34,7 +34,7 @@ CONTROL: Edits = [
     ("core/problem/control.py", '"load", "machine")', '"load", "machine", "own spring")'),
     ("core/scenes/reduced.py", "AT_LOAD, MACHINE = range(3)", "AT_LOAD, MACHINE, OWN_SPRING = range(4)"),
     ("core/scenes/reduced.py", "    elif punch.control == MACHINE:\n", f"{SPRING}    elif punch.control == MACHINE:\n"),
-    ("cli/study/shape_words.py", '        "load": "load, so', '        "own spring": "displacement through a spring of stiffness E* R",\n        "load": "load, so'),
+    ("cli/study/shape_words.py", '    "load": "load, so', '    "own spring": "displacement through a spring of stiffness E* R",\n    "load": "load, so'),
     ("cli/picture/pictured.py", '"load": "under controlled load"', '"own spring": "by its own spring", "load": "under controlled load"'),
 ]  # fmt: skip
 PUNCH = "dict(k=0.3, nu=0.3, modulus=500.0, c0_over_R=0.01, lambda_over_R=0.2, A=[0.01, 0.03], a_max_over_R=1.0)"

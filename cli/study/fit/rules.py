@@ -51,10 +51,7 @@ def _profile(asked: Asked) -> Found:
     """Check that the punch is one that a loop is drawn of."""
     for name in ("file", "spectrum", "sha256", "terms", "up_to"):
         if asked.has(f"profile.{name}"):
-            yield (
-                f"profile.{name}",
-                "a loop has one punch, given by harmonics; write those of `gradhesion profile FILE.csv`",
-            )
+            yield f"profile.{name}", "a loop has one punch; give the harmonics that `gradhesion profile` prints"
     if asked.form.profile.exponent == "fit":
         yield "profile.exponent", "there is no file to fit it to; write a number"
 
@@ -116,9 +113,8 @@ def _searched(asked: Asked) -> Found:
     free = [name for name, entry in given.items() if isinstance(entry, Range)]
     if not free and asked.right("parameters", "physical"):
         yield "physical", 'nothing is fitted; write for example E_star = { start = "0.1 GPa", stop = "10 GPa" }'
-    first, *others = [name for name in free if name in ONE_NUMBER] or [""]
-    for name in others:
-        yield home(name), f"a loop cannot tell {first} and {name} apart, which act through one number; fix one"
+    for name in [name for name in free if name in ONE_NUMBER][1:]:
+        yield home(name), "a loop depends on E_star, c0 and nu through one number; give all but one of them as numbers"
     if {*_SPEEDS} <= {*free}:
         yield home(_SPEEDS[1]), "a loop depends on the ratio of the two speeds alone; give one of them as a number"
     k = given.get("k")

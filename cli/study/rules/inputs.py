@@ -207,10 +207,7 @@ def rate(asked: Asked) -> Found:
         everywhere = np.all if asked.kind == "fit" else np.any
         for name in asked.given("closing_ratio", "work_of_adhesion_closing"):
             if everywhere(np.asarray(asked.values.get(name, 1.0)) == 0.0):
-                yield (
-                    home(name),
-                    'with closing = "same" it is above 0; write a larger value, or closing = "quasi-static"',
-                )
+                yield home(name), 'closing = "same" needs a value above 0; raise it, or write closing = "quasi-static"'
         for name in asked.given("load_max", "preload"):
             yield home(name), f'with closing = "same" a cycle turns at a depth; give {asked.turn} instead'
     longest, rim = ("wavelength", "a_max") if asked.units else ("lambda_over_R", "a_max_over_R")
