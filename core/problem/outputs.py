@@ -7,7 +7,7 @@ OVER: Final = {
     "N": ("/(1.5 pi R dgamma)",),
     "J": ("/(R^2 dgamma)", ", in R^2 dgamma", " over R^2 dgamma"),
     "m": ("/R",),
-    "m^2": ("/R^2", ", in R^2"),
+    "m^2": (" (in R^2)",),
     "Pa": (" R/dgamma",),
 }
 """How the words of a value say what it is over, by its unit in SI."""

@@ -212,12 +212,7 @@ def test_fits_are_compared_by_the_criterion(gradhesion: Call, models: dict[str, 
 
 
 @pytest.mark.parametrize(
-    ("name", "words"),
-    [
-        ("other", "in data_sha256"),
-        ("noise", "in noise_of_load"),
-        ("branch", "in measured_unloading"),
-    ],
+    ("name", "words"), [("other", "in data_sha256"), ("noise", "in noise_of_load"), ("branch", "in measured_unloading")]
 )
 def test_what_differs_is_not_compared(gradhesion: Call, models: dict[str, Path], name: str, words: str) -> None:
     result = gradhesion("info", str(models["zeros"]), str(models[name]))

@@ -17,7 +17,7 @@ ROOMS = ("cli", "configs", "core", "twin")
 
 RADIUS = "    out[at.PULL_OFF_RADIUS, i] = lowest.y * reduced[at.LENGTH, i]\n"
 AREA = (
-    '    Output("pull_off_area", "contact area at pull-off, in R^2", "area at pull-off", "cycle", "m^2", "pull-off"),\n'
+    '    Output("pull_off_area", "contact area at pull-off (in R^2)", "area at pull-off", "cycle", "m^2", "pull-off"),\n'
 )
 SPRING = (
     "    elif punch.control == OWN_SPRING:\n        reduced[at.BY_LOAD, i] = load / depth / scenes[at.MODULUS, i]\n"
@@ -43,7 +43,7 @@ two = gr.solve({PUNCH}, ["pull_off_area", "pull_off_radius"])
 load = gr.solve({PUNCH}, ["pull_off_area", "pull_off_radius"], control="load")
 for found in (two, load):
     assert np.allclose(found.pull_off_area, np.pi * found.pull_off_radius**2, rtol=1e-15, atol=0.0)
-    assert found.pull_off_area.attrs["long_name"] == "contact area at pull-off, in R^2"
+    assert found.pull_off_area.attrs["long_name"] == "contact area at pull-off (in R^2)"
 own = gr.solve({PUNCH}, "pull_off_force", control="own spring")
 machine = gr.solve({PUNCH}, "pull_off_force", control="machine", machine_stiffness=1.0)
 assert (own.pull_off_force == machine.pull_off_force).all()
