@@ -84,6 +84,7 @@ def plot(
     caption: bool = True,
     xlabel: str | None = None,
     ylabel: str | None = None,
+    clabel: str | None = None,
     style: str | Path | None = None,
     data: str | Path | None = None,
     xlim: Limits | None = None,
@@ -122,8 +123,8 @@ def plot(
         What stands above the panels: the title of the study if True, nothing if False, or words of your own.
     caption
         Whether the parameters that are not drawn are written above the panels.
-    xlabel, ylabel
-        What the axes are called, in the place of what is along them.
+    xlabel, ylabel, clabel
+        What the axes, and the bar of colours of a map, are called, in the place of what is along them.
     style
         A style of matplotlib on top of "gradhesion.style", by name or file; "gradhesion.journal" is one.
     data
@@ -160,7 +161,8 @@ def plot(
     with as_keywords(), data_of(dataset) as values:
         looks = looks_of(
             kind=kind, width=width, height=height, colour_map=colour_map, levels=levels, labels=labels, title=title,
-            caption=caption, xlabel=xlabel, ylabel=ylabel, style=style, xlim=xlim, ylim=ylim, inset=inset, band=band,
+            caption=caption, xlabel=xlabel, ylabel=ylabel, clabel=clabel, style=style, xlim=xlim, ylim=ylim,
+            inset=inset, band=band,
         )  # fmt: skip
         if not is_fit(values):
             _check_dimensions(values)

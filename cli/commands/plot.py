@@ -48,6 +48,7 @@ from gradhesion.cli.commands.shared import (
 @click.option("--no-title", "title", flag_value="", help="Print no title.")
 @click.option("--xlabel", metavar="TEXT", help="Name of the horizontal axis [that of what is along it].")
 @click.option("--ylabel", metavar="TEXT", help="Name of the vertical axis.")
+@click.option("--clabel", metavar="TEXT", help="Name of the bar of colours of a map.")
 @click.option("--caption/--no-caption", default=True, help="Print the fixed parameters [yes].")
 @click.option("--style", metavar="STYLE", help="Matplotlib style to add: a name or a file.")
 @click.option("--data", type=A_PATH, help="Measured points to draw on curves: a table in a file.")

@@ -109,7 +109,8 @@ class Looks:
     """Whether the parameters that are not drawn stand above the panels."""
     xlabel: str | None = None
     ylabel: str | None = None
-    """What the axes are called."""
+    clabel: str | None = None
+    """What the axes and the bar of colours are called."""
     style: str | None = None
     """A style of matplotlib, by name or file, on top of that of the project."""
     xlim: Span = ALL

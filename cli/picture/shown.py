@@ -154,7 +154,7 @@ def levels_of(shown: Shown, looks: Looks) -> tuple[Values, Normalize]:
     if isinstance(looks.levels, tuple):
         if not any(least <= level <= greatest for level in looks.levels):
             written = ",".join(f"{level:g}" for level in looks.levels)
-            between = f"{least:.4g} to {greatest:.4g}"
+            between = f"{least:.4g} to {greatest:.4g} {shown.values.attrs.get('units', '')}".rstrip(" 1")
             raise DatasetError(
                 f"--levels {written}: none is among the values, which are {between}; choose some between"
             )

@@ -105,13 +105,13 @@ def _check(looks: Looks, names: Sequence[str], plan: Plan) -> None:
     if plan.is_map:
         looks.refuse(["band", "inset"], "this picture is a map, and has no lines")
     else:
-        looks.refuse(["levels"], "contour levels are for a map, and this picture has none")
+        looks.refuse(["levels", "clabel"], "contour levels and their colours are for a map, and this picture has none")
     if plan.is_dense:
         looks.refuse(["band"], f"{plan.points:,} points are drawn as their density, which has no bars")
     if len(names) > 1:
         why = f"{names[0]} and {names[1]} have values of their own; choose one of them with --variable"
         looks.refuse([] if plan.is_map else ["ylim"], why)
-        looks.refuse(["levels"] if isinstance(looks.levels, tuple) else [], why)
+        looks.refuse(["levels", "clabel"] if isinstance(looks.levels, tuple) else ["clabel"], why)
     if len(names) > 1 or plan.columns or plan.rows or plan.points:
         why = "an inset goes into a single panel of lines; choose one variable with --variable, fix axes with --at"
         looks.refuse(["inset"], why)
@@ -154,16 +154,18 @@ def _draw(
         if plan.rows and j == panels.shape[1] - 1:
             axes.annotate(titles[plan.rows][i], (1.03, 0.5), xycoords="axes fraction", rotation=-90, va="center")
     if coloured:
-        _add_bar(figure, panels, coloured, shown, height)
+        _add_bar(figure, panels, coloured, shown, looks.clabel, height)
     return contours
 
 
-def _add_bar(figure: Figure, panels: Any, coloured: Sequence[Any], shown: Shown, height: float) -> None:
-    """Put a bar of colours beside the panels of a variable, with numbers at some levels and at both ends."""
+def _add_bar(
+    figure: Figure, panels: Any, coloured: Sequence[Any], shown: Shown, name: str | None, height: float
+) -> None:
+    """Put a bar of colours beside the panels of a variable, with a name, numbers at some levels and at both ends."""
     bar = figure.colorbar(coloured[0], ax=panels, fraction=0.06, aspect=30)
     bar.ax.yaxis.set_minor_locator(NullLocator())
     if shown.names:
-        bar.ax.set_title(shown.label, loc="left")
+        bar.ax.set_title(name or shown.label, loc="left")
         bar.ax.set_yticks(range(len(shown.names)), shown.names, fontsize="small")
     elif not hasattr(coloured[0], "levels"):
         most = max(2.0, *(float(np.max(cells.get_array())) for cells in coloured if cells.get_array().size))
@@ -176,7 +178,7 @@ def _add_bar(figure: Figure, panels: Any, coloured: Sequence[Any], shown: Shown,
         levels = coloured[0].levels
         step = -(-levels.size // max(2, int(height / 0.17)))
         some = [*levels[: levels.size - step : step], levels[-1]]
-        bar.set_label(shown.label)
+        bar.set_label(name or shown.label)
         bar.ax.set_yticks(some, shown.unit.numbers(some))
 
 

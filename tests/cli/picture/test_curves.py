@@ -108,7 +108,7 @@ def test_planes_limits_and_insets_are_chosen(curves: xarray.Dataset, probe: xarr
 WRONG: list[tuple[str, dict[str, Any]]] = [
     ("variable pth", {"variables": "pth"}), ("path_indentation_si", {"variables": ["path_load", "path_indentation_si"]}), ("x k", {"x": "k"}),
     ("x load", {"x": "load", "y": "load"}), ("over", {"over": {"A": "max"}}), ("xlim 0:1", {"xlim": "0:1"}), ("ylim 0:1", {"ylim": "0:1"}),
-    ("inset 0:1", {"inset": "0:1"}), ("xlabel", {"xlabel": "depth"}), ("map: ", {"kind": "map"}), ("levels", {"levels": 5}), ("band", {"band": "std"}),
+    ("inset 0:1", {"inset": "0:1"}), ("xlabel", {"xlabel": "depth"}), ("map: ", {"kind": "map"}), ("levels", {"levels": 5}), ("clabel", {"clabel": "pull"}), ("band", {"band": "std"}),
 ]  # fmt: skip
 
 

@@ -84,9 +84,19 @@ def test_words_are_left_out_or_replaced(grid: xarray.Dataset) -> None:
     assert r"$\nu$" in caption[0]
     assert contours(whole[0]).labelTexts
     assert gr.plot(grid, "pull_off_force", title=False, caption=False).figure.get_suptitle() == ""
-    bare = gr.plot(grid, "pull_off_force", title="My $k$", caption=False, labels=False, xlabel="waves", ylabel="depth")
+    bare = gr.plot(
+        grid,
+        "pull_off_force",
+        title="My $k$",
+        caption=False,
+        labels=False,
+        xlabel="waves",
+        ylabel="depth",
+        clabel="pull",
+    )
     assert bare.figure.get_suptitle() == "My $k$"
     assert (bare[0].get_xlabel(), bare[0].get_ylabel()) == ("waves", "depth")
+    assert bare.figure.axes[-1].get_ylabel() == "pull"
     assert not contours(bare[0]).labelTexts
     assert [axes.get_xlabel() for axes in gr.plot(grid, kind="lines", xlabel="waves")] == ["waves", "waves"]
     with pytest.raises(gr.DatasetError, match="ylabel"):
