@@ -68,9 +68,11 @@ def test_pictures_and_pages_say_what_they_wrote_and_where_a_value_is_another(
 
 
 def test_what_is_suggested_for_a_key_without_its_table_works(gradhesion: Call, study_file: Path) -> None:
-    wrong = gradhesion("validate", study_file, "--set", "lambda_over_R={ start = 0.1, stop = 0.5, num = 3 }").stderr
-    (suggested,) = re.findall(r"write (--set .*)$", wrong, flags=re.MULTILINE)
-    assert gradhesion("validate", study_file, *shlex.split(suggested)).exit_code == 0
+    value = "{ start = 0.1, stop = 0.5, num = 3 }"
+    wrong = gradhesion("validate", study_file, "--set", f"lambda_over_R={value}")
+    (suggested,) = re.findall(r"parameters\.lambda_over_R", wrong.stderr)
+    assert wrong.exit_code == 2
+    assert gradhesion("validate", study_file, "--set", f"{suggested}={value}").exit_code == 0
 
 
 class Terminal(io.StringIO):

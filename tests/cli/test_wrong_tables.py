@@ -75,7 +75,7 @@ OWN: dict[str, tuple[str, str, str]] = {
     "points: error of a spreadsheet": ("points", "modulus,A\n1,#N/A\n", "line 2: A is missing (NaN); give it, or remove the row"),
     "points: unit of a ratio": ("points", "modulus [MPa],A\n1,0.1\n", 'the column "modulus": "MPa" is not a unit of this quantity; a number without a unit is expected'),
     "profile: no unit": ("profile", "r [um],height [V]\n1,2\n", 'the column "height": "V" is not a unit of this quantity; a length (m) is expected'),
-    "data: no unit": ("data", "depth [nm],load\n1,2\n", "write it after the name in brackets, as load [nN]"),
+    "data: no unit": ("data", "depth [nm],load\n1,2\n", "in brackets, as load ["),
     "data: one column": ("data", "depth [nm]\n1\n", "the file has depth alone; name them in the header"),
     "data: other names": ("data", "depht;laod\n1,5;2\n", 'the file has none of them; rename "depht" to "depth"'),
 }  # fmt: skip
