@@ -52,8 +52,8 @@ to 1.5, a_max/L from 1 to 4, k one of {", ".join(map(str, draw.EXPONENTS))}. L =
 length of the contact, r/s the fraction of the adhesion that short waves remove or add (`core/closed/envelope.py`).
 
 Aims: 0.6 us for the force, 5 us for both, 0.05 us if the punch is smooth. Long waves cause few jumps, short ones
-many, and the cost of the energy is that of the jumps. Many smooth scenes are solved in blocks,
-by vector operations; where k, nu or c0 differ, most of their time is that of the stiffness.
+many, and the cost of the energy is that of the jumps. Of smooth scenes whose k, nu or c0 differ, most of the time is
+that of the stiffness.
 
 {scenes.mixture_table(100_000 if quick else 1_000_000)}"""
     by_waves, waves = scenes.waves_table()

@@ -19,7 +19,7 @@ from gradhesion.cli.work.solve.blocks import solve_block
 from gradhesion.core import SENSITIVITIES, place
 from gradhesion.core.problem.names import PULL_OFF
 
-SECONDS: Final = {"forces": 15, "energies": 45, "sensitivities": 45, "speeds": 15, "curves": 20, "fits": 25}
+SECONDS: Final = {"forces": 20, "energies": 60, "sensitivities": 45, "speeds": 15, "curves": 10, "fits": 15}
 """About how long a free processor compiles what each kind of study needs; a slow one takes twice that."""
 
 _begun: Final[set[tuple[Path | None, str]]] = set()

@@ -54,7 +54,8 @@ def punch_of(request: Request) -> Punch:
 def columns_of(request: Request) -> tuple[list[Floats], int]:
     """Return each row of parameters, of one item or one a scene, and the number of scenes."""
     shape = np.broadcast_shapes(*(array.shape for array in request.arrays))
-    columns = [a.reshape(1) if a.size == 1 else np.broadcast_to(a, shape).reshape(-1) for a in request.arrays]
+    full = [a if a.size == 1 or a.shape == shape else np.broadcast_to(a, shape) for a in request.arrays]
+    columns = [a.reshape(-1) for a in full]
     return columns, math.prod(shape)
 
 
