@@ -76,6 +76,9 @@ def test_the_pressure_at_the_edge_and_at_the_apex_of_a_slope() -> None:
     assert np.isfinite(quadrature.pressure(1.0, M, 0.2, 0.2, 0.01, 0.1, [-0.02]))
     assert quadrature.hertz_pressure(0.0, M, 0.0, 0.2, 0.1, [], [0.01]) == math.inf
     assert quadrature.hertz_pressure(0.0, M, 0.0, 0.2, 1.0, [], exponent=1.0) == math.inf
+    for sine in (-2.0, -0.1):  # against a cone whose slope is 1
+        apex, near = (float(quadrature.hertz_pressure(0.0, M, r, 0.2, 0.1, [], [0.1 * sine], 1.0)) for r in (0.0, 1e-9))
+        assert apex == math.copysign(math.inf, near)
 
 
 @pytest.mark.parametrize("k", [0.0, 0.2, 0.61, 0.95])
