@@ -260,11 +260,7 @@ def _gap(k: float, r: float, a: float, shortest: float, opening: Callable[[Array
 
 
 def _below(a: float, power: float, widest: float) -> tuple[Array, Array]:
-    """Return nodes s and weights w, sum w g(s) = int_0^a g(s) (a^2-s^2)^power ds, for power > -1.
-
-    Both are (n,); lengths are in R. g is smooth, and its waves are no shorter than 2 `widest`, the largest width of a
-    panel (inf: without waves).
-    """
+    """Return nodes s and weights w, sum w g(s) = int_0^a g(s) (a^2-s^2)^power ds, for power > -1. Else as `_beyond`."""
     last = a - min(0.5 * a, widest)
     s, w = _legendre(np.array([0.0, *_edges(_LEAST * a, last, lambda low: min(widest, low))]))
     end, weights = _jacobi(last, a, power, upper=True)
@@ -284,11 +280,7 @@ def _beyond(r: float, a: float, power: float, widest: float) -> tuple[Array, Arr
 
 
 def _from_zero(a: float, power: float, widest: float) -> tuple[Array, Array]:
-    """Return nodes s and weights w, sum w g(s) = int_0^a g(s) s^power ds, for power > -1.
-
-    Both are (n,); lengths are in R. g is smooth, and its waves are no shorter than 2 `widest`, the largest width of a
-    panel (inf: without waves).
-    """
+    """Return nodes s and weights w, sum w g(s) = int_0^a g(s) s^power ds, for power > -1. Else as `_beyond`."""
     first = min(a, widest)
     near, weights = _jacobi(0.0, first, power, upper=False)
     s, w = _legendre(_edges(first, a, lambda _: widest))
