@@ -1,4 +1,4 @@
-"""`gr.solve` and `gr.curves`: what they take, what they give, and what they refuse."""
+"""`gr.solve` and `gr.curves`: what they take, what they refuse, and that they give what a study or the core gives."""
 
 import math
 import tomllib
@@ -10,6 +10,8 @@ import pytest
 import xarray
 
 import gradhesion as gr
+from gradhesion import core
+from gradhesion.cli.dataset import compute
 from gradhesion.cli.study import study_from
 from gradhesion.core.problem.status import OF_EVERY_MAP
 
@@ -39,6 +41,7 @@ def test_lists_of_one_length_are_a_grid_and_keep_their_order() -> None:
     found = gr.solve(PUNCH | {"A": A, "lambda_over_R": np.array(wavelength)}, "pull_off_force")
     assert dict(found.sizes) == {"lambda_over_R": 3, "A": 3}
     assert found["A"].values.tolist() == A
+    assert "study" not in found.attrs, "whose axes rise or fall"
     assert found["lambda_over_R"].values.tolist() == wavelength
     one = gr.solve(PUNCH | {"A": 0.02, "lambda_over_R": 0.1}, "pull_off_force")["pull_off_force"]
     assert found["pull_off_force"].sel(A=0.02, lambda_over_R=0.1).item() == one.item()
@@ -153,13 +156,6 @@ def test_k_may_be_1_where_nu_is_a_half() -> None:
     np.testing.assert_allclose(found["pull_off_force"], (3 + k) / 3, rtol=1e-14)
 
 
-@pytest.mark.parametrize("wrong", [math.nan, -1e-300, math.inf])
-def test_a_wrong_value_of_a_million_is_named(wrong: float) -> None:
-    values = np.linspace(0.0, 0.1, 1_000_001)
-    values[123_456] = wrong
-    assert "gr.solve: A[123456] = " in mistakes_of(PUNCH | {"A": values})
-
-
 def test_points_are_all_over_all_points_and_a_range_beside_them_is_an_axis() -> None:
     A = xarray.DataArray([0.01, 0.02], dims="scene")
     points = gr.solve(PUNCH | {"A": A}, "pull_off_force")
@@ -180,20 +176,6 @@ def test_a_million_scenes_need_no_text_of_a_million_numbers() -> None:
     for count, has_study in ((10_000, True), (100_000, False)):
         axis = gr.solve(PUNCH | {"A": np.linspace(0.0, 1e-3, count)}, "pull_off_force", solver="envelope")
         assert ("study" in axis.attrs) == has_study
-
-
-def test_the_study_of_axes_in_no_order_would_be_another() -> None:
-    assert "study" in gr.solve(PUNCH | {"A": [0.02, 0.01, 0.0]}, "pull_off_force").attrs
-    assert "study" not in gr.solve(PUNCH | {"A": [0.02, 0.0, 0.01]}, "pull_off_force").attrs
-
-
-def test_profiles_are_objects_or_tables() -> None:
-    shape = gr.Profile(exponent=1.7, harmonics=(gr.Harmonic(n=1), gr.Harmonic(n=3, sin=0.2)))
-    table = {"exponent": 1.7, "harmonics": [{"n": 1}, {"n": 3, "sin": 0.2}]}
-    one, other = (gr.solve(PUNCH, "pull_off_force", profile=profile) for profile in (shape, table))
-    assert one["pull_off_force"].item() == other["pull_off_force"].item()
-    assert one.attrs["profile"] == other.attrs["profile"]
-    assert "0.2 sin(6 pi x)" in one.attrs["profile"]
 
 
 def test_what_has_no_effect_may_be_left_out() -> None:
@@ -221,22 +203,87 @@ CURVES: list[tuple[dict[str, Any], str, str]] = [
     ({}, "pull_off_force", 'outputs[0] = "pull_off_force": '),
     ({"A": np.linspace(0.0, 0.1, 1001)}, "path", "parameters: they make 1,001 scenes"),
     ({}, "pathh", 'outputs[0] = "pathh": '),
+    ({"a_max_over_R": 0.5, "contact_radius_over_R": [0.2, 0.9]}, "pressure", "contact_radius_over_R[1] = 0.9: "),
+    ({"contact_radius_over_R": [0.2]}, "path", "contact_radius_over_R"),
 ]
 
 
 @pytest.mark.parametrize(("changes", "outputs", "what"), CURVES)
 def test_curves_that_are_refused(changes: dict[str, Any], outputs: str, what: str) -> None:
-    assert f"gr.curves: {what}" in mistakes_of(PUNCH | changes, outputs, call=gr.curves)
+    assert f"gr.curves: {what}" in mistakes_of(PUNCH, outputs, call=gr.curves, **changes)
 
 
-def test_states_of_given_radii() -> None:
-    punch = {"k": 0.1, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.2, "A": 0.055}
-    several = gr.curves(punch, "pressure", contact_radius_over_R=np.array([0.1, 0.2]))
-    assert several["state"].values.tolist() == [0.1, 0.2]
-    one = gr.curves(punch, "surface", contact_radius_over_R=0.2)
-    assert one["surface_radius"].dims == ("state", "surface_point")
-    assert gr.curves(punch, "pressure")["state"].values.tolist() == ["turning_point", "pull_off", "jump_out"]
-    with pytest.raises(gr.StudyError, match=r"gr.curves: contact_radius_over_R\[1\] = 0.9: .* in \(0, 0.5\]"):
-        gr.curves(punch | {"a_max_over_R": 0.5}, "pressure", contact_radius_over_R=[0.2, 0.9])
-    with pytest.raises(gr.StudyError, match="no curve of states is requested"):
-        gr.curves(punch, "path", contact_radius_over_R=[0.2])
+AFM: dict[str, Any] = {"R": "1 um", "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "10 nm", "wavelength": "90 nm", "a_max": "0.4 um"}  # fmt: skip
+
+STUDIES: dict[str, dict[str, Any]] = {
+    "a number": {"parameters": PUNCH},
+    "a grid": {"parameters": PUNCH | {"A": [0.0, 0.023], "k": [0.0, 0.31, 0.9], "a_max_over_R": [1.7, math.inf]}},
+    "a range": {"parameters": PUNCH | {"lambda_over_R": {"start": 0.11, "stop": 0.47, "num": 3, "spacing": "log"}}},
+    "reduced": {"parameters": {name: value for name, value in PUNCH.items() if name not in ("A", "a_max_over_R")} | {"chi": [0.2, 0.7], "a_max_over_a2": 2.0}},
+    "units": {"parameters": {"k": [0.0, 0.31], "nu": 0.27, "A": 0.023}, "physical": AFM | {"R": ["1 um", "2 um"]}},
+    "solvers": {"parameters": PUNCH | {"A": [0.0, 0.023]}, "method": {"solver": ["exact", "envelope"]}},
+    "a machine": {"parameters": PUNCH, "loading": {"control": "machine", "machine_stiffness": [1.0, 9.0]}},
+    "a shape": {"parameters": PUNCH | {"A": [0.0, 0.023]}, "profile": {"exponent": 1.7, "harmonics": [{"n": 1, "cos": 1.0}, {"n": 3, "sin": 0.2}]}},
+    "points": {"layout": "points", "parameters": PUNCH | {"A": [0.023, 0.0, 0.023], "k": [0.31, 0.5, 0.1]}},
+}  # fmt: skip
+
+
+def arguments(study: dict[str, Any]) -> dict[str, Any]:
+    """The same as keywords."""
+    loading, method = study.get("loading", {}), study.get("method", {})
+    values = (
+        study["parameters"] | study.get("physical", {}) | {key: loading[key] for key in loading if key != "control"}
+    )
+    if study.get("layout") == "points":
+        values = {key: xarray.DataArray(v, dims="scene") if isinstance(v, list) else v for key, v in values.items()}
+    settings = {"profile": study.get("profile"), "control": loading.get("control"), "solver": method.get("solver")}
+    return values | settings
+
+
+@pytest.mark.parametrize("kind", STUDIES)
+def test_it_is_the_dataset_of_the_study(kind: str) -> None:
+    outputs = ["pull_off_force", "dissipated_energy", "loading_jumps"]
+    study = STUDIES[kind] | {"outputs": outputs, "title": "The same"}
+    expected = compute(study_from(study))
+    found = gr.solve(outputs=outputs, title="The same", **arguments(study))
+    again = study_from(tomllib.loads(found.attrs["study"]))
+    assert again.sha256 == found.attrs["study_sha256"] or again.text != found.attrs["study"]
+    for attribute in ("study", "study_sha256"):
+        expected.attrs[attribute] = found.attrs[attribute]
+    xarray.testing.assert_identical(found, expected)
+    for name in expected.variables:
+        assert found[name].dtype == expected[name].dtype, name
+        assert found[name].encoding.keys() == expected[name].encoding.keys(), name
+    xarray.testing.assert_identical(compute(again).drop_attrs(), expected.drop_attrs())
+
+
+def test_scenes_over_named_dimensions_are_those_of_arrays() -> None:
+    rng = np.random.default_rng(7)
+    A = xarray.DataArray(rng.uniform(0.0, 0.05, (3, 2)), dims=["row", "column"], coords={"row": [10, 20, 30]})
+    k = xarray.DataArray(rng.uniform(0.0, 0.9, 2), dims="column")
+    found = gr.solve(PUNCH | {"A": A, "k": k, "nu": [0.1, 0.3]}, ["pull_off_force", "loading_jumps"])
+    assert {*found["pull_off_force"].dims} == {"row", "column", "nu"}
+    for row, column in np.ndindex(3, 2):
+        scene = PUNCH | {"A": float(A[row, column]), "k": float(k[column]), "nu": np.array([0.1, 0.3])}
+        for name, values in core.solve(scene, ["pull_off_force", "loading_jumps"]).items():
+            np.testing.assert_array_equal(found[name].isel(row=row, column=column), values, err_msg=name)
+    assert found["row"].values.tolist() == [10, 20, 30]
+    assert set(found["A"].dims) == {"row", "column"}
+    assert found["k"].dims == ("column",)
+    assert "study" not in found.attrs, "no study says this"
+
+
+def test_what_follows_from_others_stands_over_their_dimensions() -> None:
+    R = xarray.DataArray([1e-6, 2e-6], dims="tip")
+    found = gr.solve(AFM | {"R": R, "k": [0.0, 0.31], "nu": 0.27, "A": 0.023}, "pull_off_force")
+    assert found["modulus"].dims == found["lambda_over_R"].dims == ("tip",)
+    np.testing.assert_allclose(found["modulus"], 1e9 * R.values / 0.05, rtol=4 * 2.0**-52)
+    np.testing.assert_allclose(
+        found["pull_off_force_si"], found["pull_off_force"] * (1.5 * math.pi * 0.05 * R.rename(None)), rtol=8 * 2.0**-52
+    )
+
+
+def test_the_values_do_not_depend_on_threads() -> None:
+    many = gr.solve(PUNCH, A=np.linspace(0.0, 0.05, 40), k=[0.1, 0.7], threads=3)
+    one = gr.solve(PUNCH, A=np.linspace(0.0, 0.05, 40), k=[0.1, 0.7], threads=1)
+    xarray.testing.assert_identical(many, one)

@@ -28,9 +28,7 @@ def test_a_study_is_a_file_or_a_mapping_or_what_load_gave(study_file: Path, data
         ("method.solver", ("exact", "envelope")), ("profile", {"exponent": 1.7, "harmonics": [{"n": 1, "cos": 1.0}]}),
     ],
 )  # fmt: skip
-def test_a_key_is_set_alike_in_a_file_and_a_mapping(
-    key: str, value: Any, study_file: Path, data: dict[str, Any]
-) -> None:
+def test_a_key_is_set_alike_in_file_and_mapping(key: str, value: Any, study_file: Path, data: dict[str, Any]) -> None:
     if key == "title" and "\n" in value:
         for study in (study_file, data):
             with pytest.raises(gr.StudyError, match="a title is one line of printable characters"):
@@ -65,27 +63,6 @@ def test_what_is_set_is_a_mapping(changes: Any, study_file: Path, data: dict[str
     for study in (study_file, data, gr.load(data)):
         with pytest.raises(gr.StudyError, match=r"^set"):
             gr.run(study, set=changes)
-
-
-@pytest.mark.parametrize(
-    ("name", "content", "what"),
-    [
-        ("a.nc", b"\x89HDF\r\n\x1a\n" + b"\xff" * 9, "a dataset (NetCDF or HDF5)"),
-        ("a.csv", b"k,nu\n0.1,0.3\n", "a table (CSV)"),
-        ("folder", None, "Is a directory"),
-        ("a.toml", b"title = ", "not valid TOML"),
-    ],
-)
-def test_a_path_that_is_no_study_says_what_it_is(name: str, content: bytes | None, what: str, tmp_path: Path) -> None:
-    path = tmp_path / name
-    if content is None:
-        path.mkdir()
-    else:
-        path.write_bytes(content)
-    with pytest.raises(gr.StudyError) as refused:
-        gr.load(path)
-    assert str(refused.value).startswith(f"{path}")
-    assert what in str(refused.value)
 
 
 def test_run_is_the_command(study_file: Path, gradhesion: Callable[..., Any], tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""What tests of commands share: the dataset of the small study, and a command on a full disk."""
+"""What tests of commands share: the small study and others as datasets, wrong studies, and a full disk."""
 
 import shutil
 import signal
@@ -6,16 +6,36 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, Final, NamedTuple
 
 import pytest
+import xarray
 from click.testing import Result
 
+import gradhesion as gr
 from gradhesion.cli.dataset.writer import write
-from gradhesion.cli.study import study_from
+from gradhesion.cli.study import load_study, study_from
 from tests.conftest import SMALL
+from tests.faults.trials import values_of
 
+Call = Callable[..., Result]
+Made = Callable[..., Path]
+Patch = pytest.MonkeyPatch
 Completed = subprocess.CompletedProcess[str]
+
+COLUMNS: Final = """indentation = { column = "depth", unit = "nm" }
+load = { column = "force", unit = "nN" }
+"""
+BALL: Final = """[parameters]
+k = 0.0
+nu = 0.3
+A = 0.0
+[physical]
+R = "5 um"
+E_star = { start = "1 MPa", stop = "100 MPa" }
+"""
+WORK: Final = 'work_of_adhesion = { start = "5 mJ/m^2", stop = "200 mJ/m^2" }\n'
+"""The study of a fit of a smooth ball, as parts of a text."""
 
 
 @pytest.fixture(scope="session")
@@ -32,15 +52,21 @@ def dataset_file(_written_once: Path, tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
+def small_blocks(monkeypatch: Patch) -> None:
     """Cut the small study of 24 scenes into 6 blocks."""
     monkeypatch.setenv("GRADHESION_CHUNK", "2")
 
 
 @pytest.fixture
-def made(
-    gradhesion: Callable[..., Result], data: dict[str, Any], write_study: Callable[[str], Path], tmp_path: Path
-) -> Callable[..., Path]:
+def whole(gradhesion: Call, study_file: Path, tmp_path: Path) -> dict[str, bytes]:
+    """The values of a run of the small study in a single go."""
+    path = tmp_path / "whole.nc"
+    assert gradhesion("run", study_file, "-o", path, "--quiet").exit_code == 0
+    return values_of(path)
+
+
+@pytest.fixture
+def made(gradhesion: Call, data: dict[str, Any], write_study: Made, tmp_path: Path) -> Made:
     """Write the dataset of the small study with other keys by the command."""
 
     def make(name: str = "out", exit_code: int = 0, parameters: dict[str, Any] | None = None, **changes: Any) -> Path:
@@ -51,6 +77,38 @@ def made(
         return path
 
     return make
+
+
+class Ran(NamedTuple):
+    """A study that was run: what was said, the dataset, and where it stands."""
+
+    said: str
+    dataset: xarray.Dataset
+    path: Path
+
+
+Run = Callable[..., Ran]
+
+
+@pytest.fixture
+def ran(gradhesion: Call, write_study: Made, tmp_path: Path) -> Run:
+    """Run a study by the command."""
+
+    def run(study: dict[str, Any], *options: str, output: str = "out.nc", exit_code: int = 0) -> Ran:
+        path = tmp_path / output
+        result = gradhesion("run", write_study(study_from(study).text), "-o", path, *options)
+        assert result.exit_code == exit_code, result.stderr
+        with gr.open(path) as dataset:
+            return Ran(result.stderr, dataset.load(), path)
+
+    return run
+
+
+def mistakes_of(path: Path, *overrides: str) -> list[str]:
+    """List what is wrong with a study."""
+    with pytest.raises(gr.StudyError) as caught:
+        load_study(path, overrides)
+    return list(caught.value.mistakes)
 
 
 @pytest.fixture

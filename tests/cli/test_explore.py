@@ -1,13 +1,10 @@
 """`gradhesion explore` writes a page of every kind of dataset, and says so where there is nothing to write."""
 
-import re
-from collections.abc import Callable
 from pathlib import Path
 
 import netCDF4
 import numpy as np
 import pytest
-from click.testing import Result
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -15,9 +12,7 @@ import gradhesion as gr
 from gradhesion.cli.dataset.read.reader import opened
 from gradhesion.cli.explorer import choice
 from gradhesion.cli.explorer.data import rounded, study_data
-
-Call = Callable[..., Result]
-Made = Callable[..., Path]
+from tests.cli.conftest import Call, Made, Patch
 
 
 @given(st.lists(st.floats(allow_infinity=False), min_size=1))
@@ -80,25 +75,10 @@ def test_wrong_wishes_are_said(gradhesion: Call, dataset_file: Path) -> None:
     assert gradhesion("explore", dataset_file).exit_code == 0  # the jumps are there
 
 
-def test_a_dataset_too_large_for_a_page_is_said(
-    gradhesion: Call, dataset_file: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_dataset_too_large_for_a_page_is_said(gradhesion: Call, dataset_file: Path, monkeypatch: Patch) -> None:
     monkeypatch.setattr(choice, "MOST", 90)
     result = gradhesion("explore", dataset_file)
     assert result.exit_code == 2
     assert "96 values are too many for a page, which takes 90" in result.stderr
     example = result.stderr.split("as in ")[1].split(",")[0]
     assert gradhesion("explore", dataset_file, *example.split()).exit_code == 0
-
-
-@pytest.mark.parametrize(("scenes", "announced"), [(0.3, False), ([0.3, 0.5], True)])
-def test_sliders_are_announced_where_there_are_some(
-    scenes: object, announced: bool, gradhesion: Call, made: Made
-) -> None:
-    one = {"k": scenes, "A": 0.023, "lambda_over_R": 0.17, "a_max_over_R": 0.4}
-    data = made(kind="curve", outputs=["path"], parameters=one)
-    assert gradhesion("explore", data).exit_code == 0
-    page = data.with_suffix(".html").read_text(encoding="utf-8")
-    body = page[page.index("<main>") : page.index("</main>")]
-    assert ("slider" in re.sub('id="sliders"', "", body)) == announced
-    assert ("arrow keys" in body) == announced

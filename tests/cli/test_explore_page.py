@@ -16,6 +16,7 @@ from bokeh.palettes import Viridis256
 from playwright.sync_api import Browser, Page, sync_playwright
 
 import gradhesion as gr
+from tests.cli.conftest import Made
 
 pytestmark = pytest.mark.slow
 
@@ -71,7 +72,7 @@ def _spoil(path: Path) -> None:
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
+def made(tmp_path_factory: pytest.TempPathFactory) -> Made:
     """The page of a study, beside its dataset, made once."""
     folder = tmp_path_factory.mktemp("pages")
 
@@ -189,7 +190,7 @@ Open = Callable[..., Opened]
 
 
 @pytest.fixture
-def open_page(browser: Browser, made: Callable[[str], Path]) -> Iterator[Open]:
+def open_page(browser: Browser, made: Made) -> Iterator[Open]:
     """Open pages; each must need nothing else, and complain of nothing."""
     opened: list[Opened] = []
 
@@ -359,9 +360,7 @@ def test_lines_are_those_of_all_solvers_and_points_are_dots_over_a_parameter(ope
     ("name", "units"),
     [("curves", {}), ("curves in units", {"indentation": 1e-9, "contact_radius": 1e-9, "load": 1e-6})],
 )
-def test_curves_are_those_of_the_scene_and_are_hidden_one_by_one(
-    name: str, units: dict[str, float], open_page: Open
-) -> None:
+def test_curves_are_those_of_the_scene_and_can_be_hidden(name: str, units: dict[str, float], open_page: Open) -> None:
     page = open_page(name)
     for axis in ("A", "k"):
         page.press(axis, "End")

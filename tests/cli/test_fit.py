@@ -3,18 +3,16 @@
 import json
 import math
 import tomllib
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray
-from click.testing import Result
 
 import gradhesion as gr
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
+from tests.cli.conftest import Call, Patch
 
-Call = Callable[..., Result]
 CONFIGS = Path(__file__).parents[2] / "configs"
 TRUE = {"E_star": 1e7, "work_of_adhesion": 0.03, "wavelength": 0.5e-6, "A": 0.012, "indentation_offset": 2e-9, "load_offset": 1e-8}  # fmt: skip
 """What configs/force_curve.csv was made with."""
@@ -23,7 +21,7 @@ DEPTHS = np.array([float(row.split(",")[0]) for row in ROWS])
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path: Path, monkeypatch: Patch) -> Path:
     """A folder with the study of `init fit` and its loop."""
     for name in ("fit.toml", "force_curve.csv"):
         (tmp_path / name).write_text((CONFIGS / name).read_text())
@@ -99,15 +97,6 @@ def test_run_writes_it_and_info_and_plot_read_it(gradhesion: Call, folder: Path,
     assert gradhesion("run", "fit.toml").exit_code == 4, "an existing dataset is not replaced"
 
 
-@pytest.mark.parametrize("command", [["explore"], ["verify"], ["plot", "--variable", "value"]])
-def test_what_is_of_scenes_refuses_it(
-    command: list[str], gradhesion: Call, folder: Path, found: xarray.Dataset
-) -> None:
-    found.to_netcdf(folder / "fit.nc")
-    result = gradhesion(*command, "fit.nc")
-    assert (result.exit_code, len(result.stderr.splitlines())) == (2, 1)
-
-
 def test_validate_and_plan_say_what_would_be_fitted(gradhesion: Call, folder: Path) -> None:
     assert "a fit of 600 points in 1 cycle" in gradhesion("validate", "fit.toml").stdout
     assert "E_star, work_of_adhesion" in gradhesion("plan", "fit.toml").stdout
@@ -137,7 +126,6 @@ FILES: dict[str, list[str]] = {
     "all nan": ["nan,1", "nan,2"],
     "flat": [f"{i % 20},1" for i in range(50)],
     "too large": [],
-    "another": ROWS,
 }
 
 
@@ -147,8 +135,7 @@ def test_a_file_that_is_no_loop_is_refused(gradhesion: Call, folder: Path, name:
     if name == "too large":
         with (folder / "force_curve.csv").open("wb") as file:
             file.truncate(2**30)  # a hole, that takes no room
-    written = [f'--set=data.sha256="{64 * "0"}"'] if name == "another" else []
-    result = gradhesion("validate", "fit.toml", *written)
+    result = gradhesion("validate", "fit.toml")
     assert (result.exit_code, result.stderr.count("\n")) == (2, 1), result.stderr
     assert "fit.toml:" in result.stderr or "data." in result.stderr
 
@@ -159,15 +146,6 @@ def test_rows_without_a_number_are_counted_and_left_out(gradhesion: Call, folder
     assert result.exit_code == 0
     assert "force_curve.csv: 2 rows without a number were left out" in result.stderr
     assert "a fit of 600 points" in result.stdout
-
-
-def test_a_column_of_branches_and_one_of_cycles_are_read(folder: Path) -> None:
-    back = np.arange(DEPTHS.size) > int(np.argmax(DEPTHS))
-    rows = [f"{ROWS[i]},{'Unloading' if back[i] else 'loading'},{1 + i % 2}" for i in range(DEPTHS.size)]
-    measured(folder, rows, "depth,force,branch,cycle")
-    study = gr.load("fit.toml", set={"data.branch": "branch", "data.cycle": "cycle"})
-    assert study.loop.unloading.tolist() == back.tolist()
-    assert study.loop.cycles == 2
 
 
 def test_cycles_are_found_in_the_order_of_the_points(folder: Path) -> None:

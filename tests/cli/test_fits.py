@@ -3,22 +3,19 @@
 import csv
 import io
 import math
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 import xarray
-from click.testing import Result
 
 import gradhesion as gr
 from gradhesion.cli.dataset import fits as of_fits
 from gradhesion.cli.picture.fits import drawn_fits
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, NO_VALUE, POOR_FIT
-from tests.cli.ball import BALL, WORK
+from tests.cli.conftest import BALL, WORK, Call, Patch
 
-Call = Callable[..., Result]
 R = 5e-6
 TRUE = {"0": (1.0e7, 0.030, 40), "1": (1.2e7, 0.035, 30), "2": (0.9e7, 0.040, 35)}
 """Modulus in Pa, work of adhesion in J/m^2 and points of loading, by the name of the file."""
@@ -84,7 +81,7 @@ def found(home: Path) -> xarray.Dataset:
 
 
 @pytest.fixture
-def folder(home: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(home: Path, monkeypatch: Patch) -> Path:
     """That folder, as the current one."""
     monkeypatch.chdir(home)
     return home
@@ -170,7 +167,7 @@ def test_what_several_fits_have_not_is_refused(gradhesion: Call, command: list[s
     assert result.stderr
 
 
-def test_too_much_side_by_side_is_refused_before_it_is_fitted(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_too_much_side_by_side_is_refused_before_it_is_fitted(home: Path, monkeypatch: Patch) -> None:
     monkeypatch.setattr(of_fits, "_MOST", 1000)
     with pytest.raises(gr.StudyError, match="average = true"):
         gr.run(home / "many.toml")
@@ -220,9 +217,7 @@ def test_what_differs_is_not_compared(gradhesion: Call, models: dict[str, Path],
     assert words in result.stderr
 
 
-def test_a_tabor_parameter_has_a_range_and_a_long_one_is_said(
-    models: dict[str, Path], gradhesion: Call, folder: Path
-) -> None:
+def test_a_tabor_parameter_has_a_range_said_if_long(models: dict[str, Path], gradhesion: Call, folder: Path) -> None:
     """R dgamma^2/E*^2 to a third, over the range (Tabor 1977), given or 0.3 nm."""
     options = ['--set=data.file="curves/1.csv"', '--set=physical.adhesion_range="100 nm"']
     result = gradhesion("run", "many.toml", "-o", "far.nc", *options)

@@ -16,16 +16,6 @@ from gradhesion.cli.study.reading import load_study, study_from
 pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).parents[2]
-LINES = [
-    'title = "Good"', 'layout = "grid"', 'layout = "points"', 'kind = "map"', 'outputs = ["pull_off_force"]', "[parameters]",
-    "k = [0.0, 0.5]", "k = 1", "nu = 0.3", "nu = [0.5, 0.4]", "modulus = 500.0", "c0_over_R = 0.01", "A = 0.1",
-    'lambda_over_R = { start = 0.1, stop = 0.5, num = 3, spacing = "log" }', "lambda_over_R = [0.1, 0.2]",
-    'kind = "curve"', 'outputs = ["path", "load"]', "a_max_over_a2 = [1.0, 2.0]", "chi = [0.1, 0.2]", "lambda_over_L = 0.3", "[profile]", "exponent = 2.5",
-    "harmonics = [{ n = 1, cos = 1.0 }, { n = 2, sin = 0.1 }]", "harmonics = [{ n = 1 }]", "[loading]", 'control = "machine"',
-    "machine_stiffness = [1.0, 2.0]", 'control = "load"', "[physical]", 'R = "1 mm"', 'E_star = ["1 kPa", "2 Pa"]', 'a_max = "1 m"',
-    'work_of_adhesion = { start = "1 J/m^2", stop = "2 J", num = 3 }', 'c0 = "1 m"', 'wavelength = "3 um"', 'solver = ["exact", "envelope"]',
-    "a_max_over_R = inf", "[method]", 'solver = "exact"', "[parameters.k]", "start = 0.1", "[[outputs]]", "outputs = []",
-]  # fmt: skip
 PIECES = [
     "nan", "-inf", "inf", "true", '"x"', "[", "]", "{", "}", "=", ".", ",", "#", "\n", "'", '"""', "1e999", "-0.0", "0x1F",
     "1979-05-27", "[[1], [2]]", "{}", "[{}]", "{a = {b = 1}}", "99999999999999999999", "\\", "\u00e9", "\u2028", "\x0b",
@@ -68,20 +58,6 @@ def read(content: bytes, overrides: list[str]) -> None:
 KEYS = st.sampled_from(["parameters.k", "parameters.k.num", "title", "a.b", "", "."])
 
 
-@given(
-    lines=st.lists(st.sampled_from(LINES), min_size=8, max_size=20),
-    cuts=st.lists(st.tuples(st.integers(0, 600), st.integers(0, 12), pieces), max_size=4),
-    overrides=st.lists(st.builds("{}={}".format, KEYS, pieces), max_size=2, unique=True),
-)
-@settings(max_examples=500)
-def test_mutated_studies(lines: list[str], cuts: list[tuple[int, int, str]], overrides: list[str]) -> None:
-    text = "\n".join(lines)
-    for start, length, piece in cuts:
-        start %= len(text) + 1
-        text = text[:start] + piece + text[start + length :]
-    read(text.encode("utf-8", "replace"), overrides)
-
-
 NUMBERS = ["-1", "0", "1e400", "nan", "inf", "7", "1e-300", "0.5", '"0.5"', "true", "5 m", ""]
 
 
@@ -110,17 +86,17 @@ def edited(draw: st.DrawFn) -> str:
         elif slip == "swap":
             lines[at], lines[other] = lines[other], lines[at]
         elif slip == "add":
-            lines.insert(at, draw(st.sampled_from(LINES)))
+            lines.insert(at, draw(st.sampled_from(draw(st.sampled_from(CONFIGS)))))
         else:
             place = draw(st.integers(0, len(lines[at])))
             lines[at] = lines[at][:place] + draw(pieces) + lines[at][place + 1 :]
     return "\n".join(lines)
 
 
-@given(text=edited())
-@settings(max_examples=1500)
-def test_slips_in_real_studies(text: str) -> None:
-    read(text.encode("utf-8", "replace"), [])
+@given(text=edited(), overrides=st.lists(st.builds("{}={}".format, KEYS, pieces), max_size=2, unique=True))
+@settings(max_examples=2000)
+def test_slips_in_real_studies_and_in_overrides(text: str, overrides: list[str]) -> None:
+    read(text.encode("utf-8", "replace"), overrides)
 
 
 @given(content=st.binary(max_size=200))

@@ -1,5 +1,6 @@
-"""An installation whose packages do not serve says so in one sentence; one that serves never looks."""
+"""Installations: one whose packages do not serve says so in one sentence; nothing is used that other systems lack."""
 
+import json
 import os
 import subprocess
 import sys
@@ -8,7 +9,8 @@ from pathlib import Path
 import pytest
 
 from gradhesion.cli.errors import MissingExtraError
-from gradhesion.cli.installation import checked, misfit, unmet
+from gradhesion.cli.installation import checked, misfit, refuse_without_threads, unmet
+from tests.cli.conftest import Call, Patch
 
 COMMAND = (sys.executable, "-m", "gradhesion")
 SCENE = "k=0.3, nu=0.3, modulus=500.0, c0_over_R=0.01, lambda_over_R=0.1, A=0.0, a_max_over_R=1.0"
@@ -35,9 +37,7 @@ def ends(folder: Path, *command: str) -> tuple[int, list[str]]:
     ("package", "version", "command", "needed"),
     [("numba", "0.60.0", "warmup", "numba>=0.62"), ("click", "7.1", "--help", "click>=8.2")],
 )
-def test_a_package_that_is_too_old_is_named_by_a_command(
-    package: str, version: str, command: str, needed: str, tmp_path: Path
-) -> None:
+def test_a_package_too_old_is_named(package: str, version: str, command: str, needed: str, tmp_path: Path) -> None:
     of_another_version(tmp_path, package, version, "")
     code, lines = ends(tmp_path, *COMMAND, command)
     assert code == 2
@@ -92,3 +92,65 @@ def test_nothing_is_looked_up_before_something_fails() -> None:
     code = "import sys, gradhesion as gr; gr.load; print('packaging.requirements' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "False\n"
+
+
+@pytest.mark.parametrize("number", ["0", "abc", ""])
+def test_no_thread_for_the_compiler_is_one_sentence(number: str, gradhesion: Call, monkeypatch: Patch) -> None:
+    monkeypatch.setenv("NUMBA_NUM_THREADS", number)
+    if number == "":
+        refuse_without_threads()
+        assert "NUMBA_NUM_THREADS" not in os.environ
+        return
+    result = gradhesion("run", "study.toml")
+    assert result.exit_code == 2
+    (line,) = result.stderr.splitlines()
+    assert line.startswith(f"NUMBA_NUM_THREADS = {number}: ")
+
+
+WITHOUT = """
+import builtins, importlib, json, os, pkgutil, signal, sys
+
+missing = {"fcntl", "grp", "posix", "pwd", "resource", "syslog", "termios", "tty"}
+plain = builtins.__import__
+
+def without(name, globals=None, *rest, **named):
+    if name in missing and str((globals or {}).get("__name__")).startswith("gradhesion."):
+        raise ModuleNotFoundError(f"No module named {name!r}", name=name)  # libraries have ways of their own
+    return plain(name, globals, *rest, **named)
+
+builtins.__import__ = without
+for name in ("SIGHUP", "SIGKILL", "SIGUSR1", "SIGUSR2", "SIGPIPE", "SIGALRM", "SIGQUIT"):
+    delattr(signal, name)
+for name in ("O_CLOEXEC", "O_DIRECTORY", "fork", "getpgid", "killpg", "sched_getaffinity"):
+    delattr(os, name)
+
+import gradhesion.cli
+from gradhesion.cli.main import cli, main
+
+for found in pkgutil.walk_packages(gradhesion.cli.__path__, "gradhesion.cli."):
+    if not found.name.startswith("gradhesion.cli.work.cluster") and not found.name.endswith("__main__"):
+        importlib.import_module(found.name)
+*first, last = json.loads(sys.argv[1])
+for arguments in first:
+    assert not cli.main(arguments, prog_name="gradhesion", standalone_mode=False), arguments
+sys.argv[1:] = last
+main()
+"""
+
+
+@pytest.mark.slow
+def test_a_study_is_run_shown_and_checked_without_what_windows_lacks(root: Path, tmp_path: Path) -> None:
+    """But for the engine of clusters: Dask has its own ways on each system."""
+    commands = [
+        ["run", str(root / "configs" / "smoke.toml"), "-o", "smoke.nc"],
+        ["status", "smoke.nc"],
+        ["info", "smoke.nc"],
+        ["plot", "smoke.nc"],
+        ["explore", "smoke.nc"],
+        ["verify", "smoke.nc", "--sample", "2", "--seed", "1"],
+    ]
+    command = [sys.executable, "-c", WITHOUT, json.dumps(commands)]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=300, check=False)
+    assert done.returncode == 0, (done.stdout, done.stderr)
+    assert done.stdout.endswith("values are within their stated errors\n"), "the last has come to its end"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["smoke.html", "smoke.nc", "smoke.png"]

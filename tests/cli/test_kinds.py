@@ -116,19 +116,6 @@ def test_a_file_in_blocks_is_what_python_computes_in_one(kind: str, files: dict[
         assert next(types) == next(types)
 
 
-@pytest.mark.parametrize("kind", ["map", "roughness", "uncertainty"])
-def test_shards_that_are_merged_give_the_same_file(
-    kind: str, files: dict[str, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("GRADHESION_CHUNK", "3")
-    for shard in ("1/2", "2/2"):
-        study = files[kind].with_suffix(".toml")
-        assert call("run", study, "-o", tmp_path / "x.nc", "--quiet", "--shard", shard).exit_code == 0
-    assert call("merge", tmp_path / "x.nc", "--quiet").exit_code == 0
-    with xarray.open_dataset(files[kind]) as one, xarray.open_dataset(tmp_path / "x.nc") as other:
-        xarray.testing.assert_equal(one, other)
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_command_takes_it(kind: str, files: dict[str, Path], tmp_path: Path) -> None:

@@ -1,20 +1,23 @@
-"""What a user meets in a terminal: the list of commands, examples that work, what was written, and what was meant."""
+"""What a user meets in a terminal: commands and their examples, what was written or meant, and how a command ends."""
 
+import copy
 import io
+import pickle
 import re
 import shlex
+import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import CliRunner
 
-from gradhesion.cli.errors import EXIT_CODES
+from gradhesion.cli import errors
+from gradhesion.cli.files import kind_of
 from gradhesion.cli.main import cli
 from gradhesion.cli.terminal.progress import progress
-
-Call = Callable[..., Result]
+from tests.cli.conftest import Call, Patch
 
 
 def test_help_fits_a_screen_with_all_commands_in_the_order_of_the_work_and_all_exit_codes() -> None:
@@ -26,7 +29,7 @@ def test_help_fits_a_screen_with_all_commands_in_the_order_of_the_work_and_all_e
     assert [name for name, _ in listed] + re.findall(r"\w+", set_up) == list(cli.commands)
     assert [name for name, _ in listed][:5] == ["init", "validate", "plan", "run", "status"]
     assert all(words.endswith(".") and not words.endswith("...") for _, words in listed), "none is cut"
-    assert [*map(int, re.findall(r"\d+", codes))] == [*EXIT_CODES]
+    assert [*map(int, re.findall(r"\d+", codes))] == [*errors.EXIT_CODES]
 
 
 @pytest.mark.parametrize("name", cli.commands)
@@ -82,9 +85,7 @@ class Terminal(io.StringIO):
         return True
 
 
-def test_progress_is_a_plain_line_every_ten_seconds(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_progress_is_a_plain_line_every_ten_seconds(capsys: pytest.CaptureFixture[str], monkeypatch: Patch) -> None:
     seconds = iter([0.0, 4.0, 11.0, 19.0, 22.0, 40.0])
     monkeypatch.setattr("time.monotonic", lambda: next(seconds))
     with progress(5000, quiet=False) as advance:
@@ -99,9 +100,7 @@ def test_progress_is_a_plain_line_every_ten_seconds(
 
 
 @pytest.mark.parametrize("quiet", [False, True])
-def test_on_a_terminal_progress_is_a_bar_and_nothing_where_it_is_to_be_quiet(
-    quiet: bool, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_on_a_terminal_progress_is_a_bar_and_nothing_where_it_is_to_be_quiet(quiet: bool, monkeypatch: Patch) -> None:
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
     monkeypatch.setattr("gradhesion.cli.terminal.progress.PERIOD", 0.0)
@@ -111,3 +110,82 @@ def test_on_a_terminal_progress_is_a_bar_and_nothing_where_it_is_to_be_quiet(
         advance(2000)
     said = terminal.getvalue()
     assert [words in said for words in ("2,000 of 5,000 scenes", "40%", "per s")] == 3 * [not quiet]
+
+
+@pytest.mark.parametrize(("name", "better"), [("foo.csv", "foo.nc"), ("foo.v2", "foo.v2.nc")])
+def test_a_dataset_has_the_ending_of_one(gradhesion: Call, tmp_path: Path, name: str, better: str) -> None:
+    for arguments in (("run", "study.toml"), ("merge", "a.nc", "b.nc")):
+        result = gradhesion(*arguments, "-o", tmp_path / name)
+        assert result.exit_code == 2
+        assert result.stderr.strip().endswith(f"write -o {tmp_path / better}")
+    assert not any(tmp_path.iterdir())
+
+
+CLASSES = errors.GradhesionError.__subclasses__()
+
+
+@pytest.mark.parametrize("kind", CLASSES)
+def test_a_command_ends_with_the_code_and_the_mistakes(kind: type[errors.GradhesionError], monkeypatch: Patch) -> None:
+    for mistakes in ("one", ["one", "two"], ("one",)):
+        error = kind(mistakes)
+        for same in (error, pickle.loads(pickle.dumps(error)), copy.copy(error)):  # noqa: S301 (our own)
+            assert (type(same), same.mistakes) == (kind, ("one",) if mistakes == "one" else tuple(mistakes))
+    monkeypatch.setattr(cli.commands["validate"], "callback", Mock(side_effect=kind(["x.toml: 1", "x.toml: 2"])))
+    result = CliRunner().invoke(cli, ["validate", "x.toml"])
+    assert (result.exit_code, result.stderr) == (kind.exit_code, "x.toml: 1\nx.toml: 2\n")
+    assert isinstance(result.exception, SystemExit), "no traceback"
+    assert kind.exit_code in errors.EXIT_CODES
+    assert issubclass(kind, ValueError) == (kind.__name__ in ("StudyError", "DatasetError"))
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "kind"),
+    [
+        ("x.toml", b"\x89HDF\r\n\x1a\n", "a dataset (NetCDF or HDF5)"),
+        ("x", b"CDF\x01", "a dataset (NetCDF)"),
+        ("x.nc", b"\x89PNG\r\n", "a picture (PNG)"),
+        ("x.CSV", b"k,nu", "a table (CSV)"),
+        ("x.toml", b"k = 1", "a study (TOML)"),
+        ("x", b"k = 1", ""),
+        ("x", b"", ""),
+        ("folder", None, "a directory"),
+        ("/dev/null", None, "no regular file"),
+        ("none.toml", None, ""),
+        ("x\0y", None, ""),
+    ],
+)
+def test_a_file_is_told_by_first_bytes_and_name(name: str, content: bytes | None, kind: str, tmp_path: Path) -> None:
+    (tmp_path / "folder").mkdir()
+    if content is not None:
+        (tmp_path / name).write_bytes(content)
+    assert kind_of(tmp_path / name) == kind
+
+
+SCRIPT = """\
+import atexit, multiprocessing, sys
+from concurrent.futures import ProcessPoolExecutor
+
+import click
+from gradhesion.cli import main
+
+
+@click.command()
+def pool():
+    found = ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("spawn"))
+    click.echo(found.submit(abs, -3).result())
+    found.shutdown(wait=False, cancel_futures=True)
+
+
+if __name__ == "__main__":
+    atexit.register(print, "tidied up")
+    main.cli.add_command(pool)
+    sys.argv = ["gradhesion", "pool"]
+    main.main()
+"""
+
+
+def test_it_waits_for_no_processes_and_tidies_up(tmp_path: Path) -> None:
+    script = tmp_path / "script.py"
+    script.write_text(SCRIPT)
+    done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "3\ntidied up\n", "")

@@ -1,19 +1,15 @@
 """Wrong tables: in each reader one sentence with file, line, column and remedy."""
 
 import os
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import Result
 
 import gradhesion as gr
 from gradhesion.cli.picture.measured import read_points
-from tests.cli.ball import BALL, COLUMNS
-
-Call = Callable[..., Result]
+from tests.cli.conftest import BALL, COLUMNS, Call
 
 STUDIES = {
     "points": 'outputs = ["pull_off_force"]\n[parameters]\npoints = "table.csv"\nk = 0.0\nnu = 0.3\nlambda_over_R = 0.1\n',
@@ -171,7 +167,7 @@ def test_cycles_are_whole_numbers(numbers: tuple[Any, Any], kept: tuple[int, int
     assert found.depth.tolist()[:4] == [0.0, 1e-9, 2e-9, 1e-9]
 
 
-WORDS = [("loading", "Unloading"), ("approach", "retract"), ("0", "1"), ("0.0", "1.0"), ("false", "TRUE"), ("forward", "Backward")]  # fmt: skip
+WORDS = [("loading", "Unloading"), ("approach", "retract"), ("0", "1"), ("0.0", "1.0"), ("false", "TRUE"), ("forward", "Backward"), ("Approaching", "retracting"), ("extend", "withdraw")]  # fmt: skip
 
 
 @pytest.mark.parametrize("words", WORDS)

@@ -18,12 +18,10 @@ from pathlib import Path
 from typing import Final
 
 from gradhesion.cli.terminal import interrupts
-from tests.faults.trials import OLD, Trials, ended, run, signal_at, values_of
+from tests.faults.trials import OLD, Trials, ended, run, signal_at
 from tests.memory import in_memory
 
 PAGE: Final = os.sysconf("SC_PAGE_SIZE")
-CODES: Final = (0, 4)
-"""Of a run on such a disk: it is written, or it cannot be."""
 
 
 def mount(*words: str | Path) -> None:
@@ -32,23 +30,11 @@ def mount(*words: str | Path) -> None:
 
 
 def checked(trials: Trials, code: int, *, overwrite: bool) -> int:
-    """Check what a run has left, resume it, and check what it has made; gives the code."""
-    told = (trials.folder.parent / "stderr").read_text()
-    assert code in CODES, (code, told)
-    assert (code == 0) == (told == ""), told
+    """Check what a run has said and left, go on with it, and check what that has made; gives the code."""
+    told = trials.told()
     assert told.count("\n") == (code != 0), told
     assert "Traceback" not in told
-    old = trials.output.read_bytes() if trials.output.exists() else None
-    if old not in (OLD, None):
-        assert values_of(trials.output) == trials.whole, "half an output"
-    else:
-        assert code != 0, "it says that it is fine"
-        assert (old == OLD) == overwrite, "the old output is gone"
-    options = ("--overwrite",) if overwrite or code == 0 else ()
-    assert ended(run(trials.study, trials.output, *options)) == 0, (trials.folder.parent / "stderr").read_text()
-    assert values_of(trials.output) == trials.whole
-    assert os.listdir(trials.folder) == ["out.nc"], os.listdir(trials.folder)
-    return code
+    return trials.checked(code, overwrite=overwrite, codes=(0, 4))
 
 
 def empty(trials: Trials) -> None:

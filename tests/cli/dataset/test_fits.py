@@ -1,65 +1,73 @@
-"""What a dataset has of a fit beyond its values, and what `info` says of it; nothing is fitted here."""
+"""What a dataset has of a fit beyond its values, what `info` and a run say of it, and why it may be doubted; nothing is fitted here."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import Result
 
 import gradhesion as gr
-from gradhesion.cli.dataset.fits import dataset_of
+from gradhesion.cli.dataset.fits import cautions_of_fit, dataset_of
 from gradhesion.cli.dataset.read.reader import opened
 from gradhesion.cli.dataset.select import write_dataset
 from gradhesion.cli.names.fits import FIT_MORE
 from gradhesion.cli.study.fit.study import FitStudy
-from gradhesion.cli.work.solve.fitting import Fit
+from gradhesion.cli.work.solve.fitting import Fit, doubts_of
 from gradhesion.core.loops.fitted import FittedLoop, OtherMinimum
-from gradhesion.core.loops.measured.features import ContactPoint
+from gradhesion.core.loops.measured.features import BaseLine, ContactPoint
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, NO_VALUE, POOR_FIT
+from tests.cli.conftest import Call
+from tests.conftest import ROOT
 
-Call = Callable[..., Result]
-CONFIGS = Path(__file__).parents[3] / "configs"
+EXAMPLE = ROOT / "configs" / "fit.toml"
 
 
 @pytest.fixture(scope="module")
 def study() -> FitStudy:
     """The example, with a tilt, and its zero of depth at the contact point."""
-    found = gr.load(CONFIGS / "fit.toml", set={"fit.offsets": {"indentation": "contact", "slope": True}})
+    found = gr.load(EXAMPLE, set={"fit.offsets": {"indentation": "contact", "slope": True}})
     assert isinstance(found, FitStudy)
     return found
 
 
-def fit(study: FitStudy, **changes: Any) -> Fit:
-    """A fit of the loop of a study, with made-up numbers."""
-    names = study.parameters
-    values = dict.fromkeys(names, 1.0) | {"E_star": 1e7, "work_of_adhesion": 0.03, "A": 0.01, "wavelength": 5e-7}
-    count = study.loop.depth.size
-    found = FittedLoop(
-        names=names,
+def made_up(values: dict[str, float], degrees: int = 200, /, **changes: Any) -> FittedLoop:
+    """A sound fit with made-up numbers, some of it changed."""
+    sound = FittedLoop(
+        names=tuple(values),
         values=values,
         standard_deviations={name: 0.01 * value for name, value in values.items()},
         low={name: 0.98 * value for name, value in values.items()},
         high={name: 1.02 * value for name, value in values.items()},
         ranges={name: (0.1 * value, 10.0 * value) for name, value in values.items()},
-        correlation=np.eye(len(names)),
+        correlation=np.eye(len(values)),
         on_bound=(),
-        chi_square=2.25 * (count - len(names)),
-        degrees_of_freedom=count - len(names),
-        residual=np.zeros(count),
+        chi_square=1.05 * degrees,
+        degrees_of_freedom=degrees,
+        residual=np.zeros(degrees + len(values)),
         loading=np.zeros((3, 2)),
         unloading=np.zeros((2, 2)),
         converged=True,
-        status=POOR_FIT | ANOTHER_MINIMUM,
-        others=tuple(OtherMinimum(values=values | {"A": 0.02 + 0.01 * i}, chi_square=1400.0 + i) for i in range(2)),
-        alike=("waves too fine to be seen would have the same effect",),
-        contact=ContactPoint(depth=2e-9, deviation=1e-10, method="the end of the base line"),
+        status=0,
         turning_radius=0.1,
-        widening=1.5,
     )
-    return Fit(loop=study.loop, found=replace(found, **changes))
+    return replace(sound, **changes)
+
+
+def fit(study: FitStudy, **changes: Any) -> Fit:
+    """A poor fit of the loop of a study beside two other minima, some of it changed."""
+    values = dict.fromkeys(study.parameters, 1.0)
+    values |= {"E_star": 1e7, "work_of_adhesion": 0.03, "A": 0.01, "wavelength": 5e-7}
+    degrees = study.loop.depth.size - len(values)
+    poor = {
+        "chi_square": 2.25 * degrees,
+        "status": POOR_FIT | ANOTHER_MINIMUM,
+        "others": tuple(OtherMinimum(values=values | {"A": 0.02 + 0.01 * i}, chi_square=1400.0 + i) for i in range(2)),
+        "alike": ("waves too fine to be seen would have the same effect",),
+        "contact": ContactPoint(depth=2e-9, deviation=1e-10, method="the end of the base line"),
+        "widening": 1.5,
+    }
+    return Fit(loop=study.loop, found=made_up(values, degrees, **(poor | changes)))
 
 
 def write(study: FitStudy, fits: list[Fit], path: Path) -> None:
@@ -106,7 +114,7 @@ def test_a_file_of_version_0_2_is_read(study: FitStudy, tmp_path: Path, gradhesi
     assert gradhesion("plot", path).exit_code == 0
 
 
-def test_side_by_side_minima_are_padded_and_flagged_loops_count_in_no_median(
+def test_minima_are_padded_and_flagged_loops_count_in_no_median(
     study: FitStudy, tmp_path: Path, gradhesion: Call
 ) -> None:
     several = replace(study, loops=(study.loop, study.loop, study.loop), file="*.csv")
@@ -146,3 +154,54 @@ def test_a_fitted_value_is_taken_for_a_key(study: FitStudy, tmp_path: Path, grad
         result = gradhesion("validate", scene, *sets[1:], f"--set=physical.{key}={file}")
         assert result.exit_code == 2
         assert f"physical.{key}" in result.stderr
+
+
+VALUES = {"E_star": 2e6, "work_of_adhesion": 0.02, "load_offset": 1e-9}
+
+
+OTHER = OtherMinimum(values=VALUES | {"E_star": 4e6}, chi_square=212.5)
+DOUBTS: list[tuple[dict[str, Any], list[str]]] = [
+    ({}, []),
+    ({"converged": False}, ["starts"]),
+    ({"chi_square": 900.0, "status": POOR_FIT}, ["4.5"]),
+    ({"chi_square": 9e4, "status": POOR_FIT}, ["signs of depth and load"]),
+    ({"others": (OTHER,), "status": ANOTHER_MINIMUM}, ["chi square 212.5 at E_star = 4e+06"]),
+    ({"on_bound": ("E_star",)}, ["E_star is at an end of its range"]),
+    ({"on_bound": ("load_offset", "E_star")}, ["offsets under [fit]", "E_star"]),
+    ({"on_bound": ("closing_ratio",), "values": {"closing_ratio": 1.0}, "ranges": {"closing_ratio": (0.2, 1.0)}}, ["leave closing_ratio out"]),
+]  # fmt: skip
+"""What is changed, and words of what is said: a sentence each."""
+
+
+@pytest.mark.parametrize(("changes", "words"), DOUBTS)
+def test_each_is_a_sentence_with_numbers_and_what_to_do(changes: dict[str, Any], words: list[str]) -> None:
+    said = list(doubts_of(made_up(VALUES, **changes)))
+    assert len(said) == len(words)
+    assert all(word in sentence for word, sentence in zip(words, said, strict=True))
+
+
+TILT = {"slope": 1e-3, "slope_deviation": 1e-4}
+CAUTIONS: list[tuple[dict[str, Any], float, dict[str, Any], list[str]]] = [
+    (TILT, 1.0, {}, ["10 standard deviations"]),
+    (TILT | {"slope": -1e-3}, 1.0, {}, ["10 standard deviations"]),
+    (TILT | {"slope": 5e-4}, 1.0, {}, []),
+    (TILT, 1.0, {"names": (*VALUES, "load_slope"), "values": VALUES | {"load_slope": 1e-3}}, []),
+    ({}, 30.0, {}, ["is below 5"]),
+    ({}, 1000.0, {}, ["is below 0.1"]),
+    ({}, 1.0, {"turning_radius": 1.5}, ["a = 1.5 R"]),
+    ({}, 1.0, {"alike": ("it may be another",)}, ["it may be another"]),
+]
+"""The base line, the range of the attraction in nm, what else is changed, and words of what is said."""
+
+
+@pytest.mark.parametrize(("line", "reach", "changes", "words"), CAUTIONS)
+def test_cautions_have_a_reason(
+    line: dict[str, float], reach: float, changes: dict[str, Any], words: list[str]
+) -> None:
+    study = gr.load(EXAMPLE, set={"physical.adhesion_range": f"{reach} nm"})
+    assert isinstance(study, FitStudy)
+    base = BaseLine(level=0.0, spread=1e-9, ends=(0.0, 0.0), **line) if line else None
+    study = replace(study, free={}, fixed=study.fixed | {"A": 0.0})
+    said = list(cautions_of_fit(study, made_up(VALUES, base_line=base, **changes)))
+    assert len(said) == len(words), said
+    assert all(word in sentence for word, sentence in zip(words, said, strict=True))

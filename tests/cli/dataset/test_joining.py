@@ -2,7 +2,6 @@
 
 import hashlib
 import tomllib
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -10,17 +9,15 @@ import netCDF4
 import numpy as np
 import pytest
 import xarray
-from click.testing import Result
 
 import gradhesion as gr
 from gradhesion.cli.dataset.writer import write
 from gradhesion.cli.study.reading import study_from
-
-Call = Callable[..., Result]
+from tests.cli.conftest import Call, Made, Patch
 
 
 @pytest.fixture
-def joined(gradhesion: Call, tmp_path: Path) -> Callable[..., Path]:
+def joined(gradhesion: Call, tmp_path: Path) -> Made:
     """Join datasets."""
 
     def join(*files: Path) -> Path:
@@ -32,7 +29,7 @@ def joined(gradhesion: Call, tmp_path: Path) -> Callable[..., Path]:
 
 
 @pytest.fixture
-def written(data: dict[str, Any], tmp_path: Path) -> Callable[..., Path]:
+def written(data: dict[str, Any], tmp_path: Path) -> Made:
     """Write the dataset of the small study with other keys."""
 
     def make(name: str, *, parameters: dict[str, Any] | None = None, **changes: Any) -> Path:
@@ -66,12 +63,7 @@ WHOLES: dict[str, tuple[dict[str, Any], list[dict[str, Any]], dict[str, Any]]] =
 
 @pytest.mark.parametrize("name", WHOLES)
 def test_parts_are_joined_in_the_order_of_their_axes(
-    name: str,
-    gradhesion: Call,
-    written: Callable[..., Path],
-    joined: Callable[..., Path],
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
+    name: str, gradhesion: Call, written: Made, joined: Made, tmp_path: Path, monkeypatch: Patch
 ) -> None:
     monkeypatch.setenv("GRADHESION_CHUNK", "2")
     whole, parts, keys = WHOLES[name]
@@ -88,9 +80,7 @@ def test_parts_are_joined_in_the_order_of_their_axes(
         assert gradhesion("merge", *lacking, "-o", tmp_path / "other.nc").exit_code == 2
 
 
-def test_units_as_they_were_written_before_go_with_those_of_today(
-    gradhesion: Call, joined: Callable[..., Path], tmp_path: Path
-) -> None:
+def test_units_as_once_written_go_with_those_of_today(gradhesion: Call, joined: Made, tmp_path: Path) -> None:
     physical = {"R": "1 um", "E_star": "1 GPa", "c0": "10 nm", "wavelength": "50 nm"}
     files = [tmp_path / f"{work}.nc" for work in ("20", "50", "both")]
     for file, work in zip(files, ("20 mJ m-2", "50 mJ/m^2", ["20 mJ m-2", "50 mJ/m^2"]), strict=True):
@@ -118,9 +108,7 @@ APART: dict[str, dict[str, Any]] = {
 
 
 @pytest.mark.parametrize("name", APART)
-def test_what_cannot_be_joined_is_told(
-    name: str, gradhesion: Call, written: Callable[..., Path], tmp_path: Path
-) -> None:
+def test_what_cannot_be_joined_is_told(name: str, gradhesion: Call, written: Made, tmp_path: Path) -> None:
     one, other, output = written("one"), written("other", **APART[name]), tmp_path / "joined.nc"
     result = gradhesion("merge", one, other, "-o", output)
     assert (result.exit_code, result.stderr.count("\n")) == (2, 1)
@@ -128,7 +116,7 @@ def test_what_cannot_be_joined_is_told(
     assert not output.exists()
 
 
-def test_another_toughness_is_told(gradhesion: Call, written: Callable[..., Path], tmp_path: Path) -> None:
+def test_another_toughness_is_told(gradhesion: Call, written: Made, tmp_path: Path) -> None:
     scene = {"k": 0.0, "lambda_over_R": 0.2, "a_max_over_R": 0.5, "toughness_wavelength_over_R": 0.3}
     one, other = (
         written(str(A), parameters=scene | {"A": A}, toughness={"harmonics": [{"n": 1, "cos": cos}]})
@@ -144,8 +132,8 @@ LIES = ["nu = 0.29", "not TOML", "[" * 5000, "outputs = []", 'profile = { file =
 
 @pytest.mark.parametrize("text", LIES)
 @pytest.mark.parametrize("seal", [False, True])
-def test_a_study_that_does_not_match_its_values_is_refused(
-    text: str, seal: bool, gradhesion: Call, written: Callable[..., Path], tmp_path: Path
+def test_a_study_of_other_values_is_refused(
+    text: str, seal: bool, gradhesion: Call, written: Made, tmp_path: Path
 ) -> None:
     one, other = written("one"), written("other", parameters={"A": 0.5})
     with netCDF4.Dataset(other, "a") as file:
@@ -159,9 +147,7 @@ def test_a_study_that_does_not_match_its_values_is_refused(
     assert not (tmp_path / "joined.nc").exists()
 
 
-def test_a_coordinate_in_the_last_place_apart_takes_its_own_values(
-    written: Callable[..., Path], joined: Callable[..., Path]
-) -> None:
+def test_a_coordinate_in_the_last_place_apart_takes_its_own_values(written: Made, joined: Made) -> None:
     """As a logarithmic axis is with another numpy: no cell is left without an owner, or has another's values."""
     whole = written("whole", parameters={"lambda_over_R": [0.11, 0.2, 0.3, 0.47]})
     one, other = (written(str(some[0]), parameters={"lambda_over_R": some}) for some in ([0.11, 0.3], [0.2, 0.47]))
@@ -171,7 +157,7 @@ def test_a_coordinate_in_the_last_place_apart_takes_its_own_values(
     same_values(joined(one, other), whole)
 
 
-def test_the_output_is_named_and_stays(gradhesion: Call, written: Callable[..., Path], tmp_path: Path) -> None:
+def test_the_output_is_named_and_stays(gradhesion: Call, written: Made, tmp_path: Path) -> None:
     one, other = written("one"), written("other", parameters={"A": 0.5})
     for command in ((one, other), (one, one, "-o", tmp_path / "x.nc"), (one, "-o", tmp_path / "x.nc")):
         assert gradhesion("merge", *command).exit_code == 2

@@ -1,6 +1,5 @@
 """Size, colours, levels, limits, insets and words of a picture are what a user chooses; what does not exist is refused."""
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -8,13 +7,11 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 import xarray
-from click.testing import Result
 from matplotlib.colors import to_rgb
 
 import gradhesion as gr
+from tests.cli.conftest import Call
 from tests.cli.picture.seen import contours
-
-Call = Callable[..., Result]
 
 
 @pytest.fixture(scope="module")
@@ -178,6 +175,7 @@ WRONG: list[tuple[str, dict[str, Any]]] = [
     ("x lamda", {"x": "lamda"}), ("x k", {"x": "k", "y": "k"}), ("x k", {"x": "k", "at": {"k": 0.0}}), ("y k", {"y": "k", "over": {"k": "max"}}),
     ("x nu", {"x": "nu"}), ("variable energy", {"variables": ["pull_off_force", "energy"]}), ("at k=1.5", {"at": {"k": 1.5}}),
     ("over k=product", {"over": {"k": "product"}}), ("nothing varies", {"at": {"k": 0.0, "wavelength": 1e-7}}),
+    ("kind maps: ", {"kind": "maps"}), ("levels : ", {"levels": []}), ("interpolate: ", {"interpolate": True}),
     ("1 by 1 inches", {"width": 1, "height": 1}), ("logarithmic", {"xlim": (0, 1e-7)}),
 ]  # fmt: skip
 
@@ -207,7 +205,7 @@ def test_a_mistake_leaves_what_is_there(grid: xarray.Dataset, tmp_path: Path, gr
 
 
 @pytest.mark.parametrize(("form", "start"), [("svg", b"<?xml"), ("PDF", b"%PDF"), ("png", b"\x89PNG")])
-def test_the_command_draws_in_the_form_of_the_name(
+def test_the_name_gives_the_form(
     form: str, start: bytes, grid: xarray.Dataset, tmp_path: Path, gradhesion: Call
 ) -> None:
     grid.to_netcdf(tmp_path / "x.nc")

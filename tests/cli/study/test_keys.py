@@ -1,19 +1,17 @@
 """Keys that not every scene has: axes behind those of every scene, with the solver's values, as ratios and in units."""
 
 import math
-from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import Result
 
 import gradhesion as gr
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.study.reading import study_from
 from gradhesion.core import solve
 from gradhesion.core.problem.toughness import Rate, Toughness, ToughnessHarmonic
+from tests.cli.conftest import Call, Run
 
 SCENE: dict[str, Any] = {"k": 0.1, "nu": 0.3, "modulus": 1000.0, "c0_over_R": 0.01, "lambda_over_R": 0.2, "A": 0.01}
 PHYSICAL = {"R": "1 mm", "E_star": "50 kPa", "work_of_adhesion": "50 mJ/m^2", "c0": "10 um", "wavelength": "0.2 mm"}
@@ -55,13 +53,12 @@ def test_it_is_an_axis_behind_the_radius_with_the_values_of_the_solver(key: str)
     assert dataset["status"].dtype == (np.int8 if key in ("load_max", "closing_ratio") else np.int16)
 
 
-def test_a_speed_has_no_independent_twin(gradhesion: Callable[..., Result], tmp_path: Path) -> None:
+def test_a_speed_has_no_independent_twin(gradhesion: Call, ran: Run) -> None:
     data = LAW | {"outputs": OUTPUTS, "parameters": SCENE | {"a_max_over_R": 0.5, "speed_over_reference": [0.05, 0.1]}}
-    (tmp_path / "speed.toml").write_text(study_from(data).text)
-    assert gradhesion("run", tmp_path / "speed.toml", "-o", tmp_path / "speed.nc").exit_code == 0
-    assert "0.6" in gradhesion("info", tmp_path / "speed.nc").stdout.partition("rate: ")[2]
-    assert gradhesion("verify", tmp_path / "speed.nc").exit_code == 2
-    assert gradhesion("plot", tmp_path / "speed.nc").exit_code == 0
+    _, _, path = ran(data)
+    assert "0.6" in gradhesion("info", path).stdout.partition("rate: ")[2]
+    assert gradhesion("verify", path).exit_code == 2
+    assert gradhesion("plot", path).exit_code == 0
 
 
 @pytest.mark.parametrize("key", [key for key in KEYS if key != "speed_over_reference"])

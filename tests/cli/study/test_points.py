@@ -2,19 +2,15 @@
 
 import hashlib
 import tomllib
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray
-from click.testing import Result
 
 import gradhesion as gr
-from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study import load_study, study_from
-
-Call = Callable[..., Result]
+from tests.cli.conftest import Call, Patch, mistakes_of
 
 LISTS: dict[str, list[float]] = {
     "modulus": [430.0, 517.3, 611.9],
@@ -45,13 +41,6 @@ def study(tmp_path: Path) -> Path:
     return path
 
 
-def mistakes(path: Path, *overrides: str) -> list[str]:
-    """List what is wrong with a study."""
-    with pytest.raises(StudyError) as caught:
-        load_study(path, overrides)
-    return list(caught.value.mistakes)
-
-
 def test_a_file_gives_what_lists_give(study: Path, tmp_path: Path) -> None:
     lists = study_from({"layout": "points", "outputs": ["pull_off_force"], "parameters": REST | LISTS})
     xarray.Dataset({name: ("draw", values) for name, values in LISTS.items()}).to_netcdf(tmp_path / "samples.nc")
@@ -74,7 +63,7 @@ def test_the_stored_study_has_the_fingerprint_and_is_read_again(study: Path, tmp
     columns = {name: np.array(values) for name, values in LISTS.items()}
     assert study_from(tomllib.loads(found.text), folder="/nowhere", columns=columns).scenes == 3, "the file is known"
     (tmp_path / "samples.csv").write_text(TABLE.replace("0.041", "0.042"))
-    (sentence,) = mistakes(study)
+    (sentence,) = mistakes_of(study)
     assert sentence.startswith(f"{study}:5: parameters.points = ")
 
 
@@ -121,7 +110,7 @@ WRONG = {
 @pytest.mark.parametrize("change", WRONG, ids=str)
 def test_every_mistake_names_study_line_value_and_remedy(change: tuple[str, str], study: Path, tmp_path: Path) -> None:
     (tmp_path / "samples.csv").write_text(TABLE.replace(*change))
-    found = mistakes(study)
+    found = mistakes_of(study)
     assert any(line.startswith(f'{study}:5: parameters.points = "samples.csv": ') for line in found)
     assert any(WRONG[change] in line for line in found), found
 
@@ -139,19 +128,19 @@ def test_every_mistake_names_study_line_value_and_remedy(change: tuple[str, str]
     ],
 )
 def test_what_is_no_file(value: str, place: str, study: Path) -> None:
-    found = mistakes(study, f"parameters.points={value}")
+    found = mistakes_of(study, f"parameters.points={value}")
     assert any(f": parameters.{place}" in line for line in found), found
     assert len(found) == 1 or "absent" not in value, "nothing is missing that the file would give"
 
 
 def test_rows_are_points_and_all_lists_of_one_length(study: Path) -> None:
-    assert "layout = " in mistakes(study, 'layout="grid"')[0]
-    assert any("it has 3 values, but k has 2" in line for line in mistakes(study, "parameters.k=[0.1, 0.2]"))
+    assert "layout = " in mistakes_of(study, 'layout="grid"')[0]
+    assert any("it has 3 values, but k has 2" in line for line in mistakes_of(study, "parameters.k=[0.1, 0.2]"))
     assert load_study(study, ["parameters.k=[0.1, 0.2, 0.3]", 'layout="points"']).scenes == 3
 
 
 def test_in_python_and_verify_the_file_is_found_or_what_the_dataset_has_of_it(
-    study: Path, gradhesion: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    study: Path, gradhesion: Call, tmp_path: Path, monkeypatch: Patch
 ) -> None:
     assert gr.run(gr.load(study), set={"parameters.k": 0.0})["k"].values.tolist() == [0.0, 0.0, 0.0]
     output = tmp_path / "out.nc"
@@ -165,9 +154,7 @@ def test_in_python_and_verify_the_file_is_found_or_what_the_dataset_has_of_it(
     assert gradhesion("verify", output, "--sample", "2").exit_code == 0
 
 
-def test_shards_and_their_merge_find_the_file(
-    study: Path, gradhesion: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_shards_and_merge_find_the_file(study: Path, gradhesion: Call, tmp_path: Path, monkeypatch: Patch) -> None:
     output, whole = tmp_path / "elsewhere" / "out.nc", tmp_path / "whole.nc"
     output.parent.mkdir()
     monkeypatch.chdir(output.parent)

@@ -1,16 +1,20 @@
-"""The text of a study: where its mistakes are told, with exit 2 and nothing written; overrides and included studies."""
+"""The text of a study: where its mistakes are told, with exit 2 and nothing written; overrides, included studies, its schema."""
 
+import json
 import re
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from click.testing import Result
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.reading import load_study, study_from
+from gradhesion.cli.study.rules.form import Form
 from gradhesion.cli.study.text.source import read_source
 from gradhesion.cli.terminal.messages import printable_line
+from gradhesion.core.problem.inputs import INPUTS
+from tests.cli.conftest import Call, Made
 
 GOOD = """\
 title = "Good"
@@ -62,9 +66,7 @@ OVERRIDES = {"": ("parameters.k", "=3", "parameters..k=3", "layout=points", "par
 
 
 @pytest.fixture
-def refused(
-    gradhesion: Callable[..., Result], write_study: Callable[[str], Path], tmp_path: Path
-) -> Callable[..., list[str]]:
+def refused(gradhesion: Call, write_study: Made, tmp_path: Path) -> Callable[..., list[str]]:
     """Run a text as a study that must be refused, and give the lines of the message."""
 
     def run(text: str, *arguments: str) -> list[str]:
@@ -80,7 +82,7 @@ def refused(
 
 
 @pytest.mark.parametrize(("old", "new", "line"), NOT_TOML)
-def test_what_is_not_toml_is_refused_at_its_line(
+def test_what_is_not_toml_names_its_line(
     old: str, new: str, line: int | None, refused: Callable[..., list[str]]
 ) -> None:
     assert old in GOOD
@@ -123,9 +125,7 @@ def test_a_wrong_override_is_named_by_its_own_text(key: str, override: str, refu
     ("content", "place"),
     [(None, ""), ("folder", ""), (b'title = "\xff"', ":1"), (b"\x00\x01\x02", ":1"), (b"\n\n\nk = \n", ":4")],
 )
-def test_a_file_that_is_no_study(
-    content: bytes | str | None, place: str, gradhesion: Callable[..., Result], tmp_path: Path
-) -> None:
+def test_a_file_that_is_no_study(content: bytes | str | None, place: str, gradhesion: Call, tmp_path: Path) -> None:
     path = tmp_path / "study.toml"
     if content == "folder":
         path.mkdir()
@@ -135,6 +135,21 @@ def test_a_file_that_is_no_study(
     assert result.exit_code == 2
     assert result.stderr.startswith(f"{path}{place}: ")
     assert result.stderr.count("\n") == 1
+
+
+def test_a_dataset_is_no_study(gradhesion: Call, dataset_file: Path) -> None:
+    result = gradhesion("validate", dataset_file)
+    assert (result.exit_code, result.stderr.count("\n")) == (2, 1)
+    assert f"{dataset_file}: " in result.stderr
+    assert "a dataset (NetCDF or HDF5)" in result.stderr
+
+
+def test_several_values_of_an_option_stand_in_brackets(refused: Callable[..., list[str]]) -> None:
+    for override, answer in (
+        ("parameters.k=0,0.1", "--set 'parameters.k=[0,0.1]'"),
+        ("title=a, b", """--set 'title="a, b"'"""),
+    ):
+        assert answer in refused(GOOD, "--set", override)[0]
 
 
 def test_an_endless_file_is_not_read_for_ever() -> None:
@@ -200,3 +215,27 @@ def test_what_is_wrong_with_an_included_study(text: str, base: str, place: str, 
     (sentence,) = refused.value.mistakes
     assert sentence.startswith(f"{tmp_path / place}: ")
     assert words in sentence
+
+
+def test_a_valid_study_and_all_mistakes_of_another(gradhesion: Call, study_file: Path) -> None:
+    result = gradhesion("validate", study_file)
+    assert result.exit_code == 0
+    assert result.stdout == (
+        f"{study_file}: valid; a map of 24 scenes; axes: k (2), lambda_over_R (3), A (2), a_max_over_R (2); "
+        "outputs: pull_off_force, dissipated_energy, loading_jumps\n"
+    )
+    result = gradhesion("validate", study_file, "--set=parameters.nu=0.7", "--set=parameters.k=-1.0")
+    assert (result.exit_code, result.stdout, len(result.stderr.splitlines())) == (2, "", 2)
+
+
+def test_the_schema_is_that_of_validation(gradhesion: Call, root: Path) -> None:
+    told = json.loads(gradhesion("schema").stdout)
+    assert told.pop("$schema").startswith("https://json-schema.org/")
+    assert told == Form.model_json_schema()
+    own = told["$defs"]["Parameters"]
+    assert set(own["properties"]) == {"points", *(name for name, one in INPUTS.items() if one.table == "parameters")}
+    assert own["additionalProperties"] is False
+    for config in (root / "configs").glob("*.toml"):
+        keys = tomllib.loads(config.read_text())
+        assert keys.keys() <= told["properties"].keys()
+        assert keys["parameters"].keys() <= own["properties"].keys()

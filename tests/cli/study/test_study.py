@@ -2,7 +2,6 @@
 
 import hashlib
 import math
-from collections.abc import Callable
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -17,7 +16,8 @@ from gradhesion.cli.study.rules.axes import expanded
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.text.written import lines_of
-from gradhesion.cli.study.tiling import Tiling, size_of, tile
+from gradhesion.cli.study.tiling import Tiling, size_of
+from tests.cli.conftest import Made
 
 
 def same(one: Study, other: Study) -> bool:
@@ -47,9 +47,7 @@ def test_the_text_and_its_fingerprint(study_file: Path, data: dict[str, Any]) ->
     assert same(study, study_from(data, name="study"))
 
 
-def test_the_text_of_an_overridden_study_gives_the_same_study(
-    study_file: Path, write_study: Callable[[str], Path]
-) -> None:
+def test_the_text_of_an_overridden_study_gives_the_same_study(study_file: Path, write_study: Made) -> None:
     overrides = [
         "parameters.A=[0.2, 0.1]",
         "parameters.lambda_over_R.num=7",
@@ -146,16 +144,6 @@ def test_no_negative_zero_reaches_the_core() -> None:
 
 
 shapes = st.lists(st.integers(1, 40), min_size=0, max_size=5).map(tuple)
-
-
-@given(shape=shapes, cells=st.integers(1, 5000))
-def test_a_tile_fits_and_cuts_leading_axes_first(shape: tuple[int, ...], cells: int) -> None:
-    size = tile(shape, cells)
-    assert np.prod(size) <= max(cells, 1)
-    cut = [i for i, (part, length) in enumerate(zip(size, shape, strict=True)) if part < length]
-    if cut:
-        assert all(part == 1 for part in size[: cut[-1]])
-        assert size[cut[-1] + 1 :] == shape[cut[-1] + 1 :]
 
 
 @pytest.mark.slow

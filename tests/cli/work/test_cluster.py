@@ -11,15 +11,14 @@ from pathlib import Path
 
 import dask
 import pytest
-from click.testing import Result
 from distributed import LocalCluster
 
 from gradhesion.cli.work.folder import folder_of, parts_in
+from tests.cli.conftest import Call, Patch
 from tests.faults.trials import values_of
 
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("small_blocks")]
 
-Call = Callable[..., Result]
 PRELOAD = """
 import os, signal, time
 from pathlib import Path
@@ -64,14 +63,6 @@ def cluster(tmp_path: Path) -> Iterator[Callable[..., LocalCluster]]:
             one.close()
 
 
-@pytest.fixture
-def whole(gradhesion: Call, study_file: Path, tmp_path: Path) -> dict[str, bytes]:
-    """What threads give."""
-    path = tmp_path / "whole.nc"
-    assert gradhesion("run", study_file, "-o", path, "--quiet").exit_code == 0
-    return values_of(path)
-
-
 def test_workers_give_the_bytes_of_threads_and_what_dies_is_replaced(
     gradhesion: Call, study_file: Path, whole: dict[str, bytes], tmp_path: Path, cluster: Callable[..., LocalCluster]
 ) -> None:
@@ -108,7 +99,7 @@ def test_workers_that_cannot_do_it_end_the_run_in_a_sentence(
 
 @pytest.mark.parametrize("scheduler", ["tcp://127.0.0.1:9", "none.json", "/dev/null", "no dask"])
 def test_where_no_scheduler_answers_or_dask_is_missing_it_is_said(
-    scheduler: str, gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    scheduler: str, gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: Patch
 ) -> None:
     command = ["run", study_file, "-o", tmp_path / "data" / "out.nc", "--engine=dask"]
     if scheduler == "no dask":

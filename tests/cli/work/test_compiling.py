@@ -1,7 +1,6 @@
 """The first run of a version says that it compiles, once; what starts meanwhile waits, and nothing is compiled twice."""
 
 import threading
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -13,12 +12,11 @@ from gradhesion.cli.dataset import compute
 from gradhesion.cli.study import study_from
 from gradhesion.cli.work import compiling
 from gradhesion.core.jit import Place
-
-Call = Callable[..., Any]
+from tests.cli.conftest import Call, Patch
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path: Path, monkeypatch: Patch) -> Path:
     """A folder for compiled code, in which no process has compiled yet."""
     folder = tmp_path / "kernels"
     folder.mkdir()
@@ -27,9 +25,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.mark.usefixtures("folder")
-def test_the_first_run_says_that_it_compiles_and_no_later_one(
-    gradhesion: Call, study_file: Path, tmp_path: Path
-) -> None:
+def test_the_first_run_alone_says_that_it_compiles(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
     run = ("run", study_file, "--quiet")
     assert len(gradhesion(*run, "-o", tmp_path / "first.nc").stderr.splitlines()) == 1, "also where it is quiet"
     assert gradhesion(*run, "-o", tmp_path / "second.nc").stderr == ""
@@ -41,7 +37,7 @@ def test_a_plan_and_python_say_it_as_well_and_another_process_does_not_say_it_ag
     gradhesion: Call,
     study_file: Path,
     data: dict[str, Any],
-    monkeypatch: pytest.MonkeyPatch,
+    monkeypatch: Patch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert len(gradhesion("plan", study_file, "--json").stderr.splitlines()) == 1
@@ -59,8 +55,8 @@ def test_a_plan_and_python_say_it_as_well_and_another_process_does_not_say_it_ag
     assert len(capsys.readouterr().err.splitlines()) == 1
 
 
-def test_where_nothing_is_kept_it_says_why_once(
-    data: dict[str, Any], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+def test_why_nothing_is_kept_is_said_once(
+    data: dict[str, Any], monkeypatch: Patch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(compiling, "place", lambda: Place(None, "a folder is not used, and why"))
     monkeypatch.setattr(compiling, "_begun", set())
@@ -81,9 +77,7 @@ def test_what_starts_while_another_process_compiles_waits_for_it(folder: Path) -
 
 
 @pytest.mark.usefixtures("folder")
-def test_a_map_compiles_what_it_needs_before_it_is_solved(
-    data: dict[str, Any], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_map_compiles_what_it_needs_before_it_is_solved(data: dict[str, Any], monkeypatch: Patch) -> None:
     """A scene at either end of its axes is solved; blocks that raise are left to the run."""
     solved: list[Any] = []
 
@@ -99,7 +93,7 @@ def test_a_map_compiles_what_it_needs_before_it_is_solved(
 
 
 @pytest.mark.usefixtures("folder")
-def test_a_warmup_takes_the_options_of_earlier_versions(gradhesion: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_warmup_takes_the_options_of_earlier_versions(gradhesion: Call, monkeypatch: Patch) -> None:
     asked: list[bool] = []
     monkeypatch.setattr("gradhesion.core.warm_up", lambda _report, *, everything: asked.append(everything))
     for arguments in ([], ["--all"], ["--all", "--workers", "2", "--quiet"]):

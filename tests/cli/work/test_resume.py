@@ -15,11 +15,11 @@ from click.testing import Result
 
 from gradhesion.cli.work.folder import Parts, claimed, folder_of
 from gradhesion.cli.work.solve.scenes import solve as real_solve
+from tests.cli.conftest import Call, Patch
 from tests.faults.trials import values_of
 
 pytestmark = pytest.mark.usefixtures("small_blocks")
 
-Call = Callable[..., Result]
 SOLVE = "gradhesion.cli.work.solve.scenes.solve"
 BLOCKS = 6
 
@@ -31,7 +31,7 @@ def output(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def begun(gradhesion: Call, study_file: Path, output: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., int]:
+def begun(gradhesion: Call, study_file: Path, output: Path, monkeypatch: Patch) -> Callable[..., int]:
     """Interrupt a run after some blocks; tells how many are kept."""
 
     def begin(number: int, *options: str) -> int:
@@ -50,15 +50,7 @@ def interrupted() -> dict[str, Any]:
 
 
 @pytest.fixture
-def whole(gradhesion: Call, study_file: Path, tmp_path: Path) -> dict[str, bytes]:
-    """The values of a run in a single go."""
-    path = tmp_path / "whole.nc"
-    assert gradhesion("run", study_file, "-o", path, "--quiet").exit_code == 0
-    return values_of(path)
-
-
-@pytest.fixture
-def resumed(gradhesion: Call, study_file: Path, output: Path, whole: dict[str, bytes]) -> Callable[..., Result]:
+def resumed(gradhesion: Call, study_file: Path, output: Path, whole: dict[str, bytes]) -> Call:
     """Give the same command again, to its end."""
 
     def resume(kept: int, *options: str) -> Result:
@@ -99,12 +91,7 @@ CHANGES = ["parameters.nu=0.3", "parameters.k=[0.1, 0.31]", "method.check_contac
 
 @pytest.mark.parametrize("change", CHANGES)
 def test_blocks_of_another_study_or_version_are_refused_and_kept_until_they_are_dropped(
-    change: str,
-    begun: Callable[..., int],
-    gradhesion: Call,
-    study_file: Path,
-    output: Path,
-    monkeypatch: pytest.MonkeyPatch,
+    change: str, begun: Callable[..., int], gradhesion: Call, study_file: Path, output: Path, monkeypatch: Patch
 ) -> None:
     kept = begun(4)
     command = ["run", study_file, "-o", output]
@@ -136,8 +123,8 @@ def test_a_damaged_block_is_computed_again(damage: str, begun: Callable[..., int
     resumed(kept - 1)
 
 
-def test_a_study_of_one_block_keeps_none_and_a_second_run_is_refused(
-    gradhesion: Call, study_file: Path, output: Path, monkeypatch: pytest.MonkeyPatch
+def test_one_block_is_not_kept_and_a_second_run_refused(
+    gradhesion: Call, study_file: Path, output: Path, monkeypatch: Patch
 ) -> None:
     output.parent.mkdir()
     with claimed(output):
@@ -148,9 +135,7 @@ def test_a_study_of_one_block_keeps_none_and_a_second_run_is_refused(
     assert gradhesion("run", study_file, "-o", output).exit_code == 0
 
 
-def test_files_of_the_user_are_not_touched(
-    begun: Callable[..., int], gradhesion: Call, study_file: Path, output: Path
-) -> None:
+def test_files_of_users_are_left(begun: Callable[..., int], gradhesion: Call, study_file: Path, output: Path) -> None:
     """A folder that no run has made is refused; what is put beside blocks stays."""
     folder = folder_of(output)
     folder.mkdir(parents=True)
@@ -174,7 +159,7 @@ def test_what_happens_to_the_folder_during_a_run_loses_nothing(
     study_file: Path,
     output: Path,
     whole: dict[str, bytes],
-    monkeypatch: pytest.MonkeyPatch,
+    monkeypatch: Patch,
 ) -> None:
     """The folder of its blocks may be removed; a file may appear in the place of the output."""
 
@@ -237,7 +222,7 @@ def test_a_change_of_a_name_that_fails_loses_nothing(
 
 
 def test_a_run_killed_before_it_could_tidy_up_is_complete(
-    gradhesion: Call, study_file: Path, output: Path, whole: dict[str, bytes], monkeypatch: pytest.MonkeyPatch
+    gradhesion: Call, study_file: Path, output: Path, whole: dict[str, bytes], monkeypatch: Patch
 ) -> None:
     with monkeypatch.context() as patch:
         patch.setattr("gradhesion.cli.work.folder._remove", lambda _: None)
@@ -251,9 +236,7 @@ def test_a_run_killed_before_it_could_tidy_up_is_complete(
     assert values_of(output) == whole
 
 
-def test_blocks_of_version_0_3_are_refused_until_they_are_dropped(
-    gradhesion: Call, study_file: Path, output: Path
-) -> None:
+def test_blocks_of_version_0_3_are_refused_until_dropped(gradhesion: Call, study_file: Path, output: Path) -> None:
     folder = folder_of(output)
     folder.mkdir(parents=True)
     for name in ("000000.part", "study.json", "state.json", "lock"):

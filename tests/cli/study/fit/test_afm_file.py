@@ -1,7 +1,6 @@
 """Files of instruments: heights, forces and segments become depth, load and branches by the conventions of the field."""
 
 import builtins
-import re
 from pathlib import Path
 from typing import Any
 
@@ -9,9 +8,8 @@ import numpy as np
 import pytest
 
 import gradhesion as gr
-from gradhesion.cli.work.solve.fitting import fitted
-from tests.cli.ball import COLUMNS
-from tests.cli.study.fit.test_fit_data import STUDY, points
+from tests.cli.conftest import COLUMNS
+from tests.cli.study.fit.test_fit_data import STUDY, load, points, refused
 
 afmformats = pytest.importorskip("afmformats")
 
@@ -57,24 +55,11 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def load(file: str, **keys: Any) -> Any:
-    """The study of a file."""
-    return gr.load("fit.toml", set={"data.file": file} | {name.replace("__", "."): one for name, one in keys.items()})
-
-
-def refused(*keys: str, **given: Any) -> str:
-    """What is said where a study is refused at some keys, one sentence each."""
-    with pytest.raises(gr.StudyError) as caught:
-        load(**given)
-    assert [re.findall(r": ((?:data|physical)\.\w+)", one)[0] for one in caught.value.mistakes] == [*keys]
-    return str(caught.value)
-
-
 @pytest.mark.parametrize("name", ["curve.h5", "curve.tab"])
 @pytest.mark.parametrize("leave_out", [(), ("tip position",)])
 def test_depth_is_the_displacement_less_the_deflection(folder: Path, name: str, leave_out: tuple[str, ...]) -> None:
     rows = saved(folder, name, *leave_out)
-    study = load(name)
+    study = load(data__file=name)
     loop = study.loop
     np.testing.assert_allclose(loop.depth, rows["depth"] - 3e-6, rtol=0, atol=1e-12)
     np.testing.assert_allclose(loop.load, rows["load"], rtol=1e-6, atol=1e-14)
@@ -85,29 +70,31 @@ def test_depth_is_the_displacement_less_the_deflection(folder: Path, name: str, 
 
 def test_through_the_machine_the_height_is_its_displacement(folder: Path) -> None:
     rows = saved(folder, "curve.h5")
-    study = load("curve.h5", loading__control="machine", physical__spring_constant="2.5 N/m")
+    study = load(data__file="curve.h5", loading__control="machine", physical__spring_constant="2.5 N/m")
     np.testing.assert_allclose(study.loop.depth, rows["depth"] + rows["load"] / SPRING - 3e-6, rtol=0, atol=1e-12)
-    refused("physical.spring_constant", file="curve.h5", loading__control="machine")
+    refused("physical.spring_constant", data__file="curve.h5", loading__control="machine")
 
 
 def test_columns_may_be_named_with_their_sign(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Of a file that only an instrument writes: a file of afmformats under its name."""
     rows = saved(folder, "saved.h5")
     (folder / "curve.jpk-force").write_text("JPK")
-    refused("data.file", file="curve.jpk-force")
+    refused("data.file", data__file="curve.jpk-force")
     real = afmformats.load_data
     monkeypatch.setattr(afmformats, "load_data", lambda _, **more: real(folder / "saved.h5", **more))
     height = {"column": "height (measured)", "sign": -1}
-    study = load("curve.jpk-force", data__displacement=height, data__load="force", physical__spring_constant="2.5 N/m")
+    study = load(
+        data__file="curve.jpk-force", data__displacement=height, data__load="force", physical__spring_constant="2.5 N/m"
+    )
     np.testing.assert_allclose(study.loop.depth, rows["depth"] + rows["load"] / SPRING - 3e-6, rtol=0, atol=1e-12)
-    refused("data.indentation", file="curve.jpk-force", data__indentation="hight", data__load="force")
+    refused("data.indentation", data__file="curve.jpk-force", data__indentation="hight", data__load="force")
     wrong = {"column": "force", "unit": "nN"}
-    refused("data.load", file="curve.jpk-force", data__load=wrong, data__indentation="tip position")
+    refused("data.load", data__file="curve.jpk-force", data__load=wrong, data__indentation="tip position")
 
 
 def test_each_curve_of_a_file_is_a_loop(folder: Path) -> None:
     saved(folder, "map.h5", curves=3)
-    study = load("map.h5")
+    study = load(data__file="map.h5")
     assert [loop.file for loop in study.loops] == ["map.h5#0", "map.h5#1", "map.h5#2"]
     assert not study.is_of_one
     (folder / "stored.toml").write_text(study.text)
@@ -120,15 +107,15 @@ def test_what_a_file_lacks_is_said(folder: Path, capfd: pytest.CaptureFixture[st
     saved(folder, "c.h5", "tip position", "height (measured)")
     (folder / "d.ibw").write_text("no wave")
     for name in ("a.h5", "b.h5", "c.h5", "d.ibw", "e.ibw"):
-        refused("data.file", file=name)
+        refused("data.file", data__file=name)
     assert capfd.readouterr().err == "", "no traceback of another package"
 
 
 def test_tables_by_such_names_are_tables_where_columns_are_named(folder: Path) -> None:
     (folder / "loop.tab").write_text("depth\tforce\n" + "".join(f"{i % 9}\t{i % 7}\n" for i in range(20)))
     columns = {"indentation": {"column": "depth", "unit": "nm"}, "load": {"column": "force", "unit": "nN"}}
-    assert load("loop.tab", **{f"data__{name}": one for name, one in columns.items()}).loop.depth.size == 20
-    refused("data.indentation", "data.load", file="loop.csv")
+    assert load(data__file="loop.tab", **{f"data__{name}": one for name, one in columns.items()}).loop.depth.size == 20
+    refused("data.indentation", "data.load", data__file="loop.csv")
 
 
 def test_without_the_package_its_name_is_said(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -141,31 +128,4 @@ def test_without_the_package_its_name_is_said(folder: Path, monkeypatch: pytest.
         return real(name, *rest, **more)
 
     monkeypatch.setattr(builtins, "__import__", missing)
-    assert "pip install gradhesion[afm]" in refused("data.file", file="curve.h5")
-
-
-def test_a_long_curve_far_from_zero_gives_what_it_was_made_with(folder: Path) -> None:
-    """10,000 points of a smooth ball by the closed forms of Johnson, Kendall & Roberts (1971), the contact 7 um off."""
-    from afmformats.mod_force_distance import AFMForceDistance
-
-    R, E_star, work, spring = 5e-6, 1e6, 0.02, 0.5
-    a = np.linspace(1e-8, 3e-6, 300_001)
-    along = a**2 / R - np.sqrt(2.0 * np.pi * a * work / E_star)
-    force = 4.0 * E_star * a**3 / (3.0 * R) - np.sqrt(8.0 * np.pi * work * E_star * a**3)
-    along, force = (row[int(np.argmin(along)) :] for row in (along, force))
-    up, rng = np.linspace(-1.5e-6, 4e-7, 5000), np.random.default_rng(0)
-    depth, back = np.concatenate([up, up[::-1]]), np.arange(10_000) >= 5000
-    touching = (depth > 0.0) | (back & (depth > along[0]))
-    pull = np.where(touching, np.interp(depth, along, force), 0.0) + 1e-9 * rng.standard_normal(10_000)
-    depth = depth + 2e-10 * rng.standard_normal(10_000)
-    data = {"height (measured)": 7e-6 - depth - pull / spring, "force": pull, "segment": back.astype(np.uint8)}
-    meta = {"path": "long.h5", "enum": 0, "imaging mode": "force-distance", "spring constant": spring}
-    AFMForceDistance(data, meta | {"point count": 10_000}).export_data(folder / "long.h5", fmt="hdf5")
-    wide = {"start": "0.1 MPa", "stop": "10 MPa"}
-    study = load("long.h5", physical__E_star=wide, parameters__nu=0.5, fit__intervals="linear")
-    found = fitted(study, study.loop)
-    for name, true in {"E_star": E_star, "work_of_adhesion": work, "indentation_offset": -7e-6}.items():
-        assert abs(found.values[name] - true) < 4.0 * found.standard_deviations[name], name
-    assert found.standard_deviations["E_star"] < 1e-3 * E_star
-    assert abs(found.reduced_chi_square - 1.0) < 5.0 * np.sqrt(2.0 / found.degrees_of_freedom)
-    assert found.status == 0
+    assert "pip install gradhesion[afm]" in refused("data.file", data__file="curve.h5")

@@ -1,15 +1,22 @@
-"""An interrupted run leaves with 130, nothing but finished parts behind, and the old output intact; one that nobody reads, quietly."""
+"""Interrupts at any moment, and files that appear whole or not at all: the old output stays, nothing but finished parts is left."""
 
 import os
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from types import FrameType
+from typing import Any
 
 import pytest
+
+from gradhesion.cli import disk
+from gradhesion.cli.disk import replacement
+from gradhesion.cli.errors import OutputError
+from tests.cli.conftest import Patch
 
 HUGE = """\
 outputs = ["pull_off_force", "dissipated_energy"]
@@ -72,9 +79,7 @@ def test_a_second_interrupt_does_not_disturb_the_tidying_up(tmp_path: Path) -> N
     assert not list(tmp_path.glob("out/*/*.tmp"))
 
 
-def test_an_interrupt_that_a_library_swallows_is_heard_all_the_same(
-    study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_interrupt_that_a_library_swallows_is_heard(study_file: Path, tmp_path: Path, monkeypatch: Patch) -> None:
     from gradhesion.cli.dataset.writer import write
     from gradhesion.cli.study.reading import load_study
     from gradhesion.cli.terminal import interrupts
@@ -129,3 +134,89 @@ except KeyboardInterrupt:
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (0, "interrupted\n", "")
+
+
+def is_of_interest(frame: FrameType) -> bool:
+    """Tell where an interrupt is tried: at every line of ours, and of the making of a file."""
+    return frame.f_code.co_filename == disk.__file__ or frame.f_code is Path.touch.__code__
+
+
+@contextmanager
+def interrupted_at(step: int) -> Iterator[Callable[[], int]]:
+    """Raise KeyboardInterrupt at one line; gives the number of lines that were run by then."""
+    count = 0
+
+    def lines(_frame: FrameType, event: str, _: Any) -> Any:
+        nonlocal count
+        if event == "line":
+            count += 1
+            if count > step:
+                raise KeyboardInterrupt
+        return lines
+
+    before = sys.gettrace()
+    sys.settrace(lambda frame, *_: lines if is_of_interest(frame) else None)
+    try:
+        yield lambda: count
+    finally:
+        sys.settrace(before)
+
+
+def without_links(_self: Path, _target: Path) -> None:
+    """Refuse a link, as FAT does."""
+    raise PermissionError(1, "Operation not permitted")
+
+
+@pytest.mark.parametrize("there", [True, False])
+def test_an_interrupt_at_any_line_leaves_the_old_or_the_new_file_alone(there: bool, tmp_path: Path) -> None:
+    target = tmp_path / "out.nc"
+    found = []
+    for step in range(1000):
+        target.unlink(missing_ok=True)
+        if there:
+            target.write_text("old")
+        try:
+            with interrupted_at(step) as lines, replacement(target, overwrite=there) as temporary:
+                temporary.write_text("new")
+        except KeyboardInterrupt:
+            pass
+        found.append({path.name: path.read_text() for path in tmp_path.iterdir()})
+        if lines() <= step:
+            break
+    assert step > 20
+    before = {"out.nc": "old"} if there else {}
+    changed = found.index({"out.nc": "new"})
+    assert found == changed * [before] + (len(found) - changed) * [{"out.nc": "new"}]
+    assert changed > 0
+
+
+def make(target: Path, meanwhile: Callable[[], object], *, overwrite: bool) -> None:
+    """Make a file; something else happens before it is complete."""
+    with replacement(target, overwrite=overwrite) as temporary:
+        temporary.write_text("new")
+        meanwhile()
+
+
+@pytest.mark.parametrize("links", [True, False])
+def test_a_file_that_appears_meanwhile_stays_beside_the_new_one(
+    links: bool, tmp_path: Path, monkeypatch: Patch
+) -> None:
+    if not links:
+        monkeypatch.setattr(Path, "hardlink_to", without_links)
+    target = tmp_path / "out.nc"
+    for name in ("out-2.nc", "out-3.nc"):
+        with pytest.raises(OutputError, match=f"kept as {tmp_path / name}"):
+            make(target, lambda: target.write_text("precious"), overwrite=False)
+        assert target.read_text() == "precious"
+        assert (tmp_path / name).read_text() == "new"
+        target.unlink()
+    assert sorted(os.listdir(tmp_path)) == ["out-2.nc", "out-3.nc"]
+    with replacement(target, overwrite=False) as temporary:
+        temporary.write_text("new")
+    assert target.read_text() == "new"
+    with replacement(target, overwrite=True) as temporary:
+        temporary.write_text("newer")
+    assert target.read_text() == "newer"
+    target.unlink()
+    with pytest.raises(OutputError, match=r"kept as .*out-4\.nc"):
+        make(target, target.mkdir, overwrite=True)

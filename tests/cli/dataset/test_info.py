@@ -7,13 +7,10 @@ import netCDF4
 import numpy as np
 import pytest
 import xarray
-from click.testing import Result
 
 from gradhesion.cli.terminal.messages import printable
 from gradhesion.core.problem.status import OF_EVERY_MAP as FLAGS
-
-Call = Callable[..., Result]
-Made = Callable[..., Path]
+from tests.cli.conftest import Call, Made, Patch
 
 
 def test_it_tells_axes_fixed_values_and_status(gradhesion: Call, dataset_file: Path, made: Made) -> None:
@@ -34,9 +31,7 @@ def test_it_tells_axes_fixed_values_and_status(gradhesion: Call, dataset_file: P
 
 
 @pytest.mark.parametrize("chunk", ["1", "131072"])
-def test_extremes_and_flags_are_found_across_blocks(
-    chunk: str, gradhesion: Call, dataset_file: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_extremes_and_flags_across_blocks(chunk: str, gradhesion: Call, dataset_file: Path, monkeypatch: Patch) -> None:
     monkeypatch.setenv("GRADHESION_CHUNK", chunk)
     status = np.zeros(24, dtype=np.int8)
     for number, bit in enumerate(FLAGS.values()):
@@ -97,7 +92,6 @@ def test_a_file_that_is_no_dataset_of_ours(damage: str, gradhesion: Call, datase
 
 
 CHANGES: dict[str, Callable[[xarray.Dataset], xarray.Dataset]] = {
-    "no status": lambda whole: whole.drop_vars("status"),
     "a status with gaps": lambda whole: whole.assign(status=whole["status"].where(whole["k"] > 0)),
     "no scene": lambda whole: whole.isel(k=[]),
     "a mean beside values": lambda whole: whole.assign(pull_off_force=whole["pull_off_force"].mean("A")),
@@ -107,9 +101,7 @@ CHANGES: dict[str, Callable[[xarray.Dataset], xarray.Dataset]] = {
 
 
 @pytest.mark.parametrize("change", CHANGES)
-def test_what_a_changed_dataset_lacks_is_one_sentence(
-    change: str, gradhesion: Call, dataset_file: Path, tmp_path: Path
-) -> None:
+def test_what_a_dataset_lacks_is_said(change: str, gradhesion: Call, dataset_file: Path, tmp_path: Path) -> None:
     path = tmp_path / "changed.nc"
     with xarray.open_dataset(dataset_file) as whole:
         CHANGES[change](whole).to_netcdf(path)

@@ -1,21 +1,21 @@
-"""Contacts that reach slopes of the punch that are not small are said and marked, without being asked for."""
+"""The range of the model: its numbers as outputs of a map, and contacts on steep slopes, said and marked unasked."""
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 import xarray
-from click.testing import Result
 
 import gradhesion as gr
 from gradhesion.cli.dataset import compute
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.picture.doubts import BEYOND
 from gradhesion.cli.study import study_from
+from gradhesion.core import VALIDITY, validity
+from tests.cli.conftest import Call, Patch, Run
+from tests.cli.picture.seen import legend
 
-Call = Callable[..., Result]
 PARAMETERS = {"nu": 0.3, "modulus": 30.0, "c0_over_R": 0.1, "lambda_over_R": [0.05, 0.1, 0.2, 0.4, 0.8], "A": 0.05}
 STUDY: dict[str, Any] = {"outputs": ["dissipated_energy"], "parameters": {"k": [0.0, 0.1, 0.2, 0.3]} | PARAMETERS}
 WORDS = BEYOND["contact_slope"].words
@@ -35,33 +35,15 @@ def marks(dataset: xarray.Dataset) -> Any:
     return np.asarray(dataset.coords[STEEP].values if STEEP in dataset.coords else np.zeros(dataset["status"].shape))
 
 
-@pytest.fixture
-def ran(gradhesion: Call, tmp_path: Path) -> Callable[..., tuple[str, xarray.Dataset, str]]:
-    """Run a study; gives what is said, the dataset, and what `info` says."""
-
-    def run(study: dict[str, Any], *options: Any, output: str = "out.nc") -> tuple[str, xarray.Dataset, str]:
-        (tmp_path / "study.toml").write_text(study_from(study).text)
-        result = gradhesion("run", tmp_path / "study.toml", "-o", tmp_path / output, *options)
-        assert result.exit_code == 0, result.stderr
-        with gr.open(tmp_path / output) as dataset:
-            return result.stderr, dataset.load(), gradhesion("info", tmp_path / output).stdout
-
-    return run
-
-
-Ran = Callable[..., tuple[str, xarray.Dataset, str]]
-
-
-def test_run_info_blocks_shards_and_merges_say_and_mark_as_many(
-    ran: Ran, gradhesion: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_all_ways_to_run_mark_as_many(ran: Run, gradhesion: Call, tmp_path: Path, monkeypatch: Patch) -> None:
     steep = is_steep(STUDY)
     assert 0 < steep.sum() < steep.size
     parts = {"low": [0.0, 0.1], "high": [0.2], "one": 0.3}
     for name, k in parts.items():
         ran(asked(k=k), output=f"{name}.nc")
     monkeypatch.setenv("GRADHESION_CHUNK", "3")
-    said, dataset, told = ran(STUDY)
+    said, dataset, path = ran(STUDY)
+    told = gradhesion("info", path).stdout
     for i in (1, 2):
         words = ("-o", tmp_path / "shards.nc", "--shard", f"{i}/2")
         assert gradhesion("run", tmp_path / "study.toml", *words).exit_code == 0
@@ -80,16 +62,16 @@ def test_run_info_blocks_shards_and_merges_say_and_mark_as_many(
     said, dataset, _ = ran(STUDY | {"outputs": ["dissipated_energy", "contact_slope"]}, "--overwrite")
     assert f"{steep.sum()} of 20 scenes" in said
     assert STEEP not in dataset.variables, "the slope itself is there"
-    assert WORDS in _legend(gr.plot(dataset, "dissipated_energy"))
+    assert WORDS in legend(gr.plot(dataset, "dissipated_energy"))
 
 
 @pytest.mark.parametrize("change", [{}, {"a_max_over_R": 1.0}])
-def test_all_within_says_nothing(change: dict[str, Any], ran: Ran) -> None:
+def test_all_within_says_nothing(change: dict[str, Any], gradhesion: Call, ran: Run) -> None:
     study = asked(k=0.3, lambda_over_R=[0.4, 0.8], **change)
     assert not is_steep(study).any()
-    said, dataset, told = ran(study)
+    said, dataset, path = ran(study)
     assert "slope" not in said
-    assert "outside the range" not in told
+    assert "outside the range" not in gradhesion("info", path).stdout
     assert STEEP not in dataset.variables
 
 
@@ -126,36 +108,32 @@ def test_optima_mark_what_they_find() -> None:
     assert compute(study_from(shallow))["best_contact_slope"][0] > 1.0
 
 
-def test_curves_say_it_of_what_is_drawn(ran: Ran) -> None:
+def test_curves_say_it_of_what_is_drawn(ran: Run) -> None:
     study = asked(k=0.0, lambda_over_R=0.8, indentation_max_over_R=[0.1, 3.0]) | {"kind": "curve", "outputs": ["path"]}
     said, dataset, _ = ran(study)
     assert "1 of 2 scenes" in said
     np.testing.assert_array_equal(marks(dataset), dataset["path_contact_radius"].max("path_point") > 1.0)
 
 
-def test_a_cone_says_it_once(ran: Ran) -> None:
+def test_a_cone_says_it_once(gradhesion: Call, ran: Run) -> None:
     cone = asked(k=[0.0, 0.3], A=0.0, a_max_over_R=0.2) | {"profile": {"exponent": 1.0}, "outputs": ["pull_off_force"]}
     del cone["parameters"]["lambda_over_R"]
-    said, _, told = ran(cone)
+    said, _, path = ran(cone)
     assert said.count("a cone of slope 1") == 1
-    assert "a cone" in told.partition("outside the range")[2]
+    assert "a cone" in gradhesion("info", path).stdout.partition("outside the range")[2]
 
 
-def _legend(panels: Any) -> list[str]:
-    return [text.get_text() for legend in panels.figure.legends for text in legend.get_texts()]
-
-
-def test_pictures_hatch_them_and_pages_say_it(ran: Ran, gradhesion: Call, tmp_path: Path) -> None:
+def test_pictures_hatch_them_and_pages_say_it(ran: Run, gradhesion: Call, tmp_path: Path) -> None:
     waves = {"start": 0.05, "stop": 0.8, "num": 10, "spacing": "log"}
     study = asked(k={"start": 0.0, "stop": 0.3, "num": 12}, lambda_over_R=waves)
     said, dataset, _ = ran(study, "--quiet")
     assert said == ""
     panels = gr.plot(dataset, "dissipated_energy")
-    assert _legend(panels) == [WORDS]
+    assert legend(panels) == [WORDS]
     filled = {one.hatches[0] for one in panels[0].collections if getattr(one, "filled", False)}  # type: ignore[attr-defined]
     assert filled - {None} == {BEYOND["contact_slope"].hatch}
     few = dataset.isel(k=slice(10, 12), lambda_over_R=slice(8, 10))
-    assert WORDS not in _legend(gr.plot(few, "dissipated_energy"))
+    assert WORDS not in legend(gr.plot(few, "dissipated_energy"))
     assert gradhesion("explore", tmp_path / "out.nc").exit_code == 0
     share = f"{is_steep(study).sum()} of 120 scenes"
     assert share in panels.figure.get_suptitle()
@@ -173,15 +151,97 @@ def test_python_says_it_once(capsys: pytest.CaptureFixture[str]) -> None:
         found.gr.outside("wave_slope")
 
 
-def test_a_cycle_that_turns_before_contact_is_flagged(ran: Ran) -> None:
-    _, dataset, told = ran(asked(indentation_max_over_R=[-1.0, 0.05], k=0.0))
+def test_a_cycle_that_turns_before_contact_is_flagged(gradhesion: Call, ran: Run) -> None:
+    _, dataset, path = ran(asked(indentation_max_over_R=[-1.0, 0.05], k=0.0))
     assert dataset["status"].dtype == np.int16
     assert dataset["status"].attrs["flag_meanings"].split()[-1] == "no_contact"
     away = dataset.gr.flagged("no_contact")
     np.testing.assert_array_equal(away, [[True, False]] * 5)
     assert (dataset["dissipated_energy"].where(away, drop=True) == 0.0).all()
     assert dataset.gr.valid("dissipated_energy").all(), "no contact is an answer"
-    assert "the cycle turns before first contact" in told
+    assert "the cycle turns before first contact" in gradhesion("info", path).stdout
     plain = compute(study_from(STUDY))["status"]
     assert plain.dtype == np.int8
     assert "no_contact" not in plain.attrs["flag_meanings"]
+
+
+@pytest.fixture
+def numbered(data: dict[str, Any]) -> dict[str, Any]:
+    """A study that asks for all of them, beside a force."""
+    parameters = data["parameters"] | {"adhesion_range_over_R": [1e-5, 1e-3]}
+    return data | {"outputs": ["pull_off_force", *VALIDITY], "parameters": parameters}
+
+
+def test_the_range_is_the_last_dimension_and_solves_nothing_again(numbered: dict[str, Any]) -> None:
+    dataset = compute(study_from(numbered))
+    assert list(dataset.sizes) == ["k", "lambda_over_R", "A", "a_max_over_R", "adhesion_range_over_R"]
+    np.testing.assert_array_equal(dataset["pull_off_force"][..., 0], dataset["pull_off_force"][..., 1])
+    names = [*gr.PARAMETERS, "adhesion_range_over_R"]
+    arrays = dict(zip(names, xarray.broadcast(*(dataset[name] for name in names)), strict=True))
+    order = dataset["wave_slope"].dims
+    for name, values in validity({one: array.transpose(*order).values for one, array in arrays.items()}).items():
+        np.testing.assert_array_equal(dataset[name], values)
+        assert dataset[name].attrs["units"] == "1"
+
+
+@pytest.mark.parametrize("solver", ["asymptotic", "envelope", ["exact", "envelope"]])
+def test_numbers_with_any_solver(solver: Any, numbered: dict[str, Any]) -> None:
+    dataset = compute(study_from(numbered | {"method": {"solver": solver}}))
+    exact = compute(study_from(numbered))
+    for name in VALIDITY:
+        values = dataset[name] if isinstance(solver, str) else dataset[name].isel(solver=1)
+        np.testing.assert_array_equal(values, exact[name])
+
+
+def test_numbers_alone_and_in_python() -> None:
+    ball = {"k": 0.0, "nu": 0.5, "A": 0.0, "R": "1 mm", "E_star": "1 MPa", "work_of_adhesion": "50 mJ/m^2"}
+    found = gr.solve(ball, "tabor_parameter", adhesion_range=["0.3 nm", "1 um"])
+    assert found["tabor_parameter"].sizes == {"adhesion_range": 2}
+    one = (1e-3 * 0.05**2 / 1e6**2) ** (1 / 3) / 3e-10
+    assert found["tabor_parameter"][0].item() == pytest.approx(one, rel=1e-14)
+    np.testing.assert_allclose(found["adhesion_range_over_R"], [3e-7, 1e-3], rtol=1e-15)
+    assert (
+        gr.solve(k=0.0, nu=0.3, modulus=500.0, A=[0.0, 0.1], lambda_over_R=0.1, outputs="wave_slope")["status"].sum()
+        == 0
+    )
+
+
+def test_a_scene_without_value_has_none_of_them() -> None:
+    found = gr.solve(
+        k=0.0, nu=0.3, modulus=5000.0, A=0.1, lambda_over_R=0.1, a_max_over_a2=1.0, outputs=list(VALIDITY[2:])
+    )
+    assert found["status"].item() == 64
+    assert all(np.isnan(found[name].item()) for name in VALIDITY[2:])
+
+
+@pytest.mark.parametrize(
+    ("more", "beyond"),
+    [
+        ({}, {"wave_slope": 2}),
+        ({"profile": {"harmonics": [{"n": 1, "cos": 0.0, "sin": 0.2}]}}, {}),
+        ({"outputs": ["pull_off_force", "wave_slope"]}, {"wave_slope": 2}),
+        (
+            {
+                "outputs": [*VALIDITY],
+                "parameters": {"A": [0.0, 1e-5, 0.05, 0.2], "adhesion_range_over_R": [1e-5, 0.01]},
+            },
+            {"tabor_parameter": 4, "wave_tabor_parameter": 1, "wave_slope": 2, "johnson_alpha": 2},
+        ),
+    ],
+)
+def test_scenes_beyond_the_model_are_counted(
+    more: dict[str, Any], beyond: dict[str, int], gradhesion: Call, ran: Run
+) -> None:
+    """Two of four amplitudes have 2 pi A above 0.5, and there chi is above 1/2 and loading not one disc."""
+    numbers = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1, "a_max_over_R": 1.0}
+    numbers |= {"A": [0.01, 0.05, 0.1, 0.2]} | more.get("parameters", {})
+    study = {"outputs": ["dissipated_energy"]} | more | {"parameters": numbers}
+    said, _, path = ran(study)
+    told = gradhesion("info", path).stdout.partition("outside the range of the model\n")[2]
+    lines = {line.split()[0]: line for line in told.splitlines() if line.startswith("  ")}
+    assert {name: int(lines[name].split(" of ")[0].split()[-1]) for name in VALIDITY if name in lines} == beyond
+    if study["outputs"] == ["dissipated_energy"]:
+        assert ("slopes above 0.5 in 2 of 4 scenes" in said) == ("wave_slope" in beyond)
+        assert ("not one disc in 2 of 4 scenes" in said) == ("wave_slope" in beyond)
+    if study["outputs"] == [*VALIDITY]:
+        assert gradhesion("verify", path).exit_code == 2, "there is nothing to recompute"
