@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 from flint import arb
@@ -66,9 +66,9 @@ class Solution:
     """None for an unbounded punch that does not turn before."""
     turning_condition: float = 0.0
     """The relative change of the turning radius for one of the terms of the depth or load at which it turns."""
-    front_energy: arb = ZERO
-    pinned_depth: arb = ZERO
-    snap_in_force: arb = ZERO
+    front_energy: arb = field(default_factory=lambda: ZERO)
+    pinned_depth: arb = field(default_factory=lambda: ZERO)
+    snap_in_force: arb = field(default_factory=lambda: ZERO)
     """NaN where there is no jump into contact."""
     snap_in_size: float = 0.0
     """The size of its terms."""

@@ -83,7 +83,7 @@ def _lightness(colours: Any) -> Any:
 def number_contours(lines: QuadContourSet, shown: Shown) -> None:
     """Put a number on the longest piece of each line, whole and clear of other numbers; the layout must stand."""
     frame, transform = lines.axes.get_window_extent(), lines.get_transform()
-    side = 0.25 * lines.axes.get_figure(root=True).dpi  # type: ignore[union-attr] # a quarter of an inch holds a number
+    side = 0.25 * lines.axes.figure.dpi  # a quarter of an inch holds a number
     taken: list[Any] = []
     for path in lines.get_paths():
         pieces = [transform.transform(piece) for piece in path.to_polygons(closed_only=False)]

@@ -208,7 +208,7 @@ def _seen(points: Places, first: float, last: float) -> tuple[float, float] | No
 
 def _free(axes: Axes, points: Places) -> tuple[float, float, float, float] | None:
     """Find the largest free place in a panel, in shares of its sides: x, y, width and height of an inset."""
-    sides = np.array(axes.get_window_extent().size) / axes.get_figure(root=True).dpi  # type: ignore[union-attr]
+    sides = np.array(axes.get_window_extent().size) / axes.figure.dpi
     labels, space = np.array([0.4, 0.24]) / sides, 0.06 / sides  # inches for numbers, and on the other sides
     for share in (one for one in np.array(SHARES) if (one * sides >= (0.7, 0.5)).all()):  # smaller ones show nothing
         room = share + labels + space

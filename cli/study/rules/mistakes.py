@@ -133,7 +133,7 @@ def _unknown_key(path: Path, absent: Collection[str]) -> tuple[Path, str]:
     for other, keys in homes.items():
         if other != table and key in keys:
             where = f"under [{dotted(other)}]" if other else "at the top, before the first [table]"
-            return (*other, key), f"this key belongs {where}, as {'.'.join((*other, key))}; move it there"
+            return (*other, key), f"this key belongs {where}, as {dotted((*other, key))}; move it there"
     if "num" in known and key in _STEPS:
         sentence = "a range has no step; give the number of its values instead, for example num = 11"
         return (*table, "num"), f'{sentence}, evenly spaced unless spacing = "log"'
