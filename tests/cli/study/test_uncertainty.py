@@ -149,7 +149,7 @@ def test_run_names_the_share_of_scenes_that_differ(
         file, path = write_study(study.text), tmp_path / f"{samples}.nc"
         call = gradhesion("run", file, "-o", path)
         assert call.exit_code == 0
-        with xarray.open_dataset(path) as dataset:
+        with gr.open(path) as dataset:
             count = int(dataset.gr.flagged("linear_deviation_off").sum())
         assert 0 < count < 9
         assert f"in {count} of 9 scenes (" in call.stderr
