@@ -51,6 +51,8 @@ def test_variables_in_si_and_of_curves_are_doubted_as_what_they_are_of() -> None
 def test_what_is_not_there_is_refused(every_status: xarray.Dataset) -> None:
     with pytest.raises(gr.DatasetError, match=r'pull_of_force: .*"pull_off_force"'):
         every_status.gr.valid("pull_of_force")
+    with pytest.raises(gr.DatasetError, match="status: "):
+        every_status.gr.valid("status")
     with pytest.raises(gr.DatasetError, match=r'pull_off_at_rims: .*"pull_off_at_rim"'):
         every_status.gr.flagged("pull_off_at_rims")
     with pytest.raises(gr.DatasetError, match=r"title .*source .*status"):

@@ -156,6 +156,16 @@ def test_stored_values() -> None:
         assert [solution.loading_jumps, solution.unloading_jumps] == [row["loading_jumps"], row["unloading_jumps"]]
 
 
+def test_margins_are_those_of_the_same_wave_as_a_second_harmonic() -> None:
+    """A pair of folds that just is not there: the tilt at its extremum is the margin."""
+    row = next(row for row in stored() if str(row["note"]).endswith("off its tangency by -0.001"))
+    scene = {name: float(str(row[name])) for name in PARAMETERS}
+    wave = {"lambda_over_R": 2.0 * scene["lambda_over_R"], "A": 0.5 * scene["A"]}
+    margins = [solve(scene).margin_jumps, solve(scene | wave, Shape(2.0, ((2, 1.0, 0.0),))).margin_jumps]
+    assert margins[0] < 0.01
+    assert margins[1] == pytest.approx(margins[0], rel=1e-6)
+
+
 @pytest.mark.parametrize("k", [0.0, 2.0**-53, 1e-9, 0.37, 1 - 1e-12, 1.0])
 def test_far_expansion(k: float) -> None:
     """Beyond z = 200 Struve's expansion takes over from the series, next to integer orders as well."""

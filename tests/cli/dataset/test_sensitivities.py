@@ -198,7 +198,10 @@ def test_run_says_how_many_differ(gradhesion: Call, ran: Run, tmp_path: Path, un
         count = int(dataset.gr.flagged("linear_deviation_off").sum())
         assert 0 < count < 9
         assert f"in {count} of 9 scenes (" in said
-    assert "1,024 samples" in gradhesion("info", path).stdout
+    told = gradhesion("info", path).stdout
+    head, *rows = told[told.index("uncertain inputs") :].partition("\n\n")[0].splitlines()
+    assert "1,024 samples" in head
+    assert [row.split()[0] for row in rows] == ["lambda_over_R"]
     assert "1,025 times" in gradhesion("plan", tmp_path / "study.toml", "-o", tmp_path / "new.nc").stdout
     shown = ["plot", path, "-o", tmp_path / "picture.svg", "--variable", "pull_off_force_p95"]
     assert gradhesion(*shown).exit_code == 0

@@ -141,9 +141,14 @@ def test_what_is_seen_sets_the_other_axis(grid: xarray.Dataset) -> None:
     assert between[0].get_xlim() == pytest.approx((1e-7, 4e-7), rel=1e-12)
 
 
+@pytest.mark.parametrize("count", [40, 2000])
 @pytest.mark.parametrize(("width", "inset"), [(4.0, "500 nm:600 nm"), (6.0, "100 nm:200 nm"), (5.0, ":300 nm")])
-def test_an_inset_shows_a_part_and_hides_nothing(width: float, inset: str, bend: xarray.Dataset) -> None:
-    (axes,) = gr.plot(bend, "pull_off_force", width=width, inset=tuple(inset.split(":")))
+def test_an_inset_shows_a_part_and_hides_nothing(width: float, inset: str, count: int, bend: xarray.Dataset) -> None:
+    """However near to each other the points of the lines are."""
+    waves = ("wavelength", np.linspace(5e-8, 1e-6, count), bend["wavelength"].attrs)
+    dense = bend.isel(wavelength=np.arange(count) * 40 // count).assign_coords(wavelength=waves)
+    dense["pull_off_force"][...] = 1.0 + (2e6 * dense["wavelength"] - 1.1) ** 2 + 0.1 * dense["k"]
+    (axes,) = gr.plot(dense, "pull_off_force", width=width, inset=tuple(inset.split(":")))
     axes.figure.draw_without_rendering()
     (part,) = axes.child_axes
     assert part.get_xlim()[1] == pytest.approx(float(inset.split(":")[1].split(maxsplit=1)[0]) * 1e-9, rel=1e-12)
@@ -154,7 +159,9 @@ def test_an_inset_shows_a_part_and_hides_nothing(width: float, inset: str, bend:
     box, frame = part.get_tightbbox(), axes.get_window_extent()
     assert frame.contains(*box.min) * frame.contains(*box.max)
     for line in axes.get_lines():
-        fine = np.column_stack([np.interp(np.linspace(0, 39, 5000), np.arange(40), row) for row in line.get_xydata().T])
+        numbers = np.arange(len(line.get_xydata()))
+        places = np.linspace(0, numbers.size - 1, 5000)
+        fine = np.column_stack([np.interp(places, numbers, row) for row in line.get_xydata().T])
         points = axes.transData.transform(fine)
         assert not ((points > [box.x0, box.y0]) & (points < [box.x1, box.y1])).all(axis=1).any()
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from gradhesion.cli.study.reading import load_study, study_from
@@ -125,11 +125,14 @@ def test_an_even_range_has_the_decimals_that_one_would_write(first: int, step: i
     assert values.tolist() == written
 
 
-@given(decades=st.integers(1, 9), first=st.integers(-6, 3), each=st.sampled_from([1, 3, 7]))
-def test_a_log_range_has_the_powers_of_ten(decades: int, first: int, each: int) -> None:
-    values = expanded(Range(start=10.0**first, stop=10.0 ** (first + decades), num=decades * each + 1, spacing="log"))
+@given(digit=st.integers(1, 9), decades=st.integers(1, 9), first=st.integers(-6, 12), each=st.sampled_from([1, 3, 7]))
+@example(digit=3, decades=6, first=12, each=1)
+def test_a_log_range_has_the_powers_of_ten(digit: int, decades: int, first: int, each: int) -> None:
+    """Of a digit, from small numbers to those of more digits than a double has."""
+    written = [float(f"{digit}e{first + i}") for i in range(decades + 1)]
+    values = expanded(Range(start=written[0], stop=written[-1], num=decades * each + 1, spacing="log"))
     assert isinstance(values, np.ndarray)
-    assert values[::each].tolist() == [float(f"1e{first + i}") for i in range(decades + 1)]
+    assert values[::each].tolist() == written
 
 
 def test_values_that_no_short_decimal_is_near_stay() -> None:
@@ -141,6 +144,7 @@ def test_values_that_no_short_decimal_is_near_stay() -> None:
 def test_no_negative_zero_reaches_the_core() -> None:
     assert np.signbit(expanded(-0.0)) == np.False_
     assert not np.signbit(expanded([-0.0, 1.0])).any()
+    assert not np.signbit(expanded(Range(start=-0.0, stop=1.0))).any(), "the ends of a search"
 
 
 shapes = st.lists(st.integers(1, 40), min_size=0, max_size=5).map(tuple)

@@ -134,6 +134,7 @@ def test_shards_in_any_order_make_the_dataset(gradhesion: Call, study_file: Path
     assert f"{output}: 2 of 6 blocks are missing (2, 6)" in early.stderr
     assert gradhesion("run", study_file, "-o", output, "--shard", "2/4", "--quiet").exit_code == 0
     assert "reused 2 blocks, computed 0" in gradhesion("run", study_file, "-o", output, "--shard", "2/4").stderr
+    assert "`gradhesion merge`" in gradhesion("status", output).stdout, "it tells what to do"
     assert not output.exists()
     result = gradhesion("merge", output)
     assert result.exit_code == 0

@@ -116,6 +116,7 @@ def test_several_files_are_loops_by_name(gradhesion: Call, folder: Path) -> None
     assert [bool(loop.problem) for loop in study.loops] == [False, False, False, True]
     assert any(note.startswith("curves/empty.csv: ") for note in study.notes)
     assert not study.is_of_one
+    assert not load(data__file="curves/a*.csv").is_of_one, "a pattern has a dimension of loops, though it finds one"
     (folder / "stored.toml").write_text(study.text)
     assert gr.load("stored.toml").text == study.text
     for command in ("validate", "plan"):
