@@ -28,6 +28,12 @@ def planned(gradhesion: Call, *arguments: str | Path) -> dict[str, Any]:
     return plan
 
 
+def dated(output: Path) -> list[tuple[str, int]]:
+    """What a run keeps, with its dates; locks are dated by those who only look, too, in some versions of filelock."""
+    kept = (path for path in folder_of(output).iterdir() if not path.name.startswith("lock"))
+    return sorted((path.name, path.stat().st_mtime_ns) for path in kept)
+
+
 def test_nothing_is_written_and_what_is_kept_is_told(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
     output = tmp_path / "new" / "out.nc"
     plan = planned(gradhesion, study_file, "-o", output)
@@ -38,12 +44,12 @@ def test_nothing_is_written_and_what_is_kept_is_told(gradhesion: Call, study_fil
     assert 0 < 6 * plan["seconds_of_block"] < 2 * plan["seconds"] * (os.cpu_count() or 1)
     for shard, kept in (("1/2", 3), ("2/2", 6)):
         assert gradhesion("run", study_file, "-o", output, "--shard", shard).exit_code == 0
-        before = sorted((path.name, path.stat().st_mtime_ns) for path in folder_of(output).iterdir())
+        before = dated(output)
         plan = planned(gradhesion, study_file, "-o", output)
         assert (plan["blocks_kept"], plan["seconds"] is None) == (kept, kept == 6)
         other = planned(gradhesion, study_file, "-o", output, "--set=parameters.nu=0.3")
         assert (other["blocks_kept"], "--fresh" in other["refusal"]) == (0, True)
-        assert sorted((path.name, path.stat().st_mtime_ns) for path in folder_of(output).iterdir()) == before
+        assert dated(output) == before
     assert gradhesion("plan", study_file, "-o", output).exit_code == 0
 
 
