@@ -51,7 +51,8 @@ print(json.dumps({
 
 def ended(script: Path, tree: Path | None = None, **environment: str) -> dict[str, Any]:
     """Run the program in a process of its own, with the package of a tree if one is given."""
-    script.write_text(KERNELS)
+    if not script.exists():  # some versions of numba compile anew what is as it was, but written again
+        script.write_text(KERNELS)
     unset = ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME")
     inherited = {name: value for name, value in os.environ.items() if name not in unset}
     if tree is not None:

@@ -176,7 +176,7 @@ WRONG: list[tuple[str, dict[str, Any]]] = [
     ("xlim 50 nN:1 um", {"xlim": "50 nN:1 um"}), ("ylim 0 nN:1", {"ylim": "0 nN:1", "kind": "lines"}), ("xlim 2 um:3 um", {"xlim": "2 um:3 um"}),
     ("ylim 7:8", {"ylim": "7:8", "kind": "lines"}), ("ylim 0:1", {"ylim": "0:1", "kind": "lines", "variables": None}),
     ("inset 9e-7:2e-6", {"inset": "9e-7:2e-6", "kind": "lines"}), ("inset 2:3", {"inset": "2:3", "kind": "lines"}),
-    ("inset 5e-7:6e-7", {"inset": "5e-7:6e-7", "kind": "lines", "width": 1.6}),
+    ("inset 5e-7:6e-7", {"inset": "5e-7:6e-7", "kind": "lines", "width": 1.8}),
     ("inset 5e-7:6e-7", {"inset": "5e-7:6e-7", "kind": "lines", "ylim": "2.7:2.8"}),
     ("inset 5e-7:6e-7", {"inset": "5e-7:6e-7", "kind": "lines", "variables": None}), ("inset 5e-7:6e-7", {"inset": "5e-7:6e-7", "kind": "map"}),
     ("x lamda", {"x": "lamda"}), ("x k", {"x": "k", "y": "k"}), ("x k", {"x": "k", "at": {"k": 0.0}}), ("y k", {"y": "k", "over": {"k": "max"}}),
