@@ -40,6 +40,15 @@ def pytest_configure() -> None:
         os.environ.setdefault("PYTEST_DEBUG_TEMPROOT", place)
 
 
+@pytest.fixture(scope="session", autouse=True)
+def announced() -> None:
+    """Have no command say that it compiles, wherever a test is the first to need it: tests read what is printed."""
+    from gradhesion.cli.work.compiling import SECONDS, alone
+
+    with alone(*SECONDS):
+        pass
+
+
 @pytest.fixture
 def root() -> Path:
     """The repository."""

@@ -40,7 +40,8 @@ def plan(study: Path, output: Path | None, overrides: tuple[str, ...], threads: 
     if isinstance(loaded, FitStudy):
         found, lines = _of_fit(loaded, path), _fit_in_words(loaded, path)
     else:
-        prepare(loaded)
+        if loaded.kind == "map":  # of which some scenes are solved
+            prepare(loaded)
         of_run = estimate(loaded, path, threads)
         found, lines = asdict(of_run), _run_in_words(of_run)
     if as_json:
