@@ -206,22 +206,16 @@ def _take_values(given: Given, name: str, value: Any) -> None:
 
 def _align(given: Given) -> None:
     """Check that the dimensions of all arrays go together."""
-    taken = {*OUTPUTS, SOLVER, PARAMETER, PHYSICAL_PARAMETER, "status"}
+    taken = {*OUTPUTS, *INPUTS, SOLVER, PARAMETER, PHYSICAL_PARAMETER, "status"}
+    taken -= {name for name, array in given.arrays.items() if array.dims == (name,)}
     for name, array in given.arrays.items():
-        for dim in map(str, array.dims):
-            if dim in taken:
-                given.refuse(name, f'its dimension "{dim}" has the name of a variable; rename it')
-            elif dim in INPUTS and (dim not in given.arrays or given.arrays[dim].dims != (dim,)):
-                sentence = f'its dimension "{dim}" has the name of a parameter that is not an axis; rename it, or give'
-                given.refuse(name, f"{sentence} {dim} as a list")
-    arrays = {name: array.reset_coords(drop=True) for name, array in given.arrays.items()}
+        for dim in sorted(taken & {*map(str, array.dims)}):
+            sentence = f'its dimension "{dim}" has the name of a variable, or of a parameter that is not an axis'
+            given.refuse(name, f"{sentence}; rename it, or give {dim} as a list")
     try:
-        xarray.align(*arrays.values(), join="exact", copy=False)
+        xarray.align(*(array.reset_coords(drop=True) for array in given.arrays.values()), join="exact", copy=False)
     except ValueError:
-        sizes = "; ".join(
-            f"{name} over {', '.join(f'{dim} ({size})' for dim, size in array.sizes.items())}"
-            for name, array in arrays.items()
-        )
+        sizes = "; ".join(f"{name} over {dict(array.sizes)}" for name, array in given.arrays.items())
         sentence = f"dimensions of the same name differ in length or coordinates ({sizes}); rename one of them"
         given.refuse("parameters", sentence)
 

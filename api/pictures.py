@@ -3,7 +3,7 @@
 import io
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Final, Literal, overload
+from typing import Any, Final, Literal
 
 import xarray
 from matplotlib.axes import Axes
@@ -31,26 +31,14 @@ BAR: Final = "<colorbar>"
 """What matplotlib labels the axes of a colour bar."""
 
 
-class Panels(Sequence[Axes]):
+class Panels(list[Axes]):
     """The axes of a picture; a notebook shows their figure once, at the end of the cell that draws it."""
 
     def __init__(self, figure: Figure, looks: Looks) -> None:
+        super().__init__(axes for axes in figure.axes if axes.get_label() != BAR)
         self.figure = figure
-        self._axes = [axes for axes in figure.axes if axes.get_label() != BAR]
         self._looks = looks
         show_later(self)
-
-    @overload
-    def __getitem__(self, item: int) -> Axes: ...
-    @overload
-    def __getitem__(self, item: slice) -> list[Axes]: ...
-    def __getitem__(self, item: int | slice) -> Axes | list[Axes]:
-        """Give one of the axes, or some of them."""
-        return self._axes[item]
-
-    def __len__(self) -> int:
-        """Count the axes."""
-        return len(self._axes)
 
     def savefig(self, file: Any, **options: Any) -> None:
         """Save the figure in its own style, as `matplotlib.figure.Figure.savefig`."""
@@ -78,7 +66,7 @@ def plot(
     width: float | str | None = None,
     height: float | str | None = None,
     colour_map: str | None = None,
-    levels: int | Sequence[float] | None = None,
+    levels: int | str | Sequence[float | str] | None = None,
     labels: bool = True,
     title: bool | str = True,
     caption: bool = True,
@@ -89,7 +77,6 @@ def plot(
     data: str | Path | None = None,
     xlim: Limits | None = None,
     ylim: Limits | None = None,
-    inset: Limits | None = None,
     band: Literal["quantiles", "std", "none"] | None = None,
 ) -> Panels:
     r"""Draw a dataset: lines over one axis, a map over two, panels of maps over more; curves as curves, a fit whole.
@@ -116,7 +103,7 @@ def plot(
     colour_map
         A colour map of matplotlib; "viridis" if None.
     levels
-        Contour levels: about how many, or which ones, in the unit of the variable.
+        Contour levels: about how many, or which ones: [0.5, 1.0], in SI, or ["10 nJ", "20 nJ"].
     labels
         Whether contours have numbers on them.
     title
@@ -132,8 +119,6 @@ def plot(
         contact_radius, and their units in the header.
     xlim, ylim
         The parts of the axes that are drawn: (0.1, 0.5), ("50 nm", None). What is seen sets the other axis.
-    inset
-        A part of the horizontal axis that is drawn once more, enlarged, in a free corner; of a single panel of lines.
     band
         What is drawn around values of uncertain inputs: "quantiles" (5 % to 95 % of samples), "std" (a standard
         deviation on each side) or "none"; what the dataset has if None. At few values it is bars.
@@ -161,8 +146,7 @@ def plot(
     with as_keywords(), data_of(dataset) as values:
         looks = looks_of(
             kind=kind, width=width, height=height, colour_map=colour_map, levels=levels, labels=labels, title=title,
-            caption=caption, xlabel=xlabel, ylabel=ylabel, clabel=clabel, style=style, xlim=xlim, ylim=ylim,
-            inset=inset, band=band,
+            caption=caption, xlabel=xlabel, ylabel=ylabel, clabel=clabel, style=style, xlim=xlim, ylim=ylim, band=band,
         )  # fmt: skip
         if not is_fit(values):
             _check_dimensions(values)

@@ -100,8 +100,7 @@ def _along(sizes: Mapping[str, int], value: float | xarray.DataArray) -> NDArray
     """Give a parameter with an axis for every dimension, of length 1 where it does not vary."""
     if isinstance(value, float):
         return np.full((1,) * len(sizes), value)
-    values = value.transpose(*(dim for dim in sizes if dim in value.dims)).values
-    return np.asarray(values).reshape([value.sizes.get(dim, 1) for dim in sizes])
+    return np.asarray(value.expand_dims([dim for dim in sizes if dim not in value.dims]).transpose(*sizes).values)
 
 
 def _other_coordinates(parameters: Arrays, dataset: xarray.Dataset) -> dict[str, xarray.DataArray]:

@@ -42,7 +42,6 @@ from gradhesion.cli.commands.shared import (
 @click.option("--labels/--no-labels", default=True, help="Number the contours [yes].")
 @click.option("--xlim", metavar="LOW:HIGH", help="Part of the horizontal axis to draw; either end may be left out.")
 @click.option("--ylim", metavar="LOW:HIGH", help="Part of the vertical axis to draw.")
-@click.option("--inset", metavar="LOW:HIGH", help="Part of the horizontal axis to draw once more, enlarged.")
 @click.option("--band", metavar="HOW", help="Spread of uncertain values: quantiles, std or none [what there is].")
 @click.option("--title", metavar="TEXT", help="Title [that of the study].")
 @click.option("--no-title", "title", flag_value="", help="Print no title.")

@@ -11,7 +11,6 @@ from gradhesion.cli.dataset.read.sensitivities import parts_of, spread
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.curves import RAGGED, STATE_CURVES, curve_of
 from gradhesion.cli.names.outputs import PARETO_POINT, SI
-from gradhesion.cli.names.scenes import SCENE
 from gradhesion.cli.picture.curves import wants_si
 from gradhesion.cli.terminal.wording import did_you_mean
 
@@ -54,17 +53,6 @@ def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[s
     if size > MOST:
         raise DatasetError(
             f"{size:,} values are too many for a page, which takes {MOST:,}: choose one value of an axis with --at, as "
-            f"in {_example(cut)}, or fewer variables with --variable, or make a coarser study"
+            f"in --at AXIS=VALUE, or fewer variables with --variable, or make a coarser study"
         )
     return cut
-
-
-def _example(dataset: xarray.Dataset) -> str:
-    """Write an option that takes the middle of the longest axis that is not one of the two finest."""
-    sizes = {str(axis): size for axis, size in dataset["status"].sizes.items() if axis != SCENE and size > 1}
-    axes = sorted(sizes, key=lambda axis: -sizes[axis])
-    if not axes:
-        return "--at AXIS=VALUE"
-    axis = (axes[2:] or axes[-1:])[0]
-    value = dataset[axis].values[sizes[axis] // 2]
-    return f"--at {axis}={value}" if isinstance(value, str) else f"--at {axis}={value:.7g}"

@@ -11,6 +11,7 @@ from gradhesion.cli.explorer.data import Entry
 from gradhesion.cli.explorer.plain import plain
 from gradhesion.cli.picture.curves import PLANES, wants_si
 from gradhesion.cli.picture.labels import Unit, label, unit_for
+from gradhesion.cli.picture.looks import PLAIN
 from gradhesion.cli.picture.tracks import JUMP, QUANTITIES, THIN, TRACKS, Dash, Plane, Track, faded, tracks_in
 
 _WIDTH: Final = 1.5
@@ -49,11 +50,12 @@ def lines_of(dataset: xarray.Dataset) -> tuple[list[Plane], dict[str, Unit], Ent
 
 def _line(track: Track) -> Entry:
     """Describe a line for the script."""
+    colour = track.colour(PLAIN.colours)
     return {**track.variables} | {
         "curve": track.curve,
         "label": track.label,
-        "colour": to_hex(track.colour),
-        "faded": to_hex(faded(track.colour)),
+        "colour": to_hex(colour),
+        "faded": to_hex(faded(colour)),
         "dash": UNLOADING if track.unloading else _pixels(track.dash, track.width),
         "jumpDash": _pixels(JUMP, THIN),
         "jumpWidth": _WIDTH * THIN,

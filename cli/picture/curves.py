@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
@@ -23,9 +22,8 @@ from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.picture.doubts import CROSS, DOUBTS, Doubt, doubts_in, entries
 from gradhesion.cli.picture.labels import equations, fixed, given
 from gradhesion.cli.picture.looks import Looks
-from gradhesion.cli.picture.measured import Points, read_points
 from gradhesion.cli.picture.pictured import MARKERS, finish, stacked, styled
-from gradhesion.cli.picture.scales import add_inset, fit_heights, suit
+from gradhesion.cli.picture.scales import suit
 from gradhesion.cli.picture.states import draw_states
 from gradhesion.cli.picture.tracks import (
     JUMP,
@@ -36,12 +34,11 @@ from gradhesion.cli.picture.tracks import (
     Colour,
     Dash,
     Plane,
+    Points,
     Track,
     Values,
-    draw_arrows,
-    draw_marks,
-    draw_track,
     faded,
+    read_points,
     tracks_in,
     unloads,
 )
@@ -100,36 +97,31 @@ def drawn_curves(
     planes, chosen = _planes(x, y), _chosen(dataset, requested)
     of_states = [curve for curve in chosen if curve in STATE_CURVES]
     chosen = [curve for curve in chosen if curve not in of_states]
-    if requested and of_states and chosen:
-        raise DatasetError(
-            f"--variable {of_states[0]} has no axis in common with {chosen[0]}; draw one after the other"
-        )
-    if not chosen:
-        for option, value in (("data", data), ("x", x), ("y", y)):
-            if value:
-                raise DatasetError(
-                    f"--{option} {value}: curves of states lie over the distance from the axis; leave it out"
-                )
+    if of_states and (requested or not chosen):
+        others = [*chosen, *(f"--{name} {value}" for name, value in (("data", data), ("x", x), ("y", y)) if value)]
+        if others:
+            raise DatasetError(
+                f"{of_states[0]}, over the distance from the axis, goes into no picture with {others[0]}; leave it out"
+            )
         return draw_states(dataset, of_states, looks)
     scenes, caption = _scenes_of(dataset, looks)
     si = wants_si(map(str, dataset.data_vars), requested)
     own = [track for track in (TRACKS_OF_MANY if len(scenes) > 1 else TRACKS) if track.curve in chosen]
-    known = tracks_in(dataset, own, si=si, colours=looks.colours)
+    known = tracks_in(dataset, own, si=si)
     there = {plane: [one for one in known if {one.variables[side] for side in plane} <= {*dataset}] for plane in planes}
-    panels = [(plane, tracks) for plane, tracks in there.items() if tracks]
+    panels = {plane: tracks for plane, tracks in there.items() if tracks}
     if not panels:
         wanted = " ".join(f"--{side} {name}" for side, name in (("x", x), ("y", y)) if name) or "a picture"
         raise DatasetError(
             f"{wanted}: {', '.join(chosen)} lacks two of contact radius, indentation and load; name whole curves in "
             f'the outputs of the study, as in outputs = ["{chosen[0]}"]'
         )
-    rows = [track.points(scene.values, plane) for plane, tracks in panels for track in tracks for scene in scenes]
+    rows = [track.points(scene.values, plane) for plane, own in panels.items() for track in own for scene in scenes]
     if not any(np.isfinite(row).all(axis=0).any() for row in rows):
         raise DatasetError("no value in any scene drawn; `gradhesion info` reports why")
-    kept = [plane for plane, _ in panels]
-    for choice, sides in (("xlim", {along for along, _ in kept}), ("ylim", {up for _, up in kept}), ("inset", kept)):
+    for choice, sides in (("xlim", {x for x, _ in panels}), ("ylim", {y for _, y in panels})):
         looks.refuse([choice] if len(sides) > 1 else [], "the panels differ; choose one with --x indentation --y load")
-    points = None if data is None else read_points(data, kept, si=si)
+    points = None if data is None else read_points(data, [*panels], si=si)
     for note in points.notes if points else ():
         notes(note)
     width = looks.width or max(4.0, 2.5 * len(panels))
@@ -137,19 +129,17 @@ def drawn_curves(
     with styled(looks):
         figure = Figure(figsize=(width, looks.height or 2.4 * below + 1.1), layout="constrained")
         grid = figure.subplots(below, len(panels) // below, squeeze=False).ravel()
-        for axes, (plane, tracks) in zip(grid, panels, strict=True):
-            again = partial(_draw_panel, plane=plane, tracks=tracks, scenes=scenes, points=points, looks=looks)
-            again(axes)
+        for axes, (plane, tracks) in zip(grid, panels.items(), strict=True):
+            _draw_panel(axes, plane, tracks, scenes, points, looks)
             arrows: list[Values] = []
             for track in (one for one in tracks if one.curve == "path"):
                 for scene in scenes:
-                    draw_arrows(axes, track, scene.values, plane, scene.colour or track.colour, arrows)
-        used = [track for track in known if any(track in tracks for _, tracks in panels)]
-        handles = [*_handles(scenes, used), *([Line2D([], [], **points.looks)] if points else [])]
+                    colour = scene.colour or track.colour(looks.colours)
+                    track.draw_arrows(axes, scene.values, plane, colour, arrows)
+        used = [track for track in known if any(track in tracks for tracks in panels.values())]
+        handles = [*_handles(scenes, used, looks), *([Line2D([], [], **points.looks)] if points else [])]
         size = width, 2.4 * below + 0.6
-        finish(figure, looks, dataset=dataset, caption=caption, entries=handles, size=size, panels=grid)
-        if looks.inset:
-            add_inset(axes, again, looks.inset, panels[0][1][0].variables[panels[0][0][0]])
+        finish(figure, looks, dataset=dataset, caption=caption, entries=handles, size=size, rows=below, panels=grid)
     return figure
 
 
@@ -173,10 +163,8 @@ def _planes(x: str | None, y: str | None) -> Sequence[Plane]:
             raise DatasetError(f"--{side} {name}: not what curves are drawn over; {did_you_mean(name, QUANTITIES)}")
     if x and x == y:
         raise DatasetError(f"--x {x} --y {y}: one quantity cannot be both sides; choose another for one of them")
-    if x and y:
-        return ((x, y),)
-    planes = [(along, up) for along, up in PLANES if x in (None, along) and y in (None, up)]
-    return planes or [(name, y) if y else (str(x), name) for name in QUANTITIES if name not in (x, y)]
+    every = [(along, up) for along in ([x] if x else QUANTITIES) for up in ([y] if y else QUANTITIES) if along != up]
+    return [plane for plane in PLANES if plane in every] or every
 
 
 def _chosen(dataset: xarray.Dataset, requested: Sequence[str]) -> list[str]:
@@ -225,15 +213,15 @@ def _draw_panel(
     """Draw the lines of all scenes into a panel, measured points below them, and mark where depth and load are zero."""
     for track in tracks:
         for scene in scenes:
-            colour, own = scene.colour or track.colour, track.points(scene.values, plane)
-            draw_track(axes, track, scene.values, plane, colour)
+            colour, own = scene.colour or track.colour(looks.colours), track.points(scene.values, plane)
+            track.draw(axes, scene.values, plane, colour)
             if scene.colour:
                 start = MARKED * (0.15 + scene.item / len(MARKERS))  # beside those of the scene before
-                draw_marks(axes, own, start, MARKED, color=colour, **_marker(scene))
+                _draw_marks(axes, own, start, MARKED, color=colour, **_marker(scene))
             if track.curve == "path" and not track.unloading:
                 loading = own[:, ~unloads(scene.values, own.shape[1])]
                 for doubt in reversed(scene.doubts):  # the larger ones below
-                    draw_marks(axes, loading, 0.5 * APART, APART, mew=0.8, **doubt.marker(colour))
+                    _draw_marks(axes, loading, 0.5 * APART, APART, mew=0.8, **doubt.marker(colour))
     if points is not None and {*plane} <= points.values.keys():
         axes.plot(*(points.values[quantity] for quantity in plane), **points.looks)
     along, up = plane
@@ -244,8 +232,25 @@ def _draw_panel(
         axes.set_xlim(left=0.0)
     suit(axes, "x", tracks[0].variables[along], looks.xlim)
     if looks.xlim and not looks.ylim:
-        fit_heights(axes)
+        _fit_heights(axes)
     suit(axes, "y", tracks[0].variables[up], looks.ylim)
+
+
+def _draw_marks(axes: Axes, points: Values, start: float, apart: float, **looks: Any) -> None:
+    """Put markers along a line, evenly in the panel: from where on, and how far apart, in its diagonals."""
+    if np.isfinite(points).all(axis=0).any():  # matplotlib fails to mark a line without a point
+        axes.plot(*points, **({"markevery": (start, apart), "ls": ""} | looks))
+
+
+def _fit_heights(axes: Axes) -> None:
+    """Let the vertical limits of a panel suit what is drawn between the horizontal ones."""
+    first, last = axes.get_xlim()
+    lines = [line.get_path().interpolated(20).vertices for line in axes.lines if line.get_zorder() > 0.0]  # of no zero
+    points = np.vstack([np.empty((0, 2)), *lines])
+    seen = points[np.isfinite(points).all(axis=1) & (points[:, 0] >= first) & (points[:, 0] <= last), 1]
+    if seen.size:
+        margin = 0.08 * float(np.ptp(seen)) or 1.0
+        axes.set_ylim(float(seen.min()) - margin, float(seen.max()) + margin)
 
 
 def _marker(scene: Scene) -> dict[str, Any]:
@@ -253,16 +258,16 @@ def _marker(scene: Scene) -> dict[str, Any]:
     return {"marker": MARKERS[scene.item % len(MARKERS)], "ms": 3.2, "mew": 0.0}
 
 
-def _handles(scenes: Sequence[Scene], tracks: Sequence[Track]) -> list[Artist]:
+def _handles(scenes: Sequence[Scene], tracks: Sequence[Track], looks: Looks) -> list[Artist]:
     """Make the entries of the legend."""
 
-    def entry(label: str, colour: Colour, dash: Dash = "-", width: float = 1.6, **looks: Any) -> Line2D:
-        return Line2D([], [], color=colour, ls=dash, lw=width, label=label, **looks)
+    def entry(label: str, colour: Colour, dash: Dash = "-", width: float = 1.6, **more: Any) -> Line2D:
+        return Line2D([], [], color=colour, ls=dash, lw=width, label=label, **more)
 
     coloured = [scene for scene in scenes if scene.colour]
     made: list[Artist] = [entry(scene.label, scene.colour or INK, **_marker(scene)) for scene in coloured]
     for track in tracks:
-        colour = INK if coloured else track.colour
+        colour = INK if coloured else track.colour(looks.colours)
         made.append(entry(track.label, colour, track.dash, track.width))
         if any(track.falls(scene.values).any() for scene in scenes):
             words = track.label.replace(", stable", "") + ", unstable"

@@ -61,7 +61,7 @@ def drawn_fits(
     why = f"fits are drawn as a whole, or one with --at {LOOP}=0" if several else "a fit is drawn as a whole"
     if refused := [*choices, *(["--at"] if at and not several else [])]:
         raise DatasetError(f"{refused[0]}: {why}; leave it out")
-    looks.refuse(["inset", "band", "levels", "clabel"], why)
+    looks.refuse(["band", "levels", "clabel"], why)
     if several and not at:
         looks.refuse(["xlim", "ylim"], why)
         return _draw_loops(dataset, looks)

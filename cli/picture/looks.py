@@ -9,6 +9,7 @@ from decimal import Decimal
 from typing import Any, Final, Literal
 
 import matplotlib.style
+import numpy as np
 from matplotlib import colormaps
 from matplotlib.colors import Colormap
 
@@ -16,9 +17,6 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.units import unit_of
 from gradhesion.cli.study.text.quantities import factor_between
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
-
-VIRIDIS: Final = "viridis"
-"""The usual colour map: perceptual, and rising in lightness, so that it survives a grey print."""
 
 STYLE: Final = "gradhesion.style"
 """The style of the project, as matplotlib knows it: `plt.style.use("gradhesion.style")`."""
@@ -33,10 +31,10 @@ MOST: Final = 100.0
 FINEST: Final = 100
 """Contour levels: more would be one colour."""
 
-_QUANTITY: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\D.*)")
-
-Kind = Literal["lines", "map"]
-Band = Literal["quantiles", "std", "none"]
+_QUANTITY: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\D.*)?")
+"""A number, and its unit if it has one."""
+_BETWEEN: Final = re.compile(r"\s*,\s*|\s+(?=[-+.\d])")
+"""What stands between two numbers: a comma, or a space."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,14 +62,8 @@ class Span:
         >>> Span(option="xlim", low="50 nm", high="2e-6").limits("R")
         (5e-08, 2e-06)
         """
-        unit = unit_of(name).replace("1", "")
-        ends = []
-        for end, usual in ((self.low, -math.inf), (self.high, math.inf)):
-            ends.append(usual if end is None else _in_unit(end, unit))
-            if math.isnan(ends[-1]):
-                wanted = f"is in {unit}; write a number or a quantity" if unit else "has no unit; write a number"
-                raise DatasetError(f'{self}: "{end}" is not a value of {name}, which {wanted}')
-        low, high = ends
+        low = -math.inf if self.low is None else value_in(self.low, name, str(self))
+        high = math.inf if self.high is None else value_in(self.high, name, str(self))
         if low >= high:
             raise DatasetError(
                 f"{self}: the lower limit comes first and is below the upper one; exchange or change them"
@@ -79,7 +71,7 @@ class Span:
         if log and (high <= 0.0 or -math.inf < low <= 0.0):
             raise DatasetError(f"{self}: the axis is logarithmic; choose limits above 0")
         if low >= greatest or high <= least:
-            written = f"{least:.4g} to {greatest:.4g} {unit}".strip()
+            written = f"{least:.4g} to {greatest:.4g} {unit_of(name)}".removesuffix(" 1")
             raise DatasetError(f"{self}: outside what is drawn, which is {written}; choose limits that meet it")
         return low, high
 
@@ -92,15 +84,15 @@ ALL: Final = Span()
 class Looks:
     """What a user chooses of a picture; what is None is chosen to suit the dataset."""
 
-    kind: Kind | None = None
+    kind: Literal["lines", "map"] | None = None
     """Lines or a map."""
     width: float | None = None
     height: float | None = None
     """Its sides, in inches."""
-    colour_map: str = VIRIDIS
-    """A colour map of matplotlib, by name."""
-    levels: int | tuple[float, ...] | None = None
-    """Contour levels of a map: about how many, or which."""
+    colour_map: str = "viridis"
+    """A colour map of matplotlib, by name; the usual one rises in lightness, so that it survives a grey print."""
+    levels: int | tuple[str, ...] | None = None
+    """Contour levels of a map: about how many, or which, in SI or with units."""
     labels: bool = True
     """Whether contours have numbers on them."""
     title: str | None = None
@@ -116,9 +108,7 @@ class Looks:
     xlim: Span = ALL
     ylim: Span = ALL
     """The limits of the axes."""
-    inset: Span = ALL
-    """The part of the horizontal axis that is drawn once more, enlarged."""
-    band: Band | None = None
+    band: Literal["quantiles", "std", "none"] | None = None
     """What is drawn around uncertain values: quantiles, a standard deviation on each side, or nothing."""
 
     @property
@@ -141,11 +131,24 @@ PLAIN: Final = Looks()
 def looks_of(**chosen: Any) -> Looks:
     """Check what a user has chosen, by the fields of `Looks`; None is no choice.
 
-    >>> looks_of(width="column").width, looks_of(levels="0.5, 1, 2").levels, looks_of(levels="8").levels
-    (3.5433070866141736, (0.5, 1.0, 2.0), 8)
+    >>> looks_of(width="column").width, looks_of(levels="0.5, 1 mJ").levels, looks_of(levels="8").levels
+    (3.5433070866141736, ('0.5', '1 mJ'), 8)
     """
     there = {name: value for name, value in chosen.items() if value is not None}
     return Looks(**{name: _READ[name](name, one) if name in _READ else one for name, one in there.items()})
+
+
+def value_in(text: str, name: str, option: str) -> float:
+    """Read a value of a variable, a number in SI or a quantity; `option` is what has it, for a refusal.
+
+    >>> value_in("10 mJ", "dissipated_energy_si", "--levels"), value_in("0.5", "A", "--levels")
+    (0.01, 0.5)
+    """
+    value = _in_unit(text, unit_of(name))
+    if math.isnan(value):
+        wanted = "has no unit; write a number" if unit_of(name) == "1" else f"is in {unit_of(name)}"
+        raise DatasetError(f'{option}: "{text}" is not a value of {name}, which {wanted}')
+    return value
 
 
 def _in_unit(text: str, unit: str) -> float:
@@ -153,19 +156,27 @@ def _in_unit(text: str, unit: str) -> float:
     with suppress(ValueError):
         return float(text)
     parts = _QUANTITY.fullmatch(text)
-    factor = factor_between(parts[2], unit or "1") if parts else None
+    factor = factor_between(parts[2], unit) if parts else None
     return float(Decimal(parts[1]) * factor) if parts and factor else math.nan
 
 
-def _one_of(*known: str) -> Callable[[str, Any], str]:
-    """Make a reader of one of a few words."""
+def _one_of(option: str, value: Any, known: Sequence[str]) -> str:
+    """Read one of some words; of those that are not like it the first few are named."""
+    word = str(value)
+    if word not in known:
+        near = nearest(word, known)
+        remedy = did_you_mean(word, [near] if near else known[:4])
+        raise DatasetError(f"--{option.replace('_', '-')} {word}: not known; {remedy}")
+    return word
 
-    def read(option: str, value: Any) -> str:
-        if value not in known:
-            raise DatasetError(f"--{option} {value}: not a {option} of pictures; {did_you_mean(str(value), known)}")
-        return str(value)
 
-    return read
+def _style(option: str, value: Any) -> str:
+    """Read a style: its name, or the file of one."""
+    try:
+        with matplotlib.style.context(str(value)):
+            return str(value)
+    except OSError:
+        return _one_of(option, value, matplotlib.style.available)
 
 
 def _side(option: str, value: float | str) -> float:
@@ -182,43 +193,18 @@ def _side(option: str, value: float | str) -> float:
     return inches
 
 
-def _levels(option: str, value: Any) -> int | tuple[float, ...]:
+def _levels(option: str, value: Any) -> int | tuple[str, ...]:
     """Read contour levels: about how many, or a list of them."""
-    words = value.replace(",", " ").split() if isinstance(value, str) else value
-    words = [words] if isinstance(words, int | float) else [*words]
-    written = value if isinstance(value, str) else ", ".join(map(str, words))
-    with suppress(TypeError, ValueError):
-        numbers = sorted({float(word) for word in words})
-        if all(map(math.isfinite, numbers)) and (len(numbers) > 1 or (numbers and "." in str(words[0]))):
-            return tuple(numbers)
-        if len(numbers) == 1 and 1 <= numbers[0] <= FINEST:
-            return int(numbers[0])
+    words = _BETWEEN.split(value.strip()) if isinstance(value, str) else list(map(str, np.atleast_1d(value).tolist()))
+    a_number = len(words) == 1 and words[0].isdecimal()
+    if a_number and 1 <= int(words[0]) <= FINEST:
+        return int(words[0])
+    if words and not a_number and all(map(_QUANTITY.fullmatch, words)):
+        return tuple(words)
     raise DatasetError(
-        f"--{option} {written}: neither a number of levels, 1 to {FINEST}, nor a list of them; write 8, or 0.5,1,2"
+        f"--{option} {', '.join(words)}: neither a number of levels, 1 to {FINEST}, nor a list of them; "
+        "write 8, or 0.5,1,2"
     )
-
-
-def _colour_map(option: str, value: Any) -> str:
-    """Find a colour map."""
-    if str(value) not in colormaps:
-        raise DatasetError(f"--{option.replace('_', '-')} {value}: not known to matplotlib; {_near(value, colormaps)}")
-    return str(value)
-
-
-def _style(option: str, value: Any) -> str:
-    """Find a style."""
-    try:
-        with matplotlib.style.context(str(value)):
-            return str(value)
-    except OSError:
-        near = _near(value, matplotlib.style.available)
-        raise DatasetError(f"--{option} {value}: neither a style of matplotlib nor the file of one; {near}") from None
-
-
-def _near(value: Any, known: Any) -> str:
-    """Suggest the nearest of many words."""
-    near = nearest(str(value), [*known])
-    return f'did you mean "{near}"?' if near else f'choose one of its own, as "{next(iter(known))}"'
 
 
 def _span(option: str, value: Any) -> Span:
@@ -236,16 +222,15 @@ def _span(option: str, value: Any) -> Span:
 
 
 _READ: Final[dict[str, Callable[[str, Any], Any]]] = {
-    "kind": _one_of("lines", "map"),
-    "band": _one_of("quantiles", "std", "none"),
+    "kind": lambda option, value: _one_of(option, value, ["lines", "map"]),
+    "band": lambda option, value: _one_of(option, value, ["quantiles", "std", "none"]),
+    "colour_map": lambda option, value: _one_of(option, value, list(colormaps)),
+    "style": _style,
     "width": _side,
     "height": _side,
-    "colour_map": _colour_map,
     "levels": _levels,
-    "style": _style,
     "title": lambda _, value: {True: None, False: ""}[value] if isinstance(value, bool) else value,
     "xlim": _span,
     "ylim": _span,
-    "inset": _span,
 }
 """What reads each choice that may be wrong."""

@@ -1,11 +1,13 @@
 """The panels of a picture of values: a map, lines, points or their density, each drawn into axes that are given."""
 
+import itertools
 from typing import Any, Final
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.contour import QuadContourSet
+from matplotlib.path import Path
 
 from gradhesion.cli.picture.doubts import CROSS, GREY, INK
 from gradhesion.cli.picture.labels import equations
@@ -46,12 +48,9 @@ def draw_map(axes: Axes, shown: Shown, x: Scale, y: Scale, looks: Looks) -> tupl
         looks_of_cells: Any = {"cmap": colours, "vmin": -0.5, "vmax": len(shown.names) - 0.5, "edgecolors": "face"}
         filled = axes.pcolormesh(x.edges(), y.edges(), values, **looks_of_cells)
     elif np.isfinite(values).any():
-        levels, norm = levels_of(shown, looks)
+        levels, inner, norm = levels_of(shown, looks)
         filled = axes.contourf(x.positions, y.positions, values, levels=levels, norm=norm, cmap=looks.colours)
         filled.set_edgecolor("face")  # no white seams between the bands
-        inner = levels[1:-1][1::2] if levels.size > 7 else levels[1:-1]  # the others show as edges of the bands
-        if isinstance(looks.levels, tuple):
-            inner = levels[np.isin(levels, looks.levels)]
         if inner.size:
             shades = np.where(_lightness(looks.colours(norm(inner))) < 0.5, "white", "black").tolist()
             lines = axes.contour(x.positions, y.positions, values, levels=inner, colors=shades, linewidths=0.4)
@@ -81,22 +80,35 @@ def _lightness(colours: Any) -> Any:
 
 
 def number_contours(lines: QuadContourSet, shown: Shown) -> None:
-    """Put a number on the longest piece of each line, whole and clear of other numbers; the layout must stand."""
-    frame, transform = lines.axes.get_window_extent(), lines.get_transform()
-    side = 0.25 * lines.axes.figure.dpi  # a quarter of an inch holds a number
-    taken: list[Any] = []
-    for path in lines.get_paths():
-        pieces = [transform.transform(piece) for piece in path.to_polygons(closed_only=False)]
-        longest = max(pieces, key=lambda piece: np.ptp(piece, axis=0).max(), default=np.empty((0, 2)))
-        for share in (0.5, 0.35, 0.65, 0.2, 0.8) if len(longest) and np.ptp(longest, axis=0).max() > 2.0 * side else ():
+    """Put a number on the longest piece of each line, where it is whole and clear; the layout must stand.
+
+    On a steep flank, where lines crowd, there are none: they would hide the lines beside theirs.
+    """
+    frame, transform, inch = lines.axes.get_window_extent(), lines.get_transform(), lines.axes.figure.dpi
+    pieces = [
+        [Path(transform.transform(piece)).interpolated(10).vertices for piece in path.to_polygons(closed_only=False)]
+        for path in lines.get_paths()
+    ]
+    places: list[Any] = []
+    for i, own in enumerate(pieces):
+        longest: Any = max(own, key=lambda piece: np.ptp(piece, axis=0).max(), default=np.empty((0, 2)))
+        if not len(longest) or np.ptp(longest, axis=0).max() < 0.5 * inch:
+            continue
+        others = np.vstack([np.empty((0, 2)), *itertools.chain(*pieces[:i], *pieces[i + 1 :])])
+        for share in (0.5, 0.35, 0.65, 0.2, 0.8):
             place = longest[int(share * (len(longest) - 1))]
-            inside = frame.contains(*(place - 0.5 * side)) and frame.contains(*(place + 0.5 * side))
-            if inside and all(np.hypot(*(place - other)) > side for other in taken):
-                taken.append(place)
+            inside = all(frame.contains(*(place + side * 0.125 * inch)) for side in (-1.0, 1.0))
+            if inside and _clear(place, places, 0.4 * inch) and _clear(place, others, 0.1 * inch):
+                places.append(place)
                 break
-    places = transform.inverted().transform(taken).tolist() if taken else []
     if places:
-        lines.clabel(manual=places, fmt=shown.unit.number, fontsize="x-small", inline_spacing=2)
+        manual = transform.inverted().transform(places).tolist()
+        lines.clabel(manual=manual, fmt=shown.unit.number, fontsize="x-small", inline_spacing=2)
+
+
+def _clear(place: Any, others: Any, distance: float) -> bool:
+    """Report whether a place is farther from all others than a distance."""
+    return bool(np.hypot(*(np.reshape(others, (-1, 2)) - place).T).min(initial=np.inf) > distance)
 
 
 def draw_lines(axes: Axes, shown: Shown, x: Scale, plan: Plan, looks: Looks) -> None:

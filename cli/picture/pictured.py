@@ -26,6 +26,9 @@ from gradhesion.core import Profile
 MARKERS: Final = ("o", "s", "D", "P", "X")
 """What distinguishes scenes where colours do not print."""
 
+LOWEST: Final = 1.25
+"""The height of a row of panels with what is written at them, in inches: a lower one could not be read."""
+
 
 def styled(looks: Looks = PLAIN) -> AbstractContextManager[None]:
     """Draw in the style of the project, whatever the user's own is: the same dataset gives the same picture."""
@@ -59,13 +62,14 @@ def finish(
     caption: Iterable[str],
     panels: Iterable[Axes],
     size: tuple[float, float],
+    rows: int = 1,
     entries: Sequence[Artist] = (),
     laid_out: bool = False,
 ) -> None:
     """Size a picture, and put the words around its panels: title and caption above, a legend below.
 
-    The size in inches is that which suits its panels; words and sides that are chosen come first. Numbers on contours
-    and an inset need it `laid_out`, with everything in its place.
+    The size in inches is that which suits its panels, which stand in so many rows; words and sides that are chosen come
+    first. Numbers on contours need it `laid_out`, with everything in its place.
     """
     for side, words in (("x", looks.xlabel), ("y", looks.ylabel)):
         named = [axis for axes in panels if (axis := getattr(axes, f"{side}axis")).get_label_text()]
@@ -84,8 +88,9 @@ def finish(
     if words:
         figure.suptitle(words, fontsize="medium", wrap=True)
     lines = math.ceil(len(entries) / columns) + (words.count("\n") + 2 if words else 0)
-    figure.set_size_inches(width, looks.height or size[1] * min(1.0, width / size[0]) + 0.17 * lines)
-    if not (laid_out or looks.width or looks.height or looks.inset):
+    height = max(size[1] * min(1.0, width / size[0]), LOWEST * rows)
+    figure.set_size_inches(width, looks.height or height + 0.17 * lines)
+    if not (laid_out or looks.width or looks.height):
         return
     with warnings.catch_warnings():
         warnings.filterwarnings("error", "constrained_layout not applied")

@@ -1,8 +1,8 @@
 """Which axis of a dataset of values goes where in its picture, which of them are drawn, and what is said of others."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any, Final, Literal
 
 import numpy as np
 import xarray
@@ -13,7 +13,7 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
 from gradhesion.cli.names.symbols import SYMBOLS
 from gradhesion.cli.picture.labels import effective, equations
-from gradhesion.cli.picture.looks import Kind, Looks, Span
+from gradhesion.cli.picture.looks import Looks, Span
 from gradhesion.core.problem.inputs import INPUTS
 
 PANELS: Final = 3
@@ -59,25 +59,47 @@ def planned(
     dataset: xarray.Dataset, selection: Selection, looks: Looks, x: str | None, y: str | None
 ) -> tuple[xarray.Dataset, Plan]:
     """Choose which axis of a narrowed dataset goes where; a parameter that is asked for takes the place of its axis."""
-    dataset = _placed(dataset, selection, x, y)
+    if x and x == y:
+        raise DatasetError(f"--x {x} --y {y}: one axis cannot be both sides; choose another for one of them")
+    gone = {*selection.over, *(one.axis for one in selection.between)}
+    for option, name in (("--x", x), ("--y", y)):
+        dataset = _placed(dataset, f"{option} {name}", name, {*selection.fixed, *gone}) if name else dataset
     if SCENE not in dataset.dims:
-        gone = {*selection.over, *(one.axis for one in selection.between)}
         sizes = {str(axis): size for axis, size in dataset["status"].sizes.items() if axis not in gone}
         return dataset, plan_of(sizes, x, y, looks.kind)
-    if looks.kind:
-        raise DatasetError(f"--{looks.kind}: points are drawn as points; leave it out")
+    if y or looks.kind:
+        option = f"--y {y}" if y else f"--{looks.kind}"
+        raise DatasetError(f"{option}: points are drawn as points over one parameter; choose it with --x")
     values = {key: np.unique(dataset[key].values).size for key in effective(dataset)}
     along = x or max(values, key=lambda key: values[key], default="")
     if values.get(along, 0) < 2:
         raise DatasetError("no parameter varies, so there is nothing to draw over; `gradhesion info` shows the values")
-    solvers = SOLVER if dataset.sizes.get(SOLVER, 1) > 1 else None
     count = dataset["status"].size
-    dense = count > DENSE
-    plan = Plan(x=along, points=count, second=None if dense else solvers, columns=solvers if dense else None)
-    return dataset.swap_dims({SCENE: along}), plan
+    solvers = SOLVER if dataset.sizes.get(SOLVER, 1) > 1 else None
+    sides = (None, solvers) if count > DENSE else (solvers, None)
+    return dataset.swap_dims({SCENE: along}), Plan(x=along, points=count, second=sides[0], columns=sides[1])
 
 
-def plan_of(sizes: Mapping[str, int], x: str | None = None, y: str | None = None, kind: Kind | None = None) -> Plan:
+def _placed(dataset: xarray.Dataset, option: str, name: str, taken: Collection[str]) -> xarray.Dataset:
+    """Check an axis that is asked for; a parameter that follows from one axis alone takes its place."""
+    if name in taken:
+        raise DatasetError(f"{option}: {name} is fixed or reduced by --at or --over; remove one of the two")
+    if name == SOLVER:
+        raise DatasetError(f"{option}: solvers are always lines or panels; choose a parameter")
+    own = dataset[name].dims if name in dataset.coords else ()
+    if len(own) == 1 and own[0] not in (name, SCENE, *taken):
+        if not np.isfinite(dataset[name].values).all():
+            raise DatasetError(f"{option}: it has no finite value in some scenes; choose {own[0]}")
+        return dataset.swap_dims({own[0]: name})
+    if name not in axes_of(dataset) or np.unique(dataset[name].values).size < 2:
+        check_axis(dataset, option, name)
+        raise DatasetError(f"{option}: it has one value only; choose an axis that varies")
+    return dataset
+
+
+def plan_of(
+    sizes: Mapping[str, int], x: str | None = None, y: str | None = None, kind: Literal["lines", "map"] | None = None
+) -> Plan:
     """Give the finest axes to the panels, the next two to columns and rows.
 
     Solvers are the lines of a panel if nothing else is, and columns otherwise. What is asked for comes first.
@@ -102,31 +124,6 @@ def plan_of(sizes: Mapping[str, int], x: str | None = None, y: str | None = None
     return Plan(x=str(first), second=second, columns=columns, rows=rows, middle=tuple(free[4:]), is_map=is_map)
 
 
-def _placed(dataset: xarray.Dataset, selection: Selection, x: str | None, y: str | None) -> xarray.Dataset:
-    """Check the axes that are asked for; a parameter that follows from one axis alone takes its place."""
-    if y and SCENE in dataset.dims:
-        raise DatasetError(f"--y {y}: points are drawn over one parameter; choose it with --x")
-    if x and x == y:
-        raise DatasetError(f"--x {x} --y {y}: one axis cannot be both sides; choose another for one of them")
-    taken = {*selection.fixed, *selection.over, *(one.axis for one in selection.between)}
-    for option, name in {f"--x {x}": x, f"--y {y}": y}.items():
-        if name is None:
-            continue
-        if name in taken:
-            raise DatasetError(f"{option}: {name} is fixed or reduced by --at or --over; remove one of the two")
-        if name == SOLVER:
-            raise DatasetError(f"{option}: solvers are always lines or panels; choose a parameter")
-        own = dataset[name].dims if name in dataset.coords else ()
-        if len(own) == 1 and own[0] not in (name, SCENE) and own[0] not in selection.over:
-            if not np.isfinite(dataset[name].values).all():
-                raise DatasetError(f"{option}: it has no finite value in some scenes; choose {own[0]}")
-            dataset = dataset.swap_dims({own[0]: name})
-        elif name not in axes_of(dataset) or np.unique(dataset[name].values).size < 2:
-            check_axis(dataset, option, name)
-            raise DatasetError(f"{option}: it has one value only; choose an axis that varies")
-    return dataset
-
-
 def within(dataset: xarray.Dataset, plan: Plan, looks: Looks) -> xarray.Dataset:
     """Put values into rising order along the sides of a panel, and keep those between the limits."""
     for axis, span in ((plan.x, looks.xlim), (plan.second, looks.ylim)):
@@ -134,6 +131,18 @@ def within(dataset: xarray.Dataset, plan: Plan, looks: Looks) -> xarray.Dataset:
             dataset = dataset.isel({axis: np.argsort(dataset[axis].values, kind="stable")})
             dataset = _seen(dataset, axis, span) if axis == plan.x or plan.is_map else dataset
     return dataset
+
+
+def _seen(dataset: xarray.Dataset, axis: str, span: Span) -> xarray.Dataset:
+    """Keep what is between the limits of an axis, and one value beyond each, so that lines run to the frame."""
+    values = np.asarray(dataset[axis].values, dtype=float)
+    finite = np.unique(values[np.isfinite(values)])
+    if not span or not finite.size:
+        return dataset
+    low, high = span.limits(axis, finite[0], finite[-1], log=is_log(finite))
+    first = finite[max(0, int(np.searchsorted(finite, low, side="right")) - 1)]
+    last = finite[min(finite.size - 1, int(np.searchsorted(finite, high)))] if np.isfinite(high) else np.inf
+    return dataset.isel({axis: (values >= first) & (values <= last)})
 
 
 def some_of(dataset: xarray.Dataset, plan: Plan) -> xarray.Dataset:
@@ -153,18 +162,6 @@ def some_of(dataset: xarray.Dataset, plan: Plan) -> xarray.Dataset:
             known = known[dataset[axis].values != 0.0]
         items[axis] = np.unique(known[np.linspace(0, known.size - 1, number).round().astype(int)])
     return dataset.isel(items)
-
-
-def _seen(dataset: xarray.Dataset, axis: str, span: Span) -> xarray.Dataset:
-    """Keep what is between the limits of an axis, and one value beyond each, so that lines run to the frame."""
-    values = np.asarray(dataset[axis].values, dtype=float)
-    finite = np.unique(values[np.isfinite(values)])
-    if not span or not finite.size:
-        return dataset
-    low, high = span.limits(axis, finite[0], finite[-1], log=is_log(finite))
-    first = finite[max(0, int(np.searchsorted(finite, low, side="right")) - 1)]
-    last = finite[min(finite.size - 1, int(np.searchsorted(finite, high)))] if np.isfinite(high) else np.inf
-    return dataset.isel({axis: (values >= first) & (values <= last)})
 
 
 def caption_of(part: xarray.Dataset, whole: xarray.Dataset, plan: Plan, selection: Selection) -> Iterator[str]:

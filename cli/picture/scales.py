@@ -1,17 +1,15 @@
-"""Axes of a dataset as axes of a picture: spacing, a place for infinity, numbers at ticks; a part of them enlarged."""
+"""Axes of a dataset as axes of a picture: spacing, a place for infinity, numbers at ticks."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Final, Literal
+from typing import Any, Literal
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.ticker import Formatter, Locator, LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read.selection import is_log
-from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.picture.labels import Unit, label, unit_for
 from gradhesion.cli.picture.looks import ALL, Span
 
@@ -134,86 +132,3 @@ def scale(values: Places, name: str = "", span: Span = ALL) -> Scale:
         unit=unit_for(name, np.clip(finite, low, high), log=log),
         limits=(low, high),
     )
-
-
-SHARES: Final = ((0.5, 0.45), (0.45, 0.38), (0.38, 0.34), (0.32, 0.3), (0.27, 0.25), (0.23, 0.21))
-"""Sides of an inset, over those of the panel, the best first."""
-
-CORNERS: Final = ((1, 1), (0, 1), (1, 0), (0, 0), (0.5, 1), (0.5, 0), (1, 0.5), (0, 0.5))
-"""Where in the room that it leaves an inset may stand: a corner, else the middle of a side."""
-
-
-def add_inset(axes: Axes, again: Callable[[Axes], object], span: Span, name: str) -> None:
-    """Draw a part of a panel once more, by what draws it into other axes; the layout of the figure must stand."""
-    left, right = axes.get_xlim()
-    ends = span.limits(name, left, right, log=axes.get_xscale() == "log")
-    low, high = (end if np.isfinite(end) else limit for end, limit in zip(ends, (left, right), strict=True))
-    if low < left or high > right:
-        raise DatasetError(f"{span}: reaches beyond the axis of the panel; choose a part of it")
-    in_panel = axes.transData - axes.transAxes
-    first, last = in_panel.transform([[low, axes.get_ylim()[0]], [high, axes.get_ylim()[0]]])[:, 0]
-    points = _points(axes)
-    found = _seen(points[(points[:, 1] >= 0.0) & (points[:, 1] <= 1.0)], first, last)
-    if found is None:
-        raise DatasetError(f"{span}: nothing is drawn there; choose another part of the axis")
-    bottom, top = np.clip(found, 0.0, 1.0)  # the frame stays in the panel
-    frame = np.array([[x, y] for x in np.linspace(first, last, 50) for y in np.linspace(bottom, top, 50)])
-    place = _free(axes, np.vstack([points, frame]))
-    if place is None:
-        raise DatasetError(
-            f"{span}: no corner or side of the panel has room for an inset; make room with --ylim, --width or --height"
-        )
-    inset = axes.inset_axes(place)
-    again(inset)
-    up = in_panel.inverted().transform([[first, bottom], [first, top]])[:, 1]
-    inset.set(xlabel="", ylabel="", xlim=(low, high), ylim=up)
-    inset.set_in_layout(False)
-    inset.tick_params(labelsize="x-small")
-    for axis in (inset.xaxis, inset.yaxis):
-        axis.set_major_locator(MaxNLocator(3, steps=[1, 2, 5, 10]))
-    axes.indicate_inset_zoom(inset, edgecolor="0.4", lw=0.6)
-
-
-def fit_heights(axes: Axes) -> None:
-    """Let the vertical limits of a panel suit what is drawn between the horizontal ones."""
-    found = _seen(_points(axes), 0.0, 1.0)
-    if found:
-        axes.set_ylim(*(axes.transAxes - axes.transData).transform([[0.0, end] for end in found])[:, 1])
-
-
-def _points(axes: Axes) -> Places:
-    """List points of all that is drawn in a panel, in shares of its sides, so near that no inset falls between."""
-    lines = [line for line in axes.lines if line.get_zorder() > 0]  # below are the lines of zero
-    drawn = [(line.get_xydata(), line.get_transform(), line.get_linestyle() == "None") for line in lines]
-    areas = [one for one in axes.collections if isinstance(one, LineCollection | PolyCollection)]
-    drawn += [(path.vertices, area.get_transform(), False) for area in areas for path in area.get_paths()]
-    found = [np.empty((0, 2))]
-    for vertices, transform, single in drawn:
-        places = (transform - axes.transAxes).transform(vertices)
-        pieces = np.diff(places, axis=0)
-        between = np.linspace(0.0, 1.0, min(500, int(np.nanmax(np.hypot(*pieces.T), initial=0.0) / 0.005) + 2))[:-1]
-        found += [places] if single else [(places[:-1] + between[:, None, None] * pieces).reshape(-1, 2), places[-1:]]
-    points = np.vstack(found)
-    return points[np.isfinite(points).all(axis=1)]
-
-
-def _seen(points: Places, first: float, last: float) -> tuple[float, float] | None:
-    """Report from where to where points go up between two places along, with a margin; None where there is none."""
-    heights = points[(points[:, 0] >= first) & (points[:, 0] <= last), 1]
-    if not heights.size:
-        return None
-    margin = 0.08 * (float(np.ptp(heights)) or 1.0)
-    return float(heights.min()) - margin, float(heights.max()) + margin
-
-
-def _free(axes: Axes, points: Places) -> tuple[float, float, float, float] | None:
-    """Find the largest free place in a panel, in shares of its sides: x, y, width and height of an inset."""
-    sides = np.array(axes.get_window_extent().size) / axes.figure.dpi
-    labels, space = np.array([0.4, 0.24]) / sides, 0.06 / sides  # inches for numbers, and on the other sides
-    for share in (one for one in np.array(SHARES) if (one * sides >= (0.7, 0.5)).all()):  # smaller ones show nothing
-        room = share + labels + space
-        for start in np.array(CORNERS) * (1.0 - room):
-            if (start >= 0.0).all() and not ((points > start) & (points < start + room)).all(axis=1).any():
-                x, y = start + labels
-                return float(x), float(y), float(share[0]), float(share[1])
-    return None

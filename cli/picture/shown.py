@@ -15,10 +15,12 @@ from gradhesion.cli.dataset.read.sensitivities import parameters_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import SI, SPREADS
 from gradhesion.cli.names.symbols import SYMBOLS
+from gradhesion.cli.names.units import unit_of
 from gradhesion.cli.picture.doubts import END, Marks, among, marks_of
 from gradhesion.cli.picture.labels import PLAIN, Unit, label, unit_for
-from gradhesion.cli.picture.looks import Looks
+from gradhesion.cli.picture.looks import Looks, value_in
 from gradhesion.cli.picture.plan import Plan
+from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.answers.flags import FLAGS
 
 Values = NDArray[np.float64]
@@ -49,6 +51,8 @@ _STEPS: Final = (
 class Shown:
     """What is drawn of a variable, over rows and columns of panels and their two sides, as far as there are such."""
 
+    name: str
+    """That of the variable whose unit the values have."""
     values: xarray.DataArray
     """NaN where there is none; of categories their places among the names."""
     marks: Marks
@@ -93,27 +97,27 @@ def shown_of(dataset: xarray.Dataset, name: str, plan: Plan, selection: Selectio
     marks = marks_of(dataset, values, _over(taken.status, plan), name)
     if taken.at_end is not None and bool(taken.at_end.any()):
         marks.append((END, among(taken.at_end, values)))
-    failed = f"{taken.left_out:,} failed {'scene' if taken.left_out == 1 else 'scenes'} left out"
-    flat = f"{taken.flat:,} left out where all values are equal"
+    notes = {f"{counted(taken.left_out, 'failed scene')} left out": taken.left_out}
+    notes[f"{taken.flat:,} left out where all values are equal"] = taken.flat
     shown = Shown(
+        name=axis or name,
         values=values,
         marks=marks,
         label=label(name),
         gaps=finite.size + taken.flat < values.size,
         whole=dataset[name].dtype.kind == "i" and bool((finite == np.round(finite)).all()),
-        caption=tuple(words for number, words in ((taken.left_out, failed), (taken.flat, flat)) if number),
+        caption=tuple(note for note, number in notes.items() if number),
     )
     if name == "status" or parameters_of(dataset[name]):
         return _categories(shown, dataset[name], finite, plan, looks)
-    quantity = axis or name
     band, band_words = ((), "") if plan.is_map or plan.is_dense else _band_of(dataset, name, plan, selection, looks)
     all_of_it = np.stack([values, *band])
     least, greatest = float(np.nanmin(all_of_it)), float(np.nanmax(all_of_it))
-    limits = (-np.inf, np.inf) if plan.is_map else looks.ylim.limits(quantity, *padded(least, greatest))
+    limits = (-np.inf, np.inf) if plan.is_map else looks.ylim.limits(shown.name, *padded(least, greatest))
     ends = least if np.isinf(limits[0]) else limits[0], greatest if np.isinf(limits[1]) else limits[1]
     log = ends[0] > 0.0 and ends[1] >= (WIDE if plan.is_map else FAR) * ends[0]
-    unit = unit_for(quantity, ends, log=log)
-    words = label(quantity, unit)
+    unit = unit_for(shown.name, ends, log=log)
+    words = label(shown.name, unit)
     if axis:
         words += f" at {'maximum' if how == 'argmax' else 'minimum'} {SYMBOLS[name].split(' $')[0]}"
     return replace(shown, label=words, unit=unit, ends=ends, limits=limits, log=log, band=band, band_words=band_words)
@@ -144,35 +148,35 @@ def padded(least: float, greatest: float) -> tuple[float, float]:
     return least - pad, greatest + pad
 
 
-def levels_of(shown: Shown, looks: Looks) -> tuple[Values, Normalize]:
-    """Choose round contour levels, rising by ratios where values differ much, and their colours.
+def levels_of(shown: Shown, looks: Looks) -> tuple[Values, Values, Normalize]:
+    """Choose round contour levels, rising by ratios where values differ much, those that have lines, and their colours.
 
     Those that are listed are taken as they are, with the ends of the values beyond them.
     """
     least, greatest = padded(*shown.ends)
-    log = shown.log
     if isinstance(looks.levels, tuple):
-        if not any(least <= level <= greatest for level in looks.levels):
-            written = ",".join(f"{level:g}" for level in looks.levels)
-            between = f"{least:.4g} to {greatest:.4g} {shown.values.attrs.get('units', '')}".rstrip(" 1")
-            raise DatasetError(
-                f"--levels {written}: none is among the values, which are {between}; choose some between"
-            )
-        levels = np.unique([*looks.levels, least, greatest])
+        option = f"--levels {','.join(looks.levels)}"
+        listed = np.unique([value_in(word, shown.name, option) for word in looks.levels])
+        inner = listed[(listed >= least) & (listed <= greatest)]
+        if not inner.size:
+            between = f"{least:.4g} to {greatest:.4g} {unit_of(shown.name)}".removesuffix(" 1")
+            raise DatasetError(f"{option}: none is among the values, which are {between}; choose some between")
+        levels = np.unique([*listed, least, greatest])
         log = levels[0] > 0.0 and levels[-1] > WIDE * levels[0]
+        return levels, inner, (LogNorm if log else Normalize)(levels[0], levels[-1])
+    if shown.log:
+        steps = next(steps for most, steps in _STEPS if greatest < most * least)
+        decades = 10.0 ** np.arange(np.floor(np.log10(least)), np.ceil(np.log10(greatest)) + 1.0)
+        rising = np.outer(decades, steps).ravel()
     else:
-        if log:
-            steps = next(steps for most, steps in _STEPS if greatest < most * least)
-            decades = 10.0 ** np.arange(np.floor(np.log10(least)), np.ceil(np.log10(greatest)) + 1.0)
-            rising = np.outer(decades, steps).ravel()
-        else:
-            finest = MaxNLocator(looks.levels or 11, steps=[1, 2, 2.5, 5, 10], integer=shown.whole)
-            rising = np.asarray(finest.tick_values(least, greatest))
-        first = max(0, int(np.searchsorted(rising, least, side="right")) - 1)
-        levels = rising[first : int(np.searchsorted(rising, greatest)) + 1]
-        if looks.levels and levels.size > looks.levels + 1:  # ratios have steps of their own
-            levels = levels[np.unique(np.linspace(0, levels.size - 1, looks.levels + 1).round().astype(int))]
-    return levels, (LogNorm if log else Normalize)(levels[0], levels[-1])
+        finest = MaxNLocator(looks.levels or 11, steps=[1, 2, 2.5, 5, 10], integer=shown.whole)
+        rising = np.asarray(finest.tick_values(least, greatest))
+    first = max(0, int(np.searchsorted(rising, least, side="right")) - 1)
+    levels = rising[first : int(np.searchsorted(rising, greatest)) + 1]
+    if looks.levels and levels.size > looks.levels + 1:  # ratios have steps of their own
+        levels = levels[np.unique(np.linspace(0, levels.size - 1, looks.levels + 1).round().astype(int))]
+    inner = levels[1:-1][1::2] if levels.size > 7 else levels[1:-1]  # the others show as edges of the bands
+    return levels, inner, (LogNorm if shown.log else Normalize)(levels[0], levels[-1])
 
 
 def _band_of(

@@ -27,7 +27,7 @@ DASHES: Final = ("-", (0, (5, 1.5)), (0, (2, 1)), (0, (6, 1.5, 1, 1.5)))
 
 def draw_states(dataset: xarray.Dataset, chosen: Sequence[str], looks: Looks) -> Figure:
     """Draw pressure and surface of the states of a scene, the first of several; in units if the dataset has them."""
-    looks.refuse(["xlim", "ylim", "inset"], "curves of states are drawn whole")
+    looks.refuse(["xlim", "ylim"], "curves of states are drawn whole")
     scene = dataset.isel(dict.fromkeys(dataset["status"].dims, 0)).load()
     panels = [names for curve, names in PANELS.items() if curve in chosen and {*names} <= {*scene}]
     if not panels:
@@ -46,7 +46,7 @@ def draw_states(dataset: xarray.Dataset, chosen: Sequence[str], looks: Looks) ->
         caption = [*fixed(dataset), *slope_warnings(dataset)]
         entries = grid[-1].get_legend_handles_labels()[0]
         size = looks.width or 4.0 * len(panels), 2.5 * below + 0.2
-        finish(figure, looks, dataset=dataset, caption=caption, entries=entries, size=size, panels=grid)
+        finish(figure, looks, dataset=dataset, caption=caption, entries=entries, size=size, rows=below, panels=grid)
     return figure
 
 

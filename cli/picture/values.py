@@ -1,8 +1,7 @@
 """The picture of a dataset of values: variables in panels of lines, points or maps; or fronts of two goals."""
 
 from collections.abc import Sequence
-from functools import partial
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import xarray
@@ -25,10 +24,16 @@ from gradhesion.cli.picture.looks import Looks
 from gradhesion.cli.picture.panels import FEW, LIGHT, MARKS, draw_density, draw_lines, draw_map, number_contours
 from gradhesion.cli.picture.pictured import MARKERS, finish, stacked, styled
 from gradhesion.cli.picture.plan import Plan, caption_of, planned, some_of, within
-from gradhesion.cli.picture.scales import Numbers, Scale, add_inset, locator, scale, suit
+from gradhesion.cli.picture.scales import Numbers, Scale, locator, scale, suit
 from gradhesion.cli.picture.shown import Shown, shown_of
 from gradhesion.cli.terminal.wording import did_you_mean
 from gradhesion.core.problem.inputs import INPUTS
+
+NARROW: Final = 1.5
+"""Inches along a panel and its numbers below which the numbers stand upright: they would run into each other."""
+
+FRONTS: Final = 10
+"""Pareto fronts in one picture: more could not be distinguished."""
 
 
 def drawn(
@@ -49,18 +54,20 @@ def drawn(
     width, height = (2.1, 1.8) if columns > 1 else (3.6, 2.9)
     room = 2.2 if any(one.names for one in shown) else 1.2
     size = beside * (width * columns + room), below * (height * rows + 0.6)
-    share = (looks.height or size[1]) / size[1]
+    words = [*caption_of(part, narrow, plan, selection), *(words for one in shown for words in one.caption)]
     with styled(looks):
         figure = Figure(layout="constrained")
         grid = figure.subplots(rows * below, columns * beside, squeeze=False)
         parts = [half for band in np.split(grid, below) for half in np.split(band, beside, axis=1)]
         for axes in [axes for empty in parts[len(names) :] for axes in empty.flat]:
             axes.remove()
-        numbered = []
+        numbered: list[tuple[QuadContourSet, Shown]] = []
         for one, panels in zip(shown, parts, strict=False):
-            drawn_lines = _draw(figure, panels, one, along, up, plan, looks, share * height * rows)
-            numbered += [(lines, one) for lines in drawn_lines if looks.labels]
-        words = [*caption_of(part, narrow, plan, selection), *(words for one in shown for words in one.caption)]
+            coloured, contours = _draw(panels, one, along, up, plan, looks)
+            numbered += [(lines, one) for lines in contours if looks.labels]
+            if coloured:
+                numbers = int((looks.height or size[1]) / below / 0.2)
+                _add_bar(figure, panels, coloured, one, looks.clabel, numbers)
         finish(
             figure,
             looks,
@@ -68,15 +75,12 @@ def drawn(
             caption=dict.fromkeys(words),
             entries=_entries(shown, grid[0, 0].get_legend_handles_labels()[0], plan, along.positions.size),
             size=size,
+            rows=len(grid),
             panels=[axes for panels in parts[: len(names)] for axes in panels.flat],
             laid_out=bool(numbered),
         )
         for lines, one in numbered:
             number_contours(lines, one)
-        if looks.inset:
-            add_inset(
-                grid[0, 0], partial(draw_lines, shown=shown[0], x=along, plan=plan, looks=looks), looks.inset, plan.x
-            )
     return figure
 
 
@@ -103,7 +107,7 @@ def _chosen(dataset: xarray.Dataset, requested: Sequence[str]) -> tuple[xarray.D
 def _check(looks: Looks, names: Sequence[str], plan: Plan) -> None:
     """Refuse what a picture of these variables has no place for."""
     if plan.is_map:
-        looks.refuse(["band", "inset"], "this picture is a map, and has no lines")
+        looks.refuse(["band"], "this picture is a map, and has no lines")
     else:
         looks.refuse(["levels", "clabel"], "contour levels and their colours are for a map, and this picture has none")
     if plan.is_dense:
@@ -112,9 +116,6 @@ def _check(looks: Looks, names: Sequence[str], plan: Plan) -> None:
         why = f"{names[0]} and {names[1]} have values of their own; choose one of them with --variable"
         looks.refuse([] if plan.is_map else ["ylim"], why)
         looks.refuse(["levels", "clabel"] if isinstance(looks.levels, tuple) else ["clabel"], why)
-    if len(names) > 1 or plan.columns or plan.rows or plan.points:
-        why = "an inset goes into a single panel of lines; choose one variable with --variable, fix axes with --at"
-        looks.refuse(["inset"], why)
 
 
 def _beside(count: int, columns: int, looks: Looks) -> int:
@@ -125,12 +126,13 @@ def _beside(count: int, columns: int, looks: Looks) -> int:
 
 
 def _draw(
-    figure: Figure, panels: Any, shown: Shown, x: Scale, y: Scale | None, plan: Plan, looks: Looks, height: float
-) -> list[QuadContourSet]:
-    """Draw a variable into its panels, with a bar of its colours; the contours are returned, for numbers on them."""
+    panels: Any, shown: Shown, x: Scale, y: Scale | None, plan: Plan, looks: Looks
+) -> tuple[list[Any], list[QuadContourSet]]:
+    """Draw a variable into its panels; what has its colours is returned, for a bar, and contours, for their numbers."""
     coloured, contours = [], []
     titles = {axis: equations(axis, shown.values[axis].values) for axis in (plan.columns, plan.rows) if axis}
     up = shown.label.replace(" $", "\n$", 1) if len(panels) > 1 else shown.label  # a row may be lower than it is long
+    narrow = (looks.width or np.inf) < NARROW * panels.shape[1]
     for (i, j), axes in np.ndenumerate(panels):
         if axes is not panels[0, 0]:
             axes.sharex(panels[0, 0])
@@ -145,41 +147,38 @@ def _draw(
         else:
             draw_lines(axes, one, x, plan, looks)
         last, first = i == len(panels) - 1, j == 0
-        axes.set_xlabel(x.label if last else "")
         middle = first and (y or i == (len(panels) - 1) // 2)  # words are longer than a row is high
+        axes.set_xlabel(x.label if last else "")
         axes.set_ylabel((y.label if y else "" if shown.names else up) if middle else "")
         axes.tick_params(labelbottom=last, labelleft=first)
+        axes.tick_params(axis="x", labelrotation=90.0 if narrow else 0.0)
         if plan.columns and i == 0:
             axes.set_title(titles[plan.columns][j])
         if plan.rows and j == panels.shape[1] - 1:
             axes.annotate(titles[plan.rows][i], (1.03, 0.5), xycoords="axes fraction", rotation=-90, va="center")
-    if coloured:
-        _add_bar(figure, panels, coloured, shown, looks.clabel, height)
-    return contours
+    return coloured, contours
 
 
-def _add_bar(
-    figure: Figure, panels: Any, coloured: Sequence[Any], shown: Shown, name: str | None, height: float
-) -> None:
+def _add_bar(figure: Figure, panels: Any, coloured: Sequence[Any], shown: Shown, name: str | None, most: int) -> None:
     """Put a bar of colours beside the panels of a variable, with a name, numbers at some levels and at both ends."""
     bar = figure.colorbar(coloured[0], ax=panels, fraction=0.06, aspect=30)
     bar.ax.yaxis.set_minor_locator(NullLocator())
     if shown.names:
         bar.ax.set_title(name or shown.label, loc="left")
         bar.ax.set_yticks(range(len(shown.names)), shown.names, fontsize="small")
-    elif not hasattr(coloured[0], "levels"):
-        most = max(2.0, *(float(np.max(cells.get_array())) for cells in coloured if cells.get_array().size))
-        for cells in coloured:
-            cells.set_norm(LogNorm(1.0, most))
-        bar.set_label("scenes in a cell")
-        bar.locator = locator(1.0, most, log=True)
-        bar.formatter = Numbers(PLAIN)
-    else:
+    elif hasattr(coloured[0], "levels"):
         levels = coloured[0].levels
-        step = -(-levels.size // max(2, int(height / 0.17)))
+        step = -(-levels.size // max(2, most))
         some = [*levels[: levels.size - step : step], levels[-1]]
         bar.set_label(name or shown.label)
         bar.ax.set_yticks(some, shown.unit.numbers(some))
+    else:
+        greatest = max(2.0, *(max(cells.get_array(), default=0.0) for cells in coloured))
+        for cells in coloured:
+            cells.set_norm(LogNorm(1.0, greatest))
+        bar.set_label("scenes in a cell")
+        bar.locator = locator(1.0, greatest, log=True)
+        bar.formatter = Numbers(PLAIN)
 
 
 def _entries(shown: Sequence[Shown], lines: Sequence[Artist], plan: Plan, size: int) -> list[Artist]:
@@ -202,32 +201,24 @@ def draw_fronts(
     """Draw the Pareto fronts of two goals, or of two variables asked for: the one along, the other up."""
     if selection.over or selection.between or looks.kind:
         raise DatasetError("Pareto fronts are drawn as they are; choose scenes with --at")
-    looks.refuse(["inset", "band"], "Pareto fronts are drawn as they are")
+    looks.refuse(["band"], "Pareto fronts are drawn as they are")
     narrow = selection.narrowed(dataset)
     along, up = _sides(narrow, requested, x, y)
     scenes = [str(axis) for axis in narrow["status"].dims if narrow.sizes[axis] > 1]
     narrow = narrow.squeeze([axis for axis in narrow["status"].dims if axis not in scenes])
     flat = narrow.stack(line=scenes) if scenes else narrow.expand_dims("line")
-    lines = flat.sizes["line"]
-    if lines > 10:
-        raise DatasetError(f"{lines} scenes are too many lines for one picture; choose some with --at")
+    count = flat.sizes["line"]
+    if count > FRONTS:
+        raise DatasetError(f"{count} scenes are too many lines for one picture; choose some with --at")
     words = [equations(name, flat[name].values) for name in scenes]
     with styled(looks):
         figure = Figure(layout="constrained")
         axes = figure.subplots()
-        for i in range(lines):
-            first, second = (flat[name].isel(line=i).values for name in (along, up))
-            there = np.isfinite(first) & np.isfinite(second)
-            axes.plot(
-                first[there],
-                second[there],
-                ls="",  # there is nothing in a gap
-                color=looks.colours(0.85 * i / max(1, lines - 1)),
-                marker=MARKERS[i % len(MARKERS)],
-                ms=3.5 if there.sum() <= MARKS else 2.0,
-                mew=0.0,
-                label=", ".join(own[i] for own in words),
-            )
+        for i in range(count):
+            line = flat[[along, up]].isel(line=i, drop=True).reset_coords(drop=True).dropna(PARETO_POINT)
+            own: dict[str, Any] = {"marker": MARKERS[i % len(MARKERS)], "ms": 3.5 if line[up].size <= MARKS else 2.0}
+            own |= {"color": looks.colours(0.85 * i / max(1, count - 1)), "label": ", ".join(one[i] for one in words)}
+            axes.plot(line[along], line[up], ls="", mew=0.0, **own)  # there is nothing in a gap
         suit(axes, "x", along, looks.xlim)
         suit(axes, "y", up, looks.ylim)
         for axis in (axes.xaxis, axes.yaxis):

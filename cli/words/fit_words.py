@@ -1,5 +1,6 @@
 """Fits in words: values with their intervals, what goes together, how well loops are met; of several a row each."""
 
+import itertools
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Final
@@ -80,15 +81,14 @@ def _of_one(dataset: xarray.Dataset) -> Iterator[str]:
     names, units = _names(dataset)
     width = max(20, *map(len, names))
     through_a_machine = dataset.attrs.get("control") == "machine"
-    for i, name in enumerate(names):
-        value, low, high = (float(dataset[column].values[i]) for column in ("value", "low", "high"))
+    for name, unit, one in zip(names, units, (dataset.isel({PARAMETER: i}) for i in range(len(names))), strict=True):
         remark = "  of the machine's displacement" if through_a_machine and name == "indentation_offset" else ""
-        if dataset["on_bound"].values[i]:
+        if one["on_bound"]:
             remark += "  at an end of its range"
-            if "low_searched" in dataset:
-                remark += f", {dataset['low_searched'].values[i]:.6g} to {dataset['high_searched'].values[i]:.6g}"
-        written = f"{value:.6g} {units[i]}" if units[i] != "1" else f"{value:.6g}"
-        yield f"  {name:<{width}} {written:<22} {low:.6g} to {high:.6g}{remark}"
+            if "low_searched" in one:
+                remark += f", {float(one['low_searched']):.6g} to {float(one['high_searched']):.6g}"
+        written = f"{float(one['value']):.6g} {unit}".removesuffix(" 1")
+        yield f"  {name:<{width}} {written:<22} {float(one['low']):.6g} to {float(one['high']):.6g}{remark}"
     yield ""
     chi_square, degrees, status = (dataset[name].item() for name in ("chi_square", "degrees_of_freedom", "status"))
     yield f"chi square: {chi_square:.6g} for {degrees:,} degrees of freedom; reduced {chi_square / degrees:.3g}"
@@ -96,10 +96,9 @@ def _of_one(dataset: xarray.Dataset) -> Iterator[str]:
         yield f"  a poor fit: the noise explains {poor_from(degrees):.3g} at most; try another model or other ranges"
     if not int(dataset["converged"]):
         yield "  it did not converge"
-    for i, one in enumerate(names):
-        for j, other in enumerate(names[:i]):
-            if abs(correlation := float(dataset["correlation"].values[i, j])) > TOGETHER:
-                yield f"correlation of {other} and {one}: {correlation:.3f}"
+    for i, j in itertools.combinations(range(len(names)), 2):
+        if abs(correlation := float(dataset["correlation"].values[i, j])) > TOGETHER:
+            yield f"correlation of {names[i]} and {names[j]}: {correlation:.3f}"
     if "tabor_parameter" in dataset and (tabor := float(dataset["tabor_parameter"])) >= SHORT_RANGED:
         yield f"Tabor parameter {tabor:.3g} ({dataset['tabor_parameter'].attrs.get('comment', '')})"
     yield from _doubts(dataset, str(dataset.attrs.get("alike", "")))
@@ -173,11 +172,13 @@ def fits_compared(datasets: Sequence[xarray.Dataset], files: Sequence[Path]) -> 
     for dataset, file in zip(datasets, files, strict=True):
         if not is_fit(dataset):
             raise DatasetError(f"{file}: contains no fit; only fits can be compared, so name one file")
-        if why := _apart(first, dataset):
-            raise DatasetError(
-                f"{file}: differs from {files[0]} in {why}, so that their misfits cannot be compared; fit the same "
-                "points with the same noise"
-            )
+        for name in SAME:
+            one, other = (np.asarray(each.get(name, each.attrs.get(name))) for each in (first, dataset))
+            if one.shape != other.shape or not np.array_equal(one, other, equal_nan=one.dtype.kind == "f"):
+                raise DatasetError(
+                    f"{file}: differs from {files[0]} in {name}, so that their misfits cannot be compared; fit the "
+                    "same points with the same noise"
+                )
         if np.isnan(dataset["chi_square"].values).any():
             raise DatasetError(f"{file}: a loop has no fit, so that the total misfit is undefined; leave its file out")
     table = pd.DataFrame(
@@ -202,12 +203,3 @@ def fits_compared(datasets: Sequence[xarray.Dataset], files: Sequence[Path]) -> 
     for dataset, file in zip(datasets, files, strict=True):
         if (dataset["status"].values & POOR_FIT).any():
             yield f"{file}: a poor fit: the residual exceeds the noise, and weights mean little"
-
-
-def _apart(one: xarray.Dataset, other: xarray.Dataset) -> str:
-    """Name what two fits differ in of their data; nothing if they are of the same."""
-    for name in SAME:
-        mine, others = (np.asarray(each[name] if name in each else each.attrs.get(name)) for each in (one, other))
-        if mine.shape != others.shape or not np.array_equal(mine, others, equal_nan=mine.dtype.kind == "f"):
-            return name
-    return ""

@@ -19,6 +19,7 @@ from gradhesion.cli.names.outputs import ON_BOUND, PARETO_POINT, SI, labels_of
 from gradhesion.cli.names.scenes import IDLE, REALISATION, SCENE, SOLVER
 from gradhesion.cli.study.shape_words import control_in_words
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted, percent
+from gradhesion.cli.terminal.wording import shown
 from gradhesion.cli.words.curve_words import about, curve_lines, jump_lines, number_range, told, unit_behind
 from gradhesion.cli.words.table import columns_of
 from gradhesion.core import FAILED
@@ -130,14 +131,8 @@ def _uncertain_inputs(dataset: xarray.Dataset) -> Iterator[str]:
         table = tomllib.loads(str(dataset.attrs.get("study", ""))).get("uncertainty")
     if isinstance(table, Mapping):
         samples = f", {table['samples']:,} samples" if table.get("samples") else ""
-        yield from ("", f"uncertain inputs{samples}")
-        for name in [name for name in table if name not in ("samples", "seed")]:
-            value = table[name]
-            if isinstance(value, Mapping):
-                yield told(name, f"uniform from {value.get('low')} to {value.get('high')}", width=17)
-            else:
-                share = " of the value" if str(value).endswith("%") else ""
-                yield told(name, f"standard deviation {value}{share}", width=17)
+        yield from ("", f"uncertain inputs{samples}: standard deviations, or the ends of a uniform distribution")
+        yield from (told(name, shown(one), width=17) for name, one in table.items() if name not in ("samples", "seed"))
 
 
 def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
@@ -157,15 +152,12 @@ def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
             yield from _flag_counts(dataset[name]) or ["  no optimum is at a bound"]
         elif parts_of(dataset, name):
             yield from _sensitivities(dataset[name], name)
+        elif extremes := _extremes(dataset[name]):
+            for word, (extreme, place) in zip(("min", "max"), extremes, strict=True):
+                at = [f"{key} = {one if isinstance(one, str) else f'{one:g}'}" for key, one in place.items()]
+                yield f"  {word:<9} {extreme:<12.7g}" + (f" at {', '.join(at)}" if at else "")
         else:
-            extremes = _extremes(dataset[name])
-            if not extremes:
-                yield "  no value in any scene"
-            for word, (extreme, place) in zip(("min", "max"), extremes, strict=False):
-                where = ", ".join(
-                    f"{key} = {one if isinstance(one, str) else f'{one:g}'}" for key, one in place.items()
-                )
-                yield f"  {word:<9} {extreme:<12.7g}" + (f" at {where}" if where else "")
+            yield "  no value in any scene"
     if listed:
         yield ""
         yield "values"
@@ -195,19 +187,14 @@ def _of_few_scenes(dataset: xarray.Dataset, names: Sequence[str]) -> Iterator[st
 
 def _extremes(variable: xarray.DataArray) -> list[tuple[float, dict[str, float | str]]]:
     """Find the least and the greatest value of a variable with their places, a block at a time."""
-    found: list[tuple[float, dict[str, float | str]]] = []
+    cells: list[xarray.DataArray] = []
     for block in tiling_of(variable):
-        part = variable[block]
-        values = np.asarray(part.values, dtype=float)
-        if not np.any(np.isfinite(values)):
-            continue
-        for i, (position, better) in enumerate(((np.nanargmin(values), np.less), (np.nanargmax(values), np.greater))):
-            index = np.unravel_index(position, values.shape)
-            value = float(values[index])
-            if len(found) < 2 or better(value, found[i][0]):
-                cell = part[index]
-                found[i : i + 1] = [(value, {name: cell[name].item() for name in _varying(part)})]
-    return found
+        part = variable[block].load()
+        part = part.where(np.isfinite(part))
+        if part.notnull().any():
+            cells += [part[part.argmin(part.dims)], part[part.argmax(part.dims)]]
+    ends = [min(cells, key=float), max(cells, key=float)] if cells else []
+    return [(float(cell), {name: cell[name].item() for name in _varying(variable)}) for cell in ends]
 
 
 def _sensitivities(variable: xarray.DataArray, name: str) -> Iterator[str]:
@@ -236,11 +223,8 @@ def _flag_counts(variable: xarray.DataArray) -> list[str]:
     for block in tiling_of(variable):
         values = variable[block].values.astype(int)
         counts += [np.count_nonzero(values & mask) for mask in masks]
-    lines = []
-    for name, count in zip(str(variable.attrs["flag_meanings"]).split(), counts, strict=True):
-        if count:
-            lines.append(told(name, _share(count, variable.size), FLAG_WORDS.get(name, "")))
-    return lines
+    found = zip(str(variable.attrs["flag_meanings"]).split(), counts, strict=True)
+    return [told(name, _share(count, variable.size), FLAG_WORDS.get(name, "")) for name, count in found if count]
 
 
 def _share(count: int, scenes: int) -> str:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import gradhesion as gr
-from gradhesion.cli.picture.measured import read_points
+from gradhesion.cli.picture.tracks import read_points
 from tests.cli.conftest import BALL, COLUMNS, Call
 
 STUDIES = {
@@ -72,8 +72,8 @@ OWN: dict[str, tuple[str, str, str]] = {
     "points: unit of a ratio": ("points", "modulus [MPa],A\n1,0.1\n", 'the column "modulus": "MPa" is not a unit of this quantity; a number without a unit is expected'),
     "profile: no unit": ("profile", "r [um],height [V]\n1,2\n", 'the column "height": "V" is not a unit of this quantity; a length (m) is expected'),
     "data: no unit": ("data", "depth [nm],load\n1,2\n", "in brackets, as load ["),
-    "data: one column": ("data", "depth [nm]\n1\n", "the file has depth alone; name them in the header"),
-    "data: other names": ("data", "depht;laod\n1,5;2\n", 'the file has none of them; rename "depht" to "depth"'),
+    "data: one column": ("data", "depth [nm]\n1\n", 'indentation and load, and it has "depth"; rename some'),
+    "data: other names": ("data", "depht;laod\n1,5;2\n", 'it has "depht", "laod"; rename some'),
 }  # fmt: skip
 """Wrong for one reader."""
 

@@ -79,7 +79,7 @@ def test_arrows_go_along_the_path(control: dict[str, Any]) -> None:
         assert tail[0] < head[-1], "and goes along it"
 
 
-def test_planes_limits_and_insets_are_chosen(curves: xarray.Dataset, probe: xarray.Dataset) -> None:
+def test_planes_and_limits_are_chosen(curves: xarray.Dataset, probe: xarray.Dataset) -> None:
     for choice, expected in (
         (LOAD_OVER_DEPTH, [("depth", "load")]),
         ({"x": "contact_radius"}, [("contact radius", "depth"), ("contact radius", "load")]),
@@ -96,17 +96,14 @@ def test_planes_limits_and_insets_are_chosen(curves: xarray.Dataset, probe: xarr
         assert axes.get_xlim()[1] == pytest.approx(1e-6, rel=1e-12)
     assert np.nanmin(drawn(gr.plot(probe, "path_load_si")[0], 1)) == float(probe["path_load_si"].min())
     assert gr.plot(probe, "path_load")[0].get_xlabel() == r"depth $\delta/R$"
-    (axes,) = gr.plot(probe, **LOAD_OVER_DEPTH, ylim="-300 nN:100 nN", inset="-50 nm:0", width=6, height=5)
+    (axes,) = gr.plot(probe, **LOAD_OVER_DEPTH, ylim="-300 nN:100 nN")
     assert axes.get_ylim() == pytest.approx((-3e-7, 1e-7), rel=1e-12)
-    (inset,) = axes.child_axes
-    assert inset.get_xlim() == pytest.approx((-5e-8, 0.0), rel=1e-12)
-    assert not inset.texts, "arrows stay where the whole path is"
 
 
 WRONG: list[tuple[str, dict[str, Any]]] = [
     ("variable pth", {"variables": "pth"}), ("path_indentation_si", {"variables": ["path_load", "path_indentation_si"]}), ("x k", {"x": "k"}),
     ("x load", {"x": "load", "y": "load"}), ("over", {"over": {"A": "max"}}), ("xlim 0:1", {"xlim": "0:1"}), ("ylim 0:1", {"ylim": "0:1"}),
-    ("inset 0:1", {"inset": "0:1"}), ("xlabel", {"xlabel": "depth"}), ("map: ", {"kind": "map"}), ("levels", {"levels": 5}), ("clabel", {"clabel": "pull"}), ("band", {"band": "std"}),
+    ("xlabel", {"xlabel": "depth"}), ("map: ", {"kind": "map"}), ("levels", {"levels": 5}), ("clabel", {"clabel": "pull"}), ("band", {"band": "std"}),
 ]  # fmt: skip
 
 

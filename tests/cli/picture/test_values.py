@@ -47,6 +47,14 @@ def test_every_shape_is_drawn_in_line(shape: str) -> None:
     )
 
 
+@pytest.mark.parametrize("kind", ["map", "lines"])
+def test_panels_in_a_column_are_high_enough_to_be_read(kind: Any) -> None:
+    panels = gr.plot(computed(**SHAPES["panels of maps"]), kind=kind, width="column")
+    assert len(panels) == 8
+    inches = panels.figure.get_size_inches()[1]
+    assert min(axes.get_position().height for axes in panels) * inches > 0.75
+
+
 def test_lines_are_the_values_of_the_dataset(grid: xarray.Dataset) -> None:
     few = grid.isel(A=1, k=[0, 3, 8])
     panels = gr.plot(few)
@@ -209,6 +217,6 @@ def test_a_front_is_one_goal_over_the_other() -> None:
         np.testing.assert_array_equal(line.get_xdata(), values[np.isfinite(values)])
     ends = float(front["best_pull_off_force"].min()) - 0.5, float(front["best_pull_off_force"].max()) + 0.25
     assert gr.plot(front, xlim=ends)[0].get_xlim() == pytest.approx(ends, rel=1e-12)
-    for choices in ({"inset": (0, 1)}, {"kind": "map"}, {"over": {"k": "max"}}, {"variables": "A"}):
+    for choices in ({"band": "std"}, {"kind": "map"}, {"over": {"k": "max"}}, {"variables": "A"}):
         with pytest.raises(gr.DatasetError):
             gr.plot(front, **choices)
