@@ -27,12 +27,11 @@ const address = {
     return words.toString();
   },
 
-  // Take the state from the address, `#...` before `?...`; what it has wrong stays as it is, and is returned in words.
+  // Take the state from the address; what it has wrong stays as it is, and is returned in words.
   read(explorer) {
     const { study, drawn } = explorer;
-    const words = new URLSearchParams(location.search);
-    for (const [name, word] of new URLSearchParams(location.hash.slice(1))) words.set(name, word);
     this.own = location.hash.slice(1);
+    const words = new URLSearchParams(this.own);
     const wrong = [];
     const find = (all, name, key) => {
       const found = all.findIndex((one) => one.name === name);

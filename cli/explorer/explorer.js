@@ -11,7 +11,7 @@ const explorer = {
     const free = axes.map((_, i) => i).filter((i) => i !== solver);
     [this.x, this.y] = free.sort((one, other) => sizes[other] - sizes[one]);
     this.over = parameters.find((parameter) => parameter.places);
-    this.drawn = this.firstShown(variables).map((variable) => this.choiceOf(variable));
+    this.drawn = variables.slice(0, 2).map((_, i) => this.choiceOf(i));
     if (kind === "curves") this.planes = new Planes(this.study, parts.planes);
     const wrong = address.read(this);
     if (wrong.length) {
@@ -51,7 +51,7 @@ const explorer = {
       });
       list.hidden = false;
     }
-    this.maps = (parts.maps ?? []).map((part) => new ValueMap(study, part, parts.ranges));
+    this.maps = parts.maps.map((part) => new ValueMap(study, part, parts.ranges));
     this.sections = parts.sections.map((both) =>
       Object.fromEntries(Object.entries(both).map(([side, part]) => [side, new Section(study, part)])),
     );
@@ -63,18 +63,6 @@ const explorer = {
     for (const { figure } of parts.maps) {
       for (const name of ["inner_width", "inner_height"]) figure.properties[name].change.connect(again);
     }
-  },
-
-  figures() {
-    const sections = (this.parts.sections ?? []).flatMap((both) => Object.values(both));
-    return [...(this.parts.maps ?? []), ...sections, ...(this.parts.planes ?? [])].map((part) => part.figure);
-  },
-
-  // What is shown at first: force and energy, in units if they have them.
-  firstShown(variables) {
-    const places = (end) => ["pull_off_force", "dissipated_energy"].map((name) => variables.findIndex((one) => one.name === name + end));
-    const wanted = [places("_si"), places("")].find(([force]) => force >= 0) ?? [];
-    return variables.slice(0, 2).map((_, i) => (wanted[0] >= 0 && wanted[i] >= 0 ? wanted[i] : i));
   },
 
   // How a variable is shown at first: in colours that rise by ratios if its values differ much.

@@ -142,26 +142,25 @@ def _draw_loops(dataset: xarray.Dataset, looks: Looks) -> Figure:
         figure = Figure(layout="constrained")
         grid = figure.subplots(down, across, squeeze=False, sharey=few)
         panels = grid.flat[: len(names)]
-        for place, (axes, name) in enumerate(zip(panels, names, strict=True)):
-            words, unit = named(name, dataset["value"].values[sound, place])
-            value, low, high = (
-                dataset[one].values[sound, place] / 10.0**unit.power for one in ("value", "low", "high")
-            )
-            axes.set_xlabel(f"{words} ({unit.symbol})" if unit.symbol else words)
-            if value.min() > 0.0 and value.max() > 20.0 * value.min():
-                axes.set_xscale("log")
-            if few:
-                ends = np.maximum([value - low, high - value], 0.0)
-                for which, colour in ((~doubts, COLOURS[0]), (doubts, COLOURS[1])):
-                    own: dict[str, Any] = {"ls": "", "marker": "o", "ms": 3.0, "lw": 0.9, "color": colour}
-                    axes.errorbar(value[which], sound[which], xerr=ends[:, which], **own)
-            else:
-                _draw_many(axes, value, doubts)
         for axes in grid.flat[len(names) :]:
             axes.remove()
+        for place, (axes, name) in enumerate(zip(panels, names, strict=True)):
+            words, unit = named(name, dataset["value"].values[sound, place])
+            axes.set_xlabel(f"{words} ({unit.symbol})" if unit.symbol else words)
+            own = dataset[["value", "low", "high"]].isel({PARAMETER: place, LOOP: sound})
+            value, low, high = (own[one].values / 10.0**unit.power for one in own)
+            if value.min() > 0.0 and value.max() > 20.0 * value.min():
+                axes.set_xscale("log")
+            if not few:
+                _draw_many(axes, value, doubts)
+                continue
+            ends = np.maximum([value - low, high - value], 0.0)
+            for which, colour in ((~doubts, COLOURS[0]), (doubts, COLOURS[1])):
+                dots: dict[str, Any] = {"ls": "", "marker": "o", "ms": 3.0, "lw": 0.9, "color": colour}
+                axes.errorbar(value[which], sound[which], xerr=ends[:, which], **dots)
         for axes in grid[:, 0]:
             axes.set_ylabel("loops" if not few else "loop" if len(files) > LISTED else "")
-            if few and len(files) <= LISTED:
+            if len(files) <= LISTED:
                 axes.set_yticks(range(len(files)), files, fontsize="x-small")
         if few:
             grid[0, 0].set_ylim(len(files) - 0.5, -0.5)  # the first on top
@@ -170,7 +169,7 @@ def _draw_loops(dataset: xarray.Dataset, looks: Looks) -> Figure:
         caption += [f"red: {counted(poor, 'fit')} in doubt"] if poor else []
         caption += [f"{counted(missing, 'loop')} without a fit"] if missing else []
         size = (2.6 * across + 1.0, 2.2 * down)
-        finish(figure, looks, dataset=dataset, caption=caption, size=size, panels=panels)
+        finish(figure, looks, dataset=dataset, caption=caption, size=size, rows=down, panels=panels)
     return figure
 
 
