@@ -38,7 +38,7 @@ from gradhesion.cli.commands.shared import (
 @click.option("--width", metavar="SIZE", help='Width: inches, "8 cm", column (90 mm) or page (190 mm).')
 @click.option("--height", metavar="SIZE", help='Height: inches or "8 cm" [to suit the width].')
 @click.option("--colour-map", "--color-map", metavar="NAME", help="Colour map of matplotlib [viridis].")
-@click.option("--levels", metavar="LEVELS", help="Contour levels: a number (8) or values (0.5,1,2).")
+@click.option("--levels", metavar="LEVELS", help='Contour levels: a number (8) or values (0.5,1,2 or "1 nJ,2 nJ").')
 @click.option("--labels/--no-labels", default=True, help="Number the contours [yes].")
 @click.option("--xlim", metavar="LOW:HIGH", help="Part of the horizontal axis to draw; either end may be left out.")
 @click.option("--ylim", metavar="LOW:HIGH", help="Part of the vertical axis to draw.")

@@ -119,26 +119,21 @@ def drawn_curves(
     rows = [track.points(scene.values, plane) for plane, own in panels.items() for track in own for scene in scenes]
     if not any(np.isfinite(row).all(axis=0).any() for row in rows):
         raise DatasetError("no value in any scene drawn; `gradhesion info` reports why")
-    for choice, sides in (("xlim", {x for x, _ in panels}), ("ylim", {y for _, y in panels})):
-        looks.refuse([choice] if len(sides) > 1 else [], "the panels differ; choose one with --x indentation --y load")
+    for choice, sides in zip(("xlim", "ylim"), zip(*panels, strict=True), strict=True):
+        if len({*sides}) > 1:
+            looks.refuse([choice], "the panels differ; choose one with --x indentation --y load")
     points = None if data is None else read_points(data, [*panels], si=si)
     for note in points.notes if points else ():
         notes(note)
-    width = looks.width or max(4.0, 2.5 * len(panels))
     below = stacked(len(panels), 1.7, looks)
+    size = looks.width or max(4.0, 2.5 * len(panels)), 2.4 * below + 0.6
     with styled(looks):
-        figure = Figure(figsize=(width, looks.height or 2.4 * below + 1.1), layout="constrained")
+        figure = Figure(layout="constrained")
         grid = figure.subplots(below, len(panels) // below, squeeze=False).ravel()
         for axes, (plane, tracks) in zip(grid, panels.items(), strict=True):
             _draw_panel(axes, plane, tracks, scenes, points, looks)
-            arrows: list[Values] = []
-            for track in (one for one in tracks if one.curve == "path"):
-                for scene in scenes:
-                    colour = scene.colour or track.colour(looks.colours)
-                    track.draw_arrows(axes, scene.values, plane, colour, arrows)
         used = [track for track in known if any(track in tracks for tracks in panels.values())]
         handles = [*_handles(scenes, used, looks), *([Line2D([], [], **points.looks)] if points else [])]
-        size = width, 2.4 * below + 0.6
         finish(figure, looks, dataset=dataset, caption=caption, entries=handles, size=size, rows=below, panels=grid)
     return figure
 
@@ -210,7 +205,7 @@ def _scenes_of(dataset: xarray.Dataset, looks: Looks) -> tuple[list[Scene], list
 def _draw_panel(
     axes: Axes, plane: Plane, tracks: Sequence[Track], scenes: Sequence[Scene], points: Points | None, looks: Looks
 ) -> None:
-    """Draw the lines of all scenes into a panel, measured points below them, and mark where depth and load are zero."""
+    """Draw the lines of all scenes into a panel, measured points, lines of zero, and arrows along the paths."""
     for track in tracks:
         for scene in scenes:
             colour, own = scene.colour or track.colour(looks.colours), track.points(scene.values, plane)
@@ -234,6 +229,11 @@ def _draw_panel(
     if looks.xlim and not looks.ylim:
         _fit_heights(axes)
     suit(axes, "y", tracks[0].variables[up], looks.ylim)
+    arrows: list[Values] = []
+    for track in (one for one in tracks if one.curve == "path"):
+        for scene in scenes:
+            colour = scene.colour or track.colour(looks.colours)
+            track.draw_arrows(axes, scene.values, plane, colour, arrows)
 
 
 def _draw_marks(axes: Axes, points: Values, start: float, apart: float, **looks: Any) -> None:
