@@ -11,6 +11,7 @@ from gradhesion.cli.commands.shared import (
     choosing,
     ending_of,
     example,
+    given_up,
     listed,
     overwriting,
     quietly,
@@ -53,6 +54,7 @@ from gradhesion.cli.commands.shared import (
 @click.option("--data", type=A_PATH, help="Measured points to draw on curves: a table in a file.")
 @overwriting
 @quietly
+@given_up("--inset", "draw one with `inset_axes` of matplotlib on the axes that `gr.plot` returns")
 def plot(
     file: Path,
     output: Path | None,

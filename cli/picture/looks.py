@@ -146,8 +146,8 @@ def value_in(text: str, name: str, option: str) -> float:
     """
     value = _in_unit(text, unit_of(name))
     if math.isnan(value):
-        wanted = "has no unit; write a number" if unit_of(name) == "1" else f"is in {unit_of(name)}"
-        raise DatasetError(f'{option}: "{text}" is not a value of {name}, which {wanted}')
+        wanted = "has no unit" if unit_of(name) == "1" else f"is in {unit_of(name)}"
+        raise DatasetError(f'{option}: "{text}" is not a value of {name}, which {wanted}; write a number or a quantity')
     return value
 
 

@@ -43,7 +43,7 @@ def test_every_command_has_an_example_that_it_takes(name: str, gradhesion: Call)
         cli.commands[name].make_context(name, arguments)  # raises what is wrong with options and arguments
 
 
-GIVEN_UP = ["run --dry-run", "run --chunk 7", "run --fail-fast", "run --log-json", "merge --chunk 7", "verify --digits"]
+GIVEN_UP = ["plot --inset 1:2", "run --dry-run", "run --chunk 7", "run --fail-fast", "run --log-json", "merge --chunk 7", "verify --digits"]  # fmt: skip
 
 
 @pytest.mark.parametrize("words", GIVEN_UP)
