@@ -11,7 +11,7 @@ from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.model import WAVELENGTHS
 from gradhesion.core.types import Floats
 
-_COST: Final = attrgetter("cost")
+COST: Final = attrgetter("cost")
 _FEW: Final = 300
 """Largest number of points by which starts are refined."""
 _WHOLE: Final = 4
@@ -44,15 +44,15 @@ def minima(misfit: Misfit, begun: list[Floats]) -> list[Any]:
     few = misfit.thinned(_FEW)
 
     def best(vectors: list[Floats], count: int) -> list[Any]:
-        rough = sorted((few.refined(vector, most=30, tolerance=1e-6) for vector in vectors), key=_COST)
+        rough = sorted((few.refined(vector, most=30, tolerance=1e-6) for vector in vectors), key=COST)
         if rough and few.is_noise(rough[0].cost):
             rough = [done for done in rough if done.cost < rough[0].cost + _HOPELESS]
         return [misfit.refined(vector, most=100) for vector in distinct([done.x for done in rough], misfit)[:count]]
 
-    whole = sorted(best(begun, _WHOLE), key=_COST)
+    whole = sorted(best(begun, _WHOLE), key=COST)
     for _ in range(_HOPS):
         least = whole[0].cost * (1.0 - _BETTER)
-        whole = sorted([*whole, *best(_beside(misfit, whole[0].x), 2)], key=_COST)
+        whole = sorted([*whole, *best(_beside(misfit, whole[0].x), 2)], key=COST)
         if not whole[0].cost < least:
             break
     return whole

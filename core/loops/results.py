@@ -54,7 +54,7 @@ def results_at(
 ) -> FittedLoop:
     """Return the results at the first of some minima, the results of `minima`.
 
-    `intervals` is one of those of fit.py; `ranges` are the ends of what is searched, in SI units; where noise was
+    `intervals` is "linear" or "profile"; `ranges` are the ends of what is searched, in SI units; where noise was
     estimated, deviations and intervals are `widened` by the root of the reduced chi square.
     """
     best = found[0].x
@@ -182,9 +182,8 @@ def alternatives(model: Model, path: LoopPath, noise: Floats, spread: Floats) ->
             return ()
         waves = f"waves too fine to be seen, of chi = {chi:.3g}, would have the same effect as closing_ratio = "
         return (f"{waves}{scene.root**2:.3g}; a loop cannot tell the two apart",)
-    jumps = np.flatnonzero(path.jump)
-    jumps = jumps[(path.radius[jumps] > 0.0) & (path.radius[jumps - 1] > 0.0)]
-    sizes = np.hypot(*((path.places[jumps] - path.places[jumps - 1]) / noise).T)
+    jumps = np.flatnonzero(path.jump[1:] & (path.radius[1:] > 0.0) & (path.radius[:-1] > 0.0))
+    sizes = np.hypot(*((path.places[jumps + 1] - path.places[jumps]) / noise).T)
     length = model.place_of(WAVELENGTHS)
     is_known = length is not None and spread[length] * path.radius.max() < _PHASE * scene.wavelength * scene.R
     chi = float(waviness_strength(scene.k, scene.wavelength, scene.A) / adhesion_strength(scene.k, scene.stiffness))

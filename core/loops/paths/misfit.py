@@ -92,8 +92,11 @@ class Misfit:
 
     def jacobian(self, vector: Floats) -> Floats:
         """Return the derivatives of the residual, of shape (points, numbers)."""
-        if self.model.by_differences:
-            return self._differences(vector)
+        if self.model.by_differences:  # central ones, of one side at the end of a range
+            steps = np.diag(_STEP * (self.high - self.low))
+            ends = [(np.minimum(vector + step, self.high), np.maximum(vector - step, self.low)) for step in steps]
+            changes = [(self.residual(above) - self.residual(below)) / np.sum(above - below) for above, below in ends]
+            return np.column_stack(changes)
         found, (_, branches, drawn) = np.zeros((self.weights.size, vector.size)), self.nearest(vector)
         if drawn is not None:
             begun = np.concatenate([piece.start + near.piece for _, piece, near in branches])
@@ -113,13 +116,6 @@ class Misfit:
         count = self.weights.size
         return 2.0 * cost <= count + _CLEAR * math.sqrt(2.0 * count)
 
-    def _differences(self, vector: Floats) -> Floats:
-        """Return the derivatives of the distances by central differences, of one side at the end of a range."""
-        steps = np.diag(_STEP * (self.high - self.low))
-        ends = [(np.minimum(vector + step, self.high), np.maximum(vector - step, self.low)) for step in steps]
-        changes = [(self.residual(above) - self.residual(below)) / np.sum(above - below) for above, below in ends]
-        return np.column_stack(changes)
-
     def refined(self, start: Floats, *, most: int = 60, held: Sequence[int] = (), tolerance: float = 1e-8) -> Any:
         """Refine a start within the ranges, the numbers `held` fixed; as of `least_squares`, `x` with all numbers."""
         searched = np.setdiff1d(np.arange(start.size), held)
@@ -130,16 +126,11 @@ class Misfit:
             vector[searched] = part
             return vector
 
+        margin = 1e-6 * (high - low)
         done = least_squares(
-            lambda part: self.residual(whole(part)),
-            np.clip(start[searched], low + 1e-6 * (high - low), high - 1e-6 * (high - low)),
-            jac=lambda part: self.jacobian(whole(part))[:, searched],
-            bounds=(low, high),
-            x_scale="jac",
-            xtol=tolerance,
-            ftol=tolerance,
-            gtol=1e-10,
-            max_nfev=most,
-        )
+            lambda part: self.residual(whole(part)), np.clip(start[searched], low + margin, high - margin),
+            jac=lambda part: self.jacobian(whole(part))[:, searched], bounds=(low, high), x_scale="jac",
+            xtol=tolerance, ftol=tolerance, gtol=1e-10, max_nfev=most,
+        )  # fmt: skip
         done.x = whole(done.x)
         return done

@@ -83,7 +83,8 @@ class LoopModel(Model):
 
     def shift(self, vector: Floats) -> tuple[float, ...]:
         """Return the zeros of depth and load, and the tilt, of a vector."""
-        return tuple(float(vector[self.names.index(name)]) if name in self.names else 0.0 for name in OFFSETS)
+        own = dict(zip(self.names, vector.tolist(), strict=True))
+        return tuple(own.get(name, self.fixed.get(name, 0.0)) for name in OFFSETS)
 
     def path(self, vector: Floats) -> LoopPath | None:
         """Draw the path; None where the scene has none."""
@@ -96,9 +97,8 @@ class LoopModel(Model):
             aim = _BY_LOAD
         elif not self.turns:
             aim = _BY_LOAD if self.driven else (1.0, 0.0)
-            target = self.furthest[self.driven] - (load + tilt * self.furthest[0] if self.driven else depth)
-            if TURN in self.names:
-                target += float(vector[self.names.index(TURN)]) - self.furthest[self.driven]
+            turned = dict(zip(self.names, vector.tolist(), strict=True)).get(TURN, self.furthest[self.driven])
+            target = turned - (load + tilt * self.furthest[0] if self.driven else depth)
         with np.errstate(all="ignore"):
             drawn = self._drawn(scene, target, aim, self.first - depth)
         if drawn is None or not np.isfinite(drawn.places).all():

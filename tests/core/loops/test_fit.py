@@ -219,30 +219,3 @@ def test_the_speed_of_the_edge_or_its_exponent_comes_back_with_the_material(
     )  # fmt: skip
     holds(found, TRUE | {one: value})
     assert all(found.standard_deviations[name] < 0.2 * found.values[name] for name in found.names)
-
-
-D, P, U = 1e-8 * np.array([0, 1, 2, 1, 0, -1]), 1e-8 * np.array([-1, 0, 1, 0, -1, -2]), np.arange(6) > 2
-WRONG: dict[str, tuple[dict[str, Any], str]] = {
-    "few points": ({"indentation": D[:4], "load": P[:4], "unloading": U[:4]}, "4 points cannot give 4 numbers"),
-    "nan": ({"load": P * np.nan}, "finite numbers"),
-    "lengths": ({"unloading": U[:5]}, "one length"),
-    "noise": ({"noise": (0.0, 1e-9)}, "both standard deviations are above 0"),
-    "range falls": ({"free": {"E_star": (1e8, 1e6)}}, "E_star: the ends"),
-    "range from 0": ({"free": {"E_star": (0.0, 1e6)}}, "above 0"),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("name", WRONG)
-def test_what_cannot_be_fitted_is_refused(name: str) -> None:
-    change, words = WRONG[name]
-    given = {"indentation": D, "load": P, "unloading": U, "fixed": SMOOTH, "free": FREE, "noise": (1e-10, 1e-9)}
-    with pytest.raises(ValueError, match=words):
-        fit_loop(**(given | change))
-
-
-@pytest.mark.parametrize("name", ["indentation", "load"])
-@pytest.mark.parametrize("wrong", ["fre", (1.0, 1.0), (0.0, math.inf), (1.0,)])
-def test_what_is_no_zero_is_refused(name: str, wrong: Any) -> None:
-    for given in ({name: wrong}, {"indentation": True}, {"load": "contact"}):
-        with pytest.raises(ValueError, match="or the rising ends of a range"):
-            Offsets(**given)
