@@ -31,12 +31,10 @@ from gradhesion.core.types import Floats, Integers
 
 BEYOND: Final = 1.05
 """How far an unbounded punch is drawn beyond its last fold or jump."""
-_BEYOND_SMOOTH: Final = 1.5
-"""How far it is drawn at least, in radii where the smooth curve is at zero depth."""
+_BEYOND_SMOOTH: Final = 1.5  # how far it is drawn at least, in radii where the smooth curve is at zero depth
 _LEAST: Final = 1e-5
 """Radii y that are resolved: a wave may be some hundred thousand times as long as the contact is wide."""
-_SAME: Final = 1e-8
-"""Relative distance below which the turn of a cycle and the landing of a jump are one."""
+_SAME: Final = 1e-8  # relative distance below which the turn of a cycle and the landing of a jump are one
 
 
 class Frame(NamedTuple):
@@ -120,6 +118,7 @@ class Drawn(NamedTuple):
     turn              where its cycle turns; 0: before it makes contact; NaN: not known
     turned            whether it turns at a given depth or load, not at the rim
     sides             its curves of closing and opening; none if they fold too often to be drawn
+    grows             whether contact grows from a point, so that its first jump is none
     """
 
     frame: Frame
@@ -127,6 +126,7 @@ class Drawn(NamedTuple):
     turn: float
     turned: bool
     sides: tuple[Side, ...]
+    grows: bool = False
 
 
 def frame_of(request: Request) -> Frame | None:
@@ -219,14 +219,8 @@ def _end_of(frame: Frame, sides: tuple[Side, ...]) -> float:
 def draw_scene(frame: Frame, turn: float | None, pulled: float) -> Drawn:
     """Make a scene ready for drawing.
 
-    Parameters
-    ----------
-    frame
-        Its reduced form.
-    turn
-        a/R where its cycle turns, None if that is the rim; 0 without contact, NaN if it is not known.
-    pulled
-        a/R of the pull-off, if an unbounded punch turns.
+    `turn` is a/R where its cycle turns, None if that is the rim; 0 without contact, NaN if it is not known. `pulled` is
+    a/R of the pull-off, if an unbounded punch turns.
     """
     length, y_end, sides, complete = frame.units[0], frame.rim, tuple[Side, ...](), False
     turned = frame.rim if turn is None else turn / length

@@ -24,7 +24,7 @@ from gradhesion.core.closed.reduced import WAYS
 from gradhesion.core.loops.fitted import FittedLoop
 from gradhesion.core.loops.measured.features import BaseLine, base_line, contact_point
 from gradhesion.core.loops.minima import minima
-from gradhesion.core.loops.paths.misfit import Data, Misfit
+from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.model import TURN
 from gradhesion.core.loops.paths.offsets import DEPTH_ZERO, LOAD_ZERO, TILT, Offsets
 from gradhesion.core.loops.paths.path import LoopModel
@@ -37,12 +37,9 @@ from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.toughness import Rate, Toughness
 from gradhesion.core.types import Floats, Truths
 
-_BLUR: Final = 6.0
-"""Standard deviations of the depth by which the path continues beyond the deepest point."""
-_LEVEL: Final = 3.0
-"""Standard deviations of the points of a base line within which the fitted path has it."""
-_MISSED: Final = 0.03
-"""Part of the span by which the furthest point may miss the turn."""
+_BLUR: Final = 6.0  # standard deviations of the depth by which the path continues beyond the deepest point
+_LEVEL: Final = 3.0  # standard deviations of the points of a base line within which the fitted path has it
+_MISSED: Final = 0.03  # part of the span by which the furthest point may miss the turn
 
 
 def fit_loop(
@@ -160,7 +157,7 @@ def fit_loop(
     names = tuple(ranges)
     model = LoopModel(known, names, **own) if rate is None else SpeedModel(known, names, rate=rate, **own)
     low, high = (np.array([*model.searched({name: ends[i] for name, ends in ranges.items()}).values()]) for i in (0, 1))
-    misfit = Misfit(Data(points, back, noise, each), model, low, high)
+    misfit = Misfit(points, back, noise, each, model, low, high)
     with threadpool_limits(1):  # matrices of a few columns: threads only wait for each other
         found = minima(misfit, starts_of(misfit, *_zeros(points, back, line), starts, seed))
         if misfit.nearest(found[0].x).drawn is None:

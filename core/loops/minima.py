@@ -12,24 +12,17 @@ from gradhesion.core.loops.paths.model import WAVELENGTHS
 from gradhesion.core.types import Floats
 
 COST: Final = attrgetter("cost")
-_FEW: Final = 300
-"""Largest number of points by which starts are refined."""
-_WHOLE: Final = 4
-"""How many of the starts that fit some of the points best are refined by all points."""
-_ALLOWED: Final = 0.95
-"""Quantile of the rise of chi square: the noise allows other minima below it."""
-_WAVES: Final = (-1.0, -0.5, 0.5, 1.0)
-"""Differences of the number of waves within the contact that are tried."""
+_FEW: Final = 300  # largest number of points by which starts are refined
+_WHOLE: Final = 4  # how many of the starts that fit some of the points best are refined by all points
+_ALLOWED: Final = 0.95  # quantile of the rise of chi square: the noise allows other minima below it
+_WAVES: Final = (-1.0, -0.5, 0.5, 1.0)  # differences of the number of waves within the contact that are tried
 _HOPELESS: Final = 25.0
 """Half the sum of squares of some of the points by which a minimum may be worse than one that leaves only noise."""
 _VALLEY: Final = 3.0
 """Standard deviations of the least certain combination by which a smooth fit is begun anew on both sides."""
-_FEWEST: Final = 0.2
-"""Least number of waves that is tried."""
-_HOPS: Final = 5
-"""Most rounds in which these are tried."""
-_BETTER: Final = 1e-6
-"""Relative difference of sums of squares, below which two minima are the same."""
+_FEWEST: Final = 0.2  # least number of waves that is tried
+_HOPS: Final = 5  # most rounds in which these are tried
+_BETTER: Final = 1e-6  # relative difference of sums of squares, below which two minima are the same
 _APART: Final = 9.0, 4.0
 """Another minimum is further away, in squared standard deviations, than the first, and than the second times the rise
 of chi square; two places in one valley are not."""

@@ -21,32 +21,20 @@ from gradhesion.core.types import Floats
 
 _SINGULAR: Final = 5e-4
 """Singular value over the largest, below which numbers are locked together: correlations above 1 - 1e-6."""
-_PART: Final = 0.01
-"""Least part of such a combination that a parameter has in it."""
-_WITHOUT: Final = 1e-6
-"""Effect of a parameter over the largest, below which it has none."""
+_PART: Final = 0.01  # least part of such a combination that a parameter has in it
+_WITHOUT: Final = 1e-6  # effect of a parameter over the largest, below which it has none
 LEVEL: Final = 0.95
 """Probability that an interval covers."""
-_NEAR_END: Final = 0.01
-"""Part of a range: a value closer than this to an end is on the bound."""
-_WIDE: Final = 10.0
-"""Ratio of stop to start above which a range is measured by its logarithm."""
-_NEAR: Final = 0.01
-"""Accuracy of the end of an interval, in parts of the quantile."""
-_FINE: Final = 1e-5
-"""Tolerance for the sum of squares and the numbers: a rise by 4 is known to a hundredth of it."""
-_TRIALS: Final = 8
-"""Steps to an end of an interval, at most."""
-_FURTHEST: Final = 4.0
-"""Most by which the displacement is corrected in one of them."""
-_ROUNDING: Final = 1e-12
-"""Relative difference of radii that is rounding."""
-_SEEN: Final = 5.0
-"""Size of a jump, in standard deviations of the noise, from which on it shows that there are waves."""
-_LEAST: Final = 0.01
-"""Strength of waves below which nothing is reported."""
-_PHASE: Final = 0.1
-"""Error of the number of waves within the contact, below which waves are resolved without jumps."""
+_NEAR_END: Final = 0.01  # part of a range: a value closer than this to an end is on the bound
+_WIDE: Final = 10.0  # ratio of stop to start above which a range is measured by its logarithm
+_NEAR: Final = 0.01  # accuracy of the end of an interval, in parts of the quantile
+_FINE: Final = 1e-5  # tolerance for the sum of squares and the numbers: a rise by 4 is known to a hundredth of it
+_TRIALS: Final = 8  # steps to an end of an interval, at most
+_FURTHEST: Final = 4.0  # most by which the displacement is corrected in one of them
+_ROUNDING: Final = 1e-12  # relative difference of radii that is rounding
+_SEEN: Final = 5.0  # size of a jump, in standard deviations of the noise, from which on it shows that there are waves
+_LEAST: Final = 0.01  # strength of waves below which nothing is reported
+_PHASE: Final = 0.1  # error of the number of waves within the contact, below which waves are resolved without jumps
 
 
 def results_at(

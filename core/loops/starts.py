@@ -21,36 +21,24 @@ from gradhesion.core.loops.paths.offsets import DEPTH_ZERO, LOAD_ZERO
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.types import Floats
 
-_FEW: Final = 140
-"""Points that starts are compared with."""
+_FEW: Final = 140  # points that starts are compared with
 _WORK: Final = "work_of_adhesion"
 _MODULI: Final = ("E_star", "E", "modulus")
-_CONTACTS: Final = 12
-"""Contact points that are tried, beside the end of the base line."""
-_WORKS: Final = 3
-"""Works of adhesion that are tried with each."""
-_KEPT: Final = 8
-"""Starts of a smooth punch that are refined."""
-_HEIGHTS: Final = 3
-"""Amplitudes that are tried with each wavelength."""
-_PEAKS: Final = 6
-"""Peaks of the spectrum that are tried."""
-_BESIDE: Final = 2
-"""Peaks that are tried with a third of a wave more, and less, within the contact."""
+_CONTACTS: Final = 12  # contact points that are tried, beside the end of the base line
+_WORKS: Final = 3  # works of adhesion that are tried with each
+_KEPT: Final = 8  # starts of a smooth punch that are refined
+_HEIGHTS: Final = 3  # amplitudes that are tried with each wavelength
+_PEAKS: Final = 6  # peaks of the spectrum that are tried
+_BESIDE: Final = 2  # peaks that are tried with a third of a wave more, and less, within the contact
 _PER_WAVE: Final = 3.0
 """Wavelengths tried, over the number of waves by which the shortest and the longest differ within the contact."""
-_LEAST, _MOST = 8, 14
-"""How many they are at least and at most."""
+_LEAST, _MOST = 8, 14  # how many they are at least and at most
 _LONG: Final = 16
 """Wavelengths tried beside these, evenly by their logarithm: of long waves, few of which are in the contact."""
-_ALIKE: Final = 0.05
-"""Parts of the ranges within which two smooth curves share one search for waves."""
-_HELD, _ROUGH = 6, 15
-"""Steps in which starts are refined with the waves held, and the best of these with them."""
-_SPEEDS: Final = 4
-"""Speeds that are tried."""
-_WORSE: Final = 4.0
-"""Half the sum of squares over that of the best start, above which another is left out."""
+_ALIKE: Final = 0.05  # parts of the ranges within which two smooth curves share one search for waves
+_HELD, _ROUGH = 6, 15  # steps in which starts are refined with the waves held, and the best of these with them
+_SPEEDS: Final = 4  # speeds that are tried
+_WORSE: Final = 4.0  # half the sum of squares over that of the best start, above which another is left out
 
 
 def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: int) -> list[Floats]:
@@ -140,7 +128,7 @@ def matched(misfit: Misfit, vector: Floats, load_zero: float) -> Floats:
     if i is None:
         return vector
     scene, m = model.scenes(vector[None]).one, model.profile.exponent
-    deepest, load = misfit.data.points[int(np.argmax(misfit.data.points[:, 0]))]
+    deepest, load = misfit.data[np.argmax(misfit.data[:, 0])]
     place = (max(float(deepest) - model.shift(vector)[0], 0.0) / scene.rise) ** (1.0 / m)
     power = 1.0 + scene.k
     pressed = scene.rise * place**m * scene.disc * place**power * m / (power + m)

@@ -11,18 +11,13 @@ import numpy as np
 
 from gradhesion.core.types import Floats, Truths
 
-_SIGMAS: Final = 3.0
-"""Standard deviations of the noise by which points of a base line scatter at most, drift included."""
-_WHITE: Final = 1.05
-"""Standard deviations by which they scatter without drift, apart from chance."""
-_FLAT: Final = 0.05
-"""Slope over the mean slope of the loop: a steeper line is no base line."""
+_SIGMAS: Final = 3.0  # standard deviations of the noise by which points of a base line scatter at most, drift included
+_WHITE: Final = 1.05  # standard deviations by which they scatter without drift, apart from chance
+_FLAT: Final = 0.05  # slope over the mean slope of the loop: a steeper line is no base line
 _DOUBT: Final = 2.5
 """Error of a slope over that mean slope: with a larger one the points are too close together to be called flat."""
-_LEAST: Final = 6
-"""Least number of points of a base line."""
-_CLEAR: Final = 5.0
-"""Standard deviations from the base line at which contact is certain."""
+_LEAST: Final = 6  # least number of points of a base line
+_CLEAR: Final = 5.0  # standard deviations from the base line at which contact is certain
 
 
 @dataclass(frozen=True)

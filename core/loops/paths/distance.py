@@ -12,8 +12,7 @@ import numpy as np
 from gradhesion.core.jit import kernel
 from gradhesion.core.types import Floats, Integers, Truths
 
-_STEPS: Final = 5
-"""Steps of Newton to the foot on a curve, the first of them to that on its chord."""
+_STEPS: Final = 5  # steps of Newton to the foot on a curve, the first of them to that on its chord
 _LEAST: Final = 0.5
 """Least change of the slope that they divide by, over that of a straight line: it is 0 at the centre of curvature."""
 

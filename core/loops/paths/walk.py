@@ -17,8 +17,7 @@ import numpy as np
 from gradhesion.core.jit import kernel
 from gradhesion.core.types import Floats, Truths
 
-_NEWTON: Final = 4
-"""Steps to the root of a cubic from that of its chord: they double the digits."""
+_NEWTON: Final = 4  # steps to the root of a cubic from that of its chord: they double the digits
 
 
 @kernel
