@@ -12,6 +12,7 @@ import numpy as np
 from gradhesion.core.jit import kernel
 from gradhesion.core.types import Floats, Integers, Truths
 
+_BLOCK: Final = 16  # pieces in a box: of one further away than the nearest piece so far all are skipped
 _STEPS: Final = 5  # steps of Newton to the foot on a curve, the first of them to that on its chord
 _LEAST: Final = 0.5
 """Least change of the slope that they divide by, over that of a straight line: it is 0 at the centre of curvature."""
@@ -49,22 +50,24 @@ class Feet:
 
 
 @kernel
-def _nearest(x: float, y: float, chain: Floats, way: Floats, guess: int) -> tuple[int, float]:
-    """Return the piece of a chain (m, 2) that is nearest to a point, and how far along it; `guess` is tried first.
-
-    Pieces are skipped that end before the `way` along the chain, (m,), leads from a far one to what may be nearer.
-    """
-    best, piece, share, i, begun = np.inf, 0, 0.0, guess, False
-    while i < way.size - 1:
-        run, rise = chain[i + 1, 0] - chain[i, 0], chain[i + 1, 1] - chain[i, 1]
-        away, up = x - chain[i, 0], y - chain[i, 1]
-        length = run * run + rise * rise
-        along = min(max((away * run + up * rise) / length, 0.0), 1.0) if length > 0.0 else 0.0
-        distance = np.hypot(away - along * run, up - along * rise)
-        if distance < best:
-            best, piece, share = distance, i, along
-        i = max(i + 1, np.searchsorted(way, way[i + 1] + distance - best) - 1) if begun else 0
-        begun = True
+def _nearest(x: float, y: float, chain: Floats, boxes: Floats, guess: int) -> tuple[int, float]:
+    """Return the piece of a chain (m, 2) that is nearest to a point, and how far along it; box `guess` comes first."""
+    best, piece, share = np.inf, 0, 0.0
+    for turn in range(boxes.shape[0]):
+        block = guess if turn == 0 else turn - 1 if turn <= guess else turn
+        aside = max(boxes[block, 0] - x, 0.0, x - boxes[block, 2])
+        above = max(boxes[block, 1] - y, 0.0, y - boxes[block, 3])
+        if aside * aside + above * above >= best:
+            continue
+        for i in range(block * _BLOCK, min((block + 1) * _BLOCK, chain.shape[0] - 1)):
+            run, rise = chain[i + 1, 0] - chain[i, 0], chain[i + 1, 1] - chain[i, 1]
+            away, up = x - chain[i, 0], y - chain[i, 1]
+            length = run * run + rise * rise
+            along = min(max((away * run + up * rise) / length, 0.0), 1.0) if length > 0.0 else 0.0
+            left, over = away - along * run, up - along * rise
+            distance = left * left + over * over
+            if distance < best:
+                best, piece, share = distance, i, along
     return piece, share
 
 
@@ -107,12 +110,17 @@ def _feet(
     """Return the fields of `Feet`; arguments are as to `feet`."""
     count, last = points.shape[0], chain.shape[0] - 2
     distance, piece, share = np.full(count, np.inf), np.zeros(count, np.int64), np.zeros(count)
-    normal, bent, way, guess = np.zeros((count, 2)), np.zeros(count, np.bool_), np.zeros(last + 2), 0
+    normal, bent, guess = np.zeros((count, 2)), np.zeros(count, np.bool_), 0
+    boxes = np.full((last // _BLOCK + 1, 4), -np.inf)  # the lowest x and y of some pieces, then the highest
+    boxes[:, :2] = np.inf
     for i in range(last + 1):
-        way[i + 1] = way[i] + np.hypot(chain[i + 1, 0] - chain[i, 0], chain[i + 1, 1] - chain[i, 1])
+        box = boxes[i // _BLOCK]
+        for axis in range(2):
+            box[axis] = min(box[axis], chain[i, axis], chain[i + 1, axis])
+            box[axis + 2] = max(box[axis + 2], chain[i, axis], chain[i + 1, axis])
     for j in range(points.shape[0]):
-        i, t = _nearest(points[j, 0], points[j, 1], chain, way, guess)
-        guess = i
+        i, t = _nearest(points[j, 0], points[j, 1], chain, boxes, guess)
+        guess = i // _BLOCK
         other = min(i + 1, last) if t == 1.0 else max(i - 1, 0)
         piece[j], share[j] = i, t
         for near in range(1 if 0.0 < t < 1.0 else 2):  # between two chords the foot may be on the curve over either

@@ -176,9 +176,9 @@ class Model:
         known: dict[tuple[float, bytes], Floats] = {}
         rows = []
         for k, x in zip(scenes.k[:, 0].tolist(), radius / length, strict=True):
-            if (k, x.tobytes()) not in known:
-                known[k, x.tobytes()] = np.array(hertz.wave_terms(k, x, 1.0, waves))
-            rows.append(known[k, x.tobytes()])
+            key = k, x.tobytes()
+            known[key] = known[key] if key in known else np.array(hertz.wave_terms(k, x, 1.0, waves))
+            rows.append(known[key])
         return scenes.A * length * np.stack(rows, axis=1)
 
     def _toughness(self, scenes: Scenes, a: Floats) -> tuple[Any, Any]:
