@@ -74,6 +74,10 @@ def test_the_zero_of_depth_at_the_contact_point_and_a_tilt() -> None:
     *points, noise = ball(6, zero=(4e-7, 0.0), tilt=0.02)
     found = fit_loop(*points, SMOOTH, FREE, noise=noise, offsets=Offsets(slope=True))
     holds(found, TRUE | {"load_slope": 0.02})
+    found = fit_loop(*points, SMOOTH, FREE, noise=noise, offsets=Offsets(indentation="contact", slope=True))
+    assert found.contact is not None
+    level = found.values["load_offset"] + found.values["load_slope"] * found.contact.depth
+    assert level == pytest.approx(0.02 * 4e-7, abs=2e-9), "the tilt is that of the measured depth"
     *points, noise = ball(6, zero=(4e-7, 0.0))
     found = fit_loop(*points, SMOOTH, FREE, noise=noise, offsets=Offsets(indentation="contact"))
     assert found.contact is not None
