@@ -91,30 +91,17 @@ def fit_profile(
 ) -> FittedProfile:
     """Fit a power and a Fourier series to measured heights of a punch.
 
-    Parameters
-    ----------
-    r
-        Finite places along a line through the axis, in any unit and order. Where some are negative, or both ends are
-        well above the lowest height, it is a line over both flanks, whose centre is fitted; otherwise the axis is at 0,
-        and the first place within half of the last one of it.
-    height
-        Height of the punch above them, in the same unit: it grows away from the half-space.
-    up_to
-        The distance from the centre up to which it is fitted; all of it if not given.
-    terms
-        Harmonics of the series, 1 to 64. Those shorter than two spacings of the points are left out (0).
-    exponent
-        m > 1, or None to fit it between 1.05 and 10.
+    r           finite places along a line through the axis, in any unit and order; where some are negative, or both
+                ends are well above the lowest height, it is a line over both flanks, whose centre is fitted; otherwise
+                the axis is at 0, and the first place within half of the last one of it
+    height      of the punch above them, in the same unit: it grows away from the half-space
+    up_to       the distance from the centre up to which it is fitted; all of it if not given
+    terms       harmonics of the series, 1 to 64; those shorter than two spacings of the points are left out (0)
+    exponent    m > 1, or None to fit it between 1.05 and 10
 
-    Returns
-    -------
-    The profile. Its period is the shortest, of two spacings to `up_to`, that fits as well as the best. Coefficients are
-    within their errors; without noise, they are good to rounding times the condition of the fit.
-
-    Raises
-    ------
-    ValueError
-        For too few points, none near the axis, or heights that do not grow with the distance.
+    The period is the shortest, of two spacings to `up_to`, that fits as well as the best. Coefficients are within their
+    errors; without noise, they are good to rounding times the condition of the fit. Too few points, none near the axis,
+    or heights that do not grow with the distance are a ValueError.
 
     Examples
     --------

@@ -23,7 +23,7 @@ from gradhesion.core.cycle.jumps import (
     list_unloading_jumps,
 )
 from gradhesion.core.draw.sampling import sample, spans_of
-from gradhesion.core.draw.scene import Drawn, Frame, Side
+from gradhesion.core.draw.scene import Drawn, Frame, Side, ends_of
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.types import Floats
 
@@ -40,8 +40,7 @@ def draw_equilibrium(drawn: Drawn, *, closing: bool = False) -> tuple[NDArray[An
     where one of them is: each branch has a point in its inside.
     """
     side, end = drawn.sides[0 if closing else 1], drawn.end
-    folds = side.folds(end)
-    edges = np.concatenate([[0.0], folds, [end]])
+    edges = np.concatenate([[0.0], ends_of(side.trace, side.branches, end), [end]])
     extrema = side.extrema[side.extrema < end]
     lonely = np.searchsorted(extrema, edges[1:]) == np.searchsorted(extrema, edges[:-1])
     middles = 0.5 * (edges[1:] + edges[:-1])[lonely]

@@ -104,11 +104,6 @@ class Side(NamedTuple):
     extrema: Floats
     visited: Integers
 
-    def folds(self, end: float) -> Floats:
-        """Return the folds in order: radii y of starts and ends of branches, between 0 and `end` (excluded)."""
-        ends = np.sort(self.trace[[START, END], : self.branches].ravel())
-        return ends[(ends > 0.0) & (ends < end)]
-
 
 class Drawn(NamedTuple):
     """A scene ready for drawing.
@@ -148,14 +143,17 @@ def trace_curve(curve: Curve, y_end: float, trace: Floats) -> int:
     return count
 
 
+def ends_of(trace: Floats, branches: int, end: float) -> Floats:
+    """Return where branches of a trace start or end, in order, between 0 and `end` (excluded)."""
+    ends = np.sort(trace[[START, END], :branches].ravel())
+    return ends[(ends > 0.0) & (ends < end)]
+
+
 def extrema_of(curve: Curve, y_end: float) -> Floats | None:
     """Return the radii at which what a curve prescribes is extremal, in order; None if its table is too short."""
     trace = room_for(curve.table.bins)
     count = trace_curve(curve, y_end, trace)
-    if count < 0:
-        return None
-    ends = np.sort(trace[[START, END], :count].ravel())
-    return ends[(ends > 0.0) & (ends < min(y_end, span_of(curve.table)))]
+    return None if count < 0 else ends_of(trace, count, min(y_end, span_of(curve.table)))
 
 
 def waves_of(frame: Frame) -> tuple[float, float]:

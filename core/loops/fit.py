@@ -63,57 +63,31 @@ def fit_loop(
 ) -> FittedLoop:
     """Fit parameters to the points of a loop: more than are fitted, all finite; ranges rise.
 
-    Parameters
-    ----------
-    indentation, load
-        Depth in m and load in N (positive presses) of the points, in any order; of one or several equal cycles, of both
-        branches or of one.
-    unloading
-        Whether each point belongs to unloading.
-    fixed
-        Numbers by name, in SI units: R, E_star (or E), work_of_adhesion, c0, wavelength, A (or amplitude), k, nu,
-        closing_ratio and, where the rim is met, a_max. What has no effect may be left out, as in a study.
-    free
-        The ends of the range of each name that is fitted: positive, but for k, nu and ratios.
-        The cycle turns where the data do, unless indentation_max (m) or preload (N) is given too.
-    noise
-        Standard deviations of depth (m) and load (N) of a point, both > 0.
-    noise_is_given
-        Whether these are known, not estimated from the points: intervals are not widened then.
-    counts
-        The number of points averaged in each, 1 if not given: its noise is that of one point over the root of it.
-    offsets
-        The zeros that are fitted too, and their ranges; those of depth and load if not given.
-    profile
-        The shape of the punch, a paraboloid with one cosine wave if not given.
-    loading
-        What is prescribed. With control "machine" the depths are those of the far end of a machine, depth +
-        load/spring_constant; then spring_constant in N/m is fixed or free.
-    toughness
-        A pattern of the toughness; toughness_wavelength and toughness_amplitude are fixed or free.
-    rate
-        How the work of adhesion grows with the speed of the edge; speed or reference_speed, or both as
-        speed_over_reference, are fixed or free, and its exponent may be free under that name. Every derivative is a
-        difference of paths then: fits take minutes.
-    intervals
-        "linear", those of the linear problem at the minimum, or "profile", by profile likelihoods.
-    starts
-        How many starts are refined.
-    seed
-        Seed of the Sobol set of starts.
+    Depths are in m and loads in N (positive presses), points in any order, of one or several equal cycles, of both
+    branches or of one; `unloading` says which branch each belongs to.
 
-    Returns
-    -------
-    The fit. It is unreliable where `converged` is false, `on_bound` has names, or `status` has `POOR_FIT` or
-    `ANOTHER_MINIMUM`.
+    fixed       numbers by name, in SI units: R, E_star (or E), work_of_adhesion, c0, wavelength, A (or amplitude), k,
+                nu, closing_ratio and, where the rim is met, a_max; what has no effect may be left out, as in a study
+    free        the ends of the range of each name that is fitted: positive, but for k, nu and ratios; the cycle turns
+                where the data do, unless indentation_max (m) or preload (N) is given too
+    noise       standard deviations of depth and load of a point, both > 0; where they are estimated from the points,
+                not known (`noise_is_given`), intervals are widened
+    counts      the number of points averaged in each, 1 if not given: its noise is that of one point over its root
+    offsets     the zeros that are fitted too, and their ranges; those of depth and load if not given
+    profile     the shape of the punch, a paraboloid with one cosine wave if not given
+    loading     what is prescribed; with control "machine" the depths are those of its far end, depth +
+                load/spring_constant, and spring_constant in N/m is fixed or free
+    toughness   a pattern, whose toughness_wavelength and toughness_amplitude are fixed or free
+    rate        how the work of adhesion grows with the speed of the edge; speed or reference_speed, or both as
+                speed_over_reference, are fixed or free, and its exponent may be free under that name; every
+                derivative is a difference of paths then: fits take minutes
+    intervals   "linear", those of the linear problem at the minimum, or "profile", by profile likelihoods
+    starts      how many starts are refined; `seed` is that of their Sobol set
 
-    Raises
-    ------
-    CannotTellApartError
-        Some of the free parameters have the same effect.
-    ValueError
-        Loading has no base line, where the contact point is to come from it; no combination has a path; or a number
-        has no effect.
+    A fit is unreliable where `converged` is false, `on_bound` has names, or `status` has `POOR_FIT` or
+    `ANOTHER_MINIMUM`. There is a CannotTellApartError where some of the free parameters have the same effect, and a
+    ValueError where loading has no base line that the contact point is to come from, no combination has a path, or a
+    number has no effect.
 
     Examples
     --------

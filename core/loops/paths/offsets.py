@@ -14,15 +14,11 @@ class Offsets:
 
     measured depth = depth + indentation_offset, measured load = load + load_offset + load_slope * measured depth.
 
-    Parameters
-    ----------
-    indentation
-        "free" within the span of the depths, searched from low to high (m), at the "contact" point that is found
-        beforehand, or False: the zero of depth is right.
-    load
-        "free" within the spread of the base line and the pull-off force, searched from low to high (N), or False.
-    slope
-        Whether the base line is tilted.
+    indentation   "free" within the span of the depths, searched from low to high (m), at the "contact" point that is
+                  found beforehand, or False: the zero of depth is right
+    load          "free" within the spread of the base line and the pull-off force, searched from low to high (N), or
+                  False
+    slope         whether the base line is tilted
 
     Examples
     --------
