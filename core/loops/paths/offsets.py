@@ -37,7 +37,3 @@ class Offsets:
         """What is fitted, in the order of a fit."""
         fitted = (self.indentation not in ("contact", False), self.load is not False, self.slope)
         return tuple(name for name, own in zip(NAMES, fitted, strict=True) if own)
-
-
-NO_OFFSETS: Final = Offsets(indentation=False, load=False)
-"""Both zeros are right."""

@@ -9,7 +9,7 @@ import pytest
 from gradhesion.core import draw_curves
 from gradhesion.core.loops.fit import fit_loop
 from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop, poor_from
-from gradhesion.core.loops.paths.offsets import NO_OFFSETS, Offsets
+from gradhesion.core.loops.paths.offsets import Offsets
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
 from gradhesion.core.problem.toughness import Rate
 from tests.core.loops.models import CASES, SCENE, TURN, UNIT, Array, R
@@ -20,6 +20,7 @@ SMOOTH = {"k": 0.0, "nu": NU, "A": 0.0, "R": R}
 PULL = 1.5 * math.pi * R * WORK
 TRUE = {"E_star": E_STAR, "work_of_adhesion": WORK}
 RATE = Rate(exponent=0.6)
+NO_OFFSETS = Offsets(indentation=False, load=False)
 
 
 def ball(
