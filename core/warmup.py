@@ -9,20 +9,12 @@ import numpy as np
 
 from gradhesion.core.draw.draw import draw_curves
 from gradhesion.core.problem.control import Loading
-from gradhesion.core.problem.names import CURVES, OUTPUTS, REPORTS, SENSITIVITIES
+from gradhesion.core.problem.names import CURVES, OUTPUTS, PARAMETERS, REPORTS, SENSITIVITIES
 from gradhesion.core.problem.profile import Harmonic, Profile
 from gradhesion.core.problem.toughness import Rate, Toughness, ToughnessHarmonic
 from gradhesion.core.sweep import solve
 
-SCENE: Final[dict[str, float]] = {
-    "k": 0.3,
-    "nu": 0.3,
-    "modulus": 500.0,
-    "c0_over_R": 0.01,
-    "lambda_over_R": 0.1,
-    "A": 0.03,
-    "a_max_over_R": 0.5,
-}
+SCENE: Final = dict(zip(PARAMETERS, (0.3, 0.3, 500.0, 0.01, 0.1, 0.03, 0.5), strict=True))
 """A punch whose curve folds, so that there are jumps both ways."""
 MANY_WAVES: Final = SCENE | {"lambda_over_R": 1e-3, "a_max_over_R": 1.0}
 MACHINE: Final = SCENE | {"machine_stiffness": 3.0}
@@ -54,26 +46,18 @@ def _fit() -> None:
     from gradhesion.core.loops.fit import fit_loop  # noqa: PLC0415 (SciPy)
 
     path, _ = draw_curves(SCENE | DEEP, ("path",))
-    some = slice(None, None, 8)
-    radius, work = 1e-6, 0.05  # m, N/m
-    modulus = SCENE["modulus"] * work / radius
-    fit_loop(
-        radius * path["path_indentation"][some],
-        1.5 * math.pi * radius * work * path["path_load"][some],
-        path["path_unloading"][some],
-        {
-            "k": SCENE["k"],
-            "nu": SCENE["nu"],
-            "R": radius,
-            "E_star": modulus,
-            "work_of_adhesion": work,
-            "c0": radius * SCENE["c0_over_R"],
-            "wavelength": radius * SCENE["lambda_over_R"],
-        },
-        {"A": (0.02, 0.04)},
-        noise=(1e-4 * radius, 1e-3 * radius * work),
-        starts=1,
-    )
+    depth, load, back = (path[f"path_{name}"][::8] for name in ("indentation", "load", "unloading"))
+    R, work = 1e-6, 0.05  # m, N/m
+    fixed = {
+        "k": SCENE["k"],
+        "nu": SCENE["nu"],
+        "R": R,
+        "E_star": SCENE["modulus"] * work / R,
+        "work_of_adhesion": work,
+    }
+    fixed |= {"c0": R * SCENE["c0_over_R"], "wavelength": R * SCENE["lambda_over_R"]}
+    noise = (1e-4 * R, 1e-3 * R * work)
+    fit_loop(R * depth, 1.5 * math.pi * R * work * load, back, fixed, {"A": (0.02, 0.04)}, noise=noise, starts=1)
 
 
 def _of_maps(scene: dict[str, Any], outputs: tuple[str, ...], **settings: Any) -> Callable[[], object]:

@@ -82,21 +82,11 @@ def sweep(values: Callable[[Floats, Integers], Floats], inputs: int, cells: int,
 
 
 def optima_of(merit: Merit, merits: Floats) -> Optima:
-    """Return the optimum of each cell from a computed sweep.
+    """Return the optimum of each cell from `merits`, those of `sweep` at a resolution of 3 or more.
 
-    Parameters
-    ----------
-    merit
-        The merit to be maximised.
-    merits
-        Those of `sweep` at a resolution of 3 or more. It has twice as many points, which show basins between those of
-        the resolution.
-
-    Returns
-    -------
-    Places to 1e-12 of their ranges where the peak is a kink of one input, or where exact slopes are known; else to some
-    1e-8, where the merit is within rounding of its peak. Peaks narrower than half a spacing may be missed: a finer
-    resolution is the remedy.
+    It has twice as many points, which show basins between those of the resolution. Places are right to 1e-12 of their
+    ranges where the peak is a kink of one input, or where exact slopes are known; else to some 1e-8, where the merit is
+    within rounding of its peak. Peaks narrower than half a spacing may be missed: a finer resolution is the remedy.
     """
     inputs, cells = merits.ndim - 1, merits.shape[-1]
     heights, spacing = _finite(merits), 1.0 / (merits.shape[0] - 1)
@@ -122,10 +112,7 @@ def optima_of(merit: Merit, merits: Floats) -> Optima:
 def front(values: ArrayLike) -> Integers:
     """Return the numbers, shape (n,), of the points that no other one excels in both values, by falling first value.
 
-    Parameters
-    ----------
-    values
-        Shape (2, points), each to be maximised; points with NaN are left out.
+    `values`, (2, points), are to be maximised; points with NaN are left out.
 
     Examples
     --------

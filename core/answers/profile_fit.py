@@ -7,8 +7,6 @@ the factor of the power and the coefficients are those of linear least squares (
 1973). Where the period may lie follows from the spectrum of the residual of a power: the sum of its density over the
 harmonics of a period. Every multiple of a period contains the same series, so that the shortest of those that fit
 equally well is chosen.
-
-A weight that falls to 0 over the last tenth keeps the edge, where the profile is cut, from ringing through the series.
 """
 
 import math
@@ -16,6 +14,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
+from numpy.linalg import lstsq, norm, pinv, qr
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import least_squares, minimize_scalar
 from threadpoolctl import threadpool_limits
@@ -23,8 +22,8 @@ from threadpoolctl import threadpool_limits
 from gradhesion.core.problem.profile import MOST_HARMONICS, Harmonic, Profile
 from gradhesion.core.types import Floats, Truths
 
-_FEWEST: Final = 8  # points that are fitted, at least
-_TAPER: Final = 0.1  # the part of the radius over which the weight falls at the edge
+_FEWEST: Final = 8  # points that show where the axis is, at least
+_TAPER: Final = 0.1  # part of the radius over which weights fall to 0: a sharp edge would ring through the series
 _EXPONENTS: Final = (1.05, 10.0)  # range in which the exponent is searched: at 1 the radius has no effect
 _SEARCHED: Final = 3000  # most points used in the search; its result is refined on all
 _PADDING: Final = 8  # samples of the spectrum for one wave over the radius
@@ -32,45 +31,30 @@ _CANDIDATES: Final = 40  # peaks of the sum over harmonics that are tried
 _REFINED: Final = 10  # of these those that are refined
 _AS_GOOD: Final = 4.0  # standard deviations of a sum of squares within which two periods fit as well
 _ROUNDING: Final = 64.0 * 2.0**-52  # residual, in parts of the range of heights, below which it is rounding
-_WRONG_WAY: Final = (
-    "the height does not grow with the distance from the centre; it is to grow away from the half-space, "
-    "so reverse its sign, or name another part of the profile with up_to"
-)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class FittedProfile:
-    """A profile with how well it fits; lengths are in the unit of the measurement.
-
-    Attributes
-    ----------
-    exponent, radius, wavelength
-        m, R and lambda.
-    cosines, sines
-        lambda A kappa_n and lambda A sigma_n for n = 1, 2, ...: amplitudes, as lengths.
-    centre, height
-        r0 and h0.
-    up_to
-        The distance from the centre up to which it is fitted.
-    errors
-        The standard deviations of all these by name, as the residual implies them; 0 for what was not fitted.
-    residual
-        Measured less fitted height of every point within `up_to` of the centre, in the order of `distance`.
-    distance
-        rho of these points, ascending.
-    """
+    """A profile with how well it fits; lengths are in the unit of the measurement."""
 
     exponent: float
     radius: float
     wavelength: float
+    """m, R and lambda."""
     cosines: Floats
     sines: Floats
+    """lambda A kappa_n and lambda A sigma_n for n = 1, 2, ...: amplitudes, as lengths."""
     centre: float
     height: float
+    """r0 and h0."""
     up_to: float
+    """The distance from the centre up to which it is fitted."""
     errors: dict[str, Any]
+    """The standard deviations of all these by name, as the residual implies them; 0 for what was not fitted."""
     distance: Floats
+    """rho of every point within `up_to` of the centre, ascending."""
     residual: Floats
+    """Measured less fitted height of these points."""
 
     @property
     def amplitude(self) -> float:
@@ -91,11 +75,8 @@ class FittedProfile:
     def profile(self) -> Profile:
         """The shape, its harmonics in units of the amplitude."""
         unit = self.amplitude or 1.0
-        waves = (
-            Harmonic(n=n, cos=float(c / unit), sin=float(s / unit))
-            for n, (c, s) in enumerate(zip(self.cosines, self.sines, strict=True), start=1)
-        )
-        return Profile(exponent=self.exponent, harmonics=tuple(waves))
+        pairs = enumerate(zip((self.cosines / unit).tolist(), (self.sines / unit).tolist(), strict=True), start=1)
+        return Profile(exponent=self.exponent, harmonics=tuple(Harmonic(n=n, cos=c, sin=s) for n, (c, s) in pairs))
 
     def heights(self, distance: ArrayLike) -> Floats:
         """Return the fitted height above that of the centre at distances from it."""
@@ -110,32 +91,17 @@ def fit_profile(
 ) -> FittedProfile:
     """Fit a power and a Fourier series to measured heights of a punch.
 
-    Parameters
-    ----------
-    r
-        Finite places along a line through the axis, in any unit and order. Where some are negative, or both ends are
-        well above the lowest height, it is a line over both flanks, whose centre is fitted; otherwise the axis is at 0,
-        and the first place within half of the last one of it.
-    height
-        Height of the punch above them, in the same unit: it grows away from the half-space.
-    up_to
-        The distance from the centre up to which it is fitted; all of it if not given.
-    terms
-        Harmonics of the series, 1 to 64. Those shorter than two spacings of the points are left out (0).
-    exponent
-        m > 1, or None to fit it between 1.05 and 10.
+    r           finite places along a line through the axis, in any unit and order; where some are negative, or both
+                ends are well above the lowest height, it is a line over both flanks, whose centre is fitted; otherwise
+                the axis is at 0, and the first place within half of the last one of it
+    height      of the punch above them, in the same unit: it grows away from the half-space
+    up_to       the distance from the centre up to which it is fitted; all of it if not given
+    terms       harmonics of the series, 1 to 64; those shorter than two spacings of the points are left out (0)
+    exponent    m > 1, or None to fit it between 1.05 and 10
 
-    Returns
-    -------
-    The profile. Its period is the shortest, of two spacings to `up_to`, that fits as well as the best. With noise of a
-    standard deviation s the residual is s, and coefficients are within their errors; without, they are good to rounding
-    times the condition of the fit.
-
-    Raises
-    ------
-    ValueError
-        For too few points, none near the axis, or heights that do not grow with the distance; the message says what to
-        do.
+    The period is the shortest, of two spacings to `up_to`, that fits as well as the best. Coefficients are within their
+    errors; without noise, they are good to rounding times the condition of the fit. Too few points, none near the axis,
+    or heights that do not grow with the distance are a ValueError.
 
     Examples
     --------
@@ -158,25 +124,18 @@ def fit_profile(
     inside = np.abs(places - centre) <= reach * (1.0 + 0.05 * both)  # the centre moves by less
     places, heights = places[inside], heights[inside]
     needed = 2 * (2 + 2 * terms + 1 + (exponent is None) + both)
-    if places.size < max(_FEWEST, needed):
+    if places.size < needed:
         raise ValueError(
             f"{places.size:,} points within {reach:g} of the centre are too few for {terms} terms, which take "
             f"{needed}; use fewer terms or a larger up_to"
         )
     if not both and places[0] > 0.5 * reach:
-        raise ValueError(
-            f"no heights within {places[0]:g} of the axis, which is at r = 0; shift r, so that it is the distance from "
-            "the axis"
-        )
+        raise ValueError(f"no heights within {places[0]:g} of the axis, at r = 0; shift r to be the distance from it")
     lowest, unit = float(heights.min()), float(np.ptp(heights)) or 1.0
-    points = _Points(
-        x=places / reach,
-        y=(heights - lowest) / unit,
-        terms=terms,
-        # flanks are no finer together than one of them
-        spacing=(1.0 + both) / max(1, np.unique(np.abs(places / reach - centre / reach)).size - 1),
-        free=np.array([True, exponent is None, both]),
-    )
+    # flanks are no finer together than one of them
+    spacing = (1.0 + both) / max(1, np.unique(np.abs(places / reach - centre / reach)).size - 1)
+    free = np.array([True, exponent is None, both])
+    points = _Points(x=places / reach, y=(heights - lowest) / unit, terms=terms, spacing=spacing, free=free)
     with threadpool_limits(1):  # matrices of a few columns: threads only wait for each other
         return _described(points, points.best(exponent, centre / reach), reach, lowest, unit)
 
@@ -222,7 +181,7 @@ class _Points:
     def projected(self, numbers: Floats) -> Floats:
         """Return the weighted residual of the best linear part."""
         columns, roots = self.design(numbers)
-        q, _ = np.linalg.qr(columns * roots[:, None])
+        q, _ = qr(columns * roots[:, None])
         weighted = self.y * roots
         return np.asarray(weighted - q @ (q.T @ weighted))
 
@@ -231,14 +190,11 @@ class _Points:
         step = -(-self.x.size // _SEARCHED)
         few = replace(self, x=self.x[::step], y=self.y[::step])
         rho = np.abs(few.x - centre)
-        m = exponent or float(
-            minimize_scalar(
-                lambda m: float(np.sum(_left_of_power(m, rho, few.y) ** 2)), bounds=_EXPONENTS, method="bounded"
-            ).x
-        )
+        m = exponent or float(minimize_scalar(lambda m: norm(_left_of_power(m, rho, few.y)), bounds=_EXPONENTS).x)
         starts = [np.array([waves, m, centre]) for waves in few.periods(rho, _left_of_power(m, rho, few.y))]
-        sizes = [float(np.sum(few.projected(start) ** 2)) for start in starts]
-        found = [few.refined(starts[i]) for i in np.argsort(sizes)[:_REFINED]]
+        found = [
+            few.refined(start) for start in sorted(starts, key=lambda start: norm(few.projected(start)))[:_REFINED]
+        ]
         floor = _ROUNDING**2 * self.x.size
         as_good = min(size for size, _ in found) * (1.0 + _AS_GOOD * math.sqrt(2.0 / few.x.size)) + floor
         shortest = max(numbers[0] for size, numbers in found if size <= as_good)
@@ -247,9 +203,8 @@ class _Points:
 
     def periods(self, rho: Floats, left: Floats) -> Floats:
         """Return waves over the radius at which the harmonics of the residual of a power, (n,), are largest."""
-        order = np.argsort(rho)
         count = 1 << max(6, math.ceil(math.log2(1.0 / self.spacing)))
-        even = np.interp(np.arange(count) / count, rho[order], left[order])
+        even = np.interp(np.arange(count) / count, np.sort(rho), left[np.argsort(rho)])
         density = np.abs(np.fft.rfft(even * np.hanning(count), count * _PADDING)) ** 2
         most = 0.25 / self.spacing  # four points a wave
         waves = np.arange(1.0, most, 1.0 / (_PADDING * self.terms))
@@ -271,15 +226,13 @@ class _Points:
             numbers[self.free] = searched
             return self.projected(numbers)
 
+        margin = 1e-9 * (high - low)
+        begun, scale = (
+            np.clip(start[self.free], low + margin, high - margin),
+            np.array([0.1 / self.terms, 0.1, 0.01])[self.free],
+        )
         done = least_squares(
-            residual,
-            np.clip(start[self.free], low + 1e-9 * (high - low), high - 1e-9 * (high - low)),
-            bounds=(low, high),
-            x_scale=np.array([0.1 / self.terms, 0.1, 0.01])[self.free],
-            xtol=1e-12,
-            ftol=1e-12,
-            gtol=1e-15,
-            max_nfev=40,
+            residual, begun, bounds=(low, high), x_scale=scale, xtol=1e-12, ftol=1e-12, gtol=1e-15, max_nfev=40
         )
         numbers[self.free] = done.x
         return 2.0 * float(done.cost), numbers
@@ -287,20 +240,22 @@ class _Points:
 
 def _left_of_power(m: float, rho: Floats, y: Floats) -> Floats:
     """Return the residual of a power alone at points (n,)."""
-    columns = np.column_stack([np.ones_like(rho), rho**m])
-    return np.asarray(y - columns @ np.linalg.lstsq(columns, y, rcond=None)[0])
+    power = rho**m
+    return np.asarray(y - np.polyval(np.polyfit(power, y, 1), power))
 
 
 def _described(points: _Points, numbers: Floats, reach: float, lowest: float, unit: float) -> FittedProfile:
     """Describe a fit in the units of the measurement, with the errors that its residual implies."""
     columns, roots = points.design(numbers)
-    linear = np.linalg.lstsq(columns * roots[:, None], points.y * roots, rcond=None)[0]
+    linear = lstsq(columns * roots[:, None], points.y * roots, rcond=None)[0]
     if not linear[1] > 0.0:
-        raise ValueError(_WRONG_WAY)
+        raise ValueError(
+            "the height does not grow with the distance from the centre; it is to grow away from the half-space, so "
+            "reverse its sign, or name another part of the profile with up_to"
+        )
     waves, m, centre = numbers.tolist()
     rho, left = np.abs(points.x - centre), (points.y - columns @ linear) * unit
-    order = np.argsort(rho)
-    inside = order[rho[order] <= 1.0]
+    inside = np.argsort(rho)[: np.count_nonzero(rho <= 1.0)]
 
     def named(height: float, amplitudes: NDArray[Any]) -> dict[str, Any]:
         """Return the linear part by name, in the unit of heights; harmonics that are left out are 0."""
@@ -325,8 +280,7 @@ def _described(points: _Points, numbers: Floats, reach: float, lowest: float, un
     names = [name for name, free in zip(("wavelength", "exponent", "centre"), points.free, strict=True) if free]
     jacobian = np.column_stack([columns[:, :1], columns[:, 2:], *map(slope_to, ("radius", *names))]) * roots[:, None]
     degrees = max(1.0, float(np.sum(roots**2)) - jacobian.shape[1])
-    scales = np.linalg.norm(jacobian, axis=0)
-    spread = math.sqrt(float(np.sum((left * roots) ** 2)) / degrees) / unit / scales
-    spread *= np.linalg.norm(np.linalg.pinv(jacobian / scales) * roots, axis=1)
+    scales = norm(jacobian, axis=0)
+    spread = norm(left * roots) / math.sqrt(degrees) / unit / scales * norm(pinv(jacobian / scales) * roots, axis=1)
     errors = dict.fromkeys(found, 0.0) | named(spread[0], spread[1 : linear.size - 1])
     return replace(fit, errors=errors | dict(zip(("radius", *names), spread[linear.size - 1 :].tolist(), strict=True)))

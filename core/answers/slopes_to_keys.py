@@ -36,23 +36,11 @@ def relative_slopes(
 ) -> dict[str, Floats]:
     """Return d ln(value)/d ln(key) for keys out of `given`; for k and nu d ln(value)/d(key).
 
-    Parameters
-    ----------
-    given
-        The keys of the scenes, as arguments of `parameters_from` that broadcast to the scenes.
-    keys
-        Those of them whose slopes are wanted.
-    parameters
-        The parameters, in the order of the last axis of `sensitivity`.
-    sensitivity
-        d ln(value)/d ln(parameter), for k and nu d ln(value)/d(parameter), of shape (*scenes, parameters).
-    powers
-        Of the keys in the unit of the value: one of `POWERS` for a value in SI units, else none.
-
-    Returns
-    -------
-    An array of shape `scenes` for each key; NaN where a sensitivity that counts is missing, as all are of a value that
-    is not positive.
+    `given` are the keys of the scenes, as arguments of `parameters_from` that broadcast to the scenes, `keys` those of
+    them whose slopes are wanted. `sensitivity` is d ln(value)/d ln(parameter), of k and nu d ln(value)/d(parameter), of
+    shape (*scenes, parameters). `powers` are those of the keys in the unit of the value: one of `POWERS` for a value in
+    SI units, else none. Slopes are of shape `scenes`, NaN where a sensitivity that counts is missing, as all are of a
+    value that is not positive.
 
     Examples
     --------

@@ -13,7 +13,6 @@ Johnson (1995) and Johnson & Greenwood (1997), carried over to a graded half-spa
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,9 +23,7 @@ from gradhesion.core.problem.names import PARAMETERS, RANGE, VALIDITY
 from gradhesion.core.problem.profile import Profile, rows_of, swings
 
 _Array = NDArray[np.float64]
-_SLOPE: Final = -1.0
-_CURVATURE: Final = -3.0
-"""The exponents k at which zeta of `swings` is f2'/(2 pi A) and f2''/(4 pi^2 A)."""
+_SLOPE, _CURVATURE = -1.0, -3.0  # exponents k at which zeta of `swings` is f2'/(2 pi A) and f2''/(4 pi^2 A)
 
 
 def validity(

@@ -34,16 +34,11 @@ def _of_chi(chi: Any, k: Any, nu: Any, modulus: Any, c0_over_R: Any, lambda_over
     return amplitude_of_ratio(k, nu, modulus, c0_over_R, lambda_over_R, chi)
 
 
-def _over_length(ratio: Any, *material: Any) -> Any:
-    """Return what is given over the similarity length L, over R."""
-    return ratio * similarity_length(*material)
-
-
 _FORMULAS: Final[dict[str, Callable[..., Any]]] = {
     **{name: one.follows for name, one in INPUTS.items() if one.follows},
-    "lambda_over_L": _over_length,
+    "lambda_over_L": lambda ratio, *material: ratio * similarity_length(*material),
     "chi": _of_chi,
-    "a_max_over_L": _over_length,
+    "a_max_over_L": lambda ratio, *material: ratio * similarity_length(*material),
     "a_max_over_a2": lambda ratio, *scene: ratio * jump_in_radius_of_envelope(*scene),
 }
 WAYS: Final = _ways()
@@ -55,25 +50,13 @@ _OPTIONAL: Final = tuple(name for name, one in INPUTS.items() if one.is_paramete
 
 
 def parameters_from(given: Mapping[str, ArrayLike]) -> dict[str, _Array]:
-    """Return the parameters of `solve`, those that are not given made from what is.
+    """Return the parameters of `solve`, those that are not given made from what is; ValueError if nothing gives one.
 
-    Parameters
-    ----------
-    given
-        Arrays by name, all broadcastable: for each parameter of `solve` itself, or one of those above in its place.
-        Others stay as they are; machine_stiffness, indentation_max_over_R, load_max, closing_ratio and
-        adhesion_range_over_R are made if spring_constant, indentation_max, preload, work_of_adhesion_closing or
-        adhesion_range is given; R, E_star and the like are left out.
-
-    Returns
-    -------
-    An array for each parameter, over the axes that it depends on. What is out of range or does not exist (a_2 for
-    r >= s) is NaN. Accurate to a few units in the last place, but for a_2 (see there).
-
-    Raises
-    ------
-    ValueError
-        For a parameter that nothing given determines.
+    `given` are arrays by name, all broadcastable: for each parameter itself, or one of those above in its place. Others
+    stay as they are; machine_stiffness, indentation_max_over_R, load_max, closing_ratio and adhesion_range_over_R are
+    made if spring_constant, indentation_max, preload, work_of_adhesion_closing or adhesion_range is given; R, E_star
+    and the like are left out. Each result is over the axes that it depends on. What is out of range or does not exist
+    (a_2 for r >= s) is NaN. Accurate to a few units in the last place, but for a_2 (see there).
 
     Examples
     --------
@@ -99,23 +82,10 @@ def parameters_from(given: Mapping[str, ArrayLike]) -> dict[str, _Array]:
 
 
 def sources_of(parameter: str, given: Mapping[str, Any]) -> tuple[str, ...]:
-    """Return the names of what is given that a parameter of `solve` follows from.
+    """Return the names out of what is given that a parameter of `solve` follows from: itself if it is one of them.
 
-    Parameters
-    ----------
-    parameter
-        One of `PARAMETERS` or `TURNS`, machine_stiffness, closing_ratio or adhesion_range_over_R.
-    given
-        As in `parameters_from`; only its names count.
-
-    Returns
-    -------
-    Names out of `given`; the parameter alone if it is given itself.
-
-    Raises
-    ------
-    ValueError
-        For a parameter that nothing given determines.
+    `parameter` is one of `PARAMETERS` or `TURNS`, machine_stiffness, closing_ratio or adhesion_range_over_R, `given` as
+    to `parameters_from`, only its names; a ValueError if nothing determines it.
 
     Examples
     --------
@@ -144,18 +114,9 @@ def _way(parameter: str, given: Mapping[str, Any]) -> tuple[str, tuple[str, ...]
 
 
 def scales_in_si(R: ArrayLike, work_of_adhesion: ArrayLike) -> dict[str, _Array]:
-    """Return the units of results in SI: of a force 1.5 pi R dgamma, an energy R^2 dgamma, a length R, an area R^2.
+    """Return the units of results in SI, by the unit: of a force 1.5 pi R dgamma, an energy R^2 dgamma, R and R^2.
 
-    Parameters
-    ----------
-    R
-        Radius of the punch at its tip in m, > 0.
-    work_of_adhesion
-        dgamma in J/m^2, > 0.
-
-    Returns
-    -------
-    Arrays by the unit "N", "J", "m" and "m^2".
+    R is the radius of the punch at its tip in m, the work of adhesion dgamma in J/m^2, both > 0.
 
     Examples
     --------

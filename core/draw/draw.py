@@ -35,8 +35,7 @@ if TYPE_CHECKING:
 _TYPES: Final = {name: np.dtype(VARIABLES[name].dtype) for names in CURVES.values() for name in names}
 INTEGERS: Final = frozenset(name for name, dtype in _TYPES.items() if dtype.kind == "i")
 """The variables that are integers; the others are float64."""
-_OF_A_CYCLE: Final = ("path", "jumps", "effective")
-"""The curves that turn where the cycle does."""
+_OF_A_CYCLE: Final = ("path", "jumps", "effective")  # the curves that turn where the cycle does
 _Curves = dict[str, NDArray[Any]]
 
 
@@ -47,25 +46,24 @@ def _blank(curve: str, value: float) -> _Curves:
     return {name: np.full(size, one, _TYPES[name]) for name, one in blank.items()}
 
 
-def _draw(drawn: Drawn, curve: str, *, grows: bool) -> _Curves | None:
-    """Return the variables of a curve by name, as those of `draw_curves`; None where it has no value.
+_DRAWERS: Final[dict[str, Callable[[Drawn], tuple[NDArray[Any], ...] | None]]] = {
+    "equilibrium": draw_equilibrium,
+    "closing_equilibrium": partial(draw_equilibrium, closing=True),
+    "path": draw_path,
+    "jumps": draw_jumps,
+    "asymptotic": draw_asymptotic,
+    "envelope": draw_envelope,
+    "effective": draw_effective,
+    "smooth": draw_smooth,
+}
 
-    `grows`: contact grows from a point, so that its first jump is none.
-    """
-    drawers: dict[str, Callable[[], tuple[NDArray[Any], ...] | None]] = {
-        "equilibrium": partial(draw_equilibrium, drawn),
-        "closing_equilibrium": partial(draw_equilibrium, drawn, closing=True),
-        "path": partial(draw_path, drawn, grows=grows),
-        "jumps": partial(draw_jumps, drawn, grows=grows),
-        "asymptotic": partial(draw_asymptotic, drawn),
-        "envelope": partial(draw_envelope, drawn),
-        "effective": partial(draw_effective, drawn),
-        "smooth": partial(draw_smooth, drawn),
-    }
+
+def _draw(drawn: Drawn, curve: str) -> _Curves | None:
+    """Return the variables of a curve by name, as those of `draw_curves`; None where it has no value."""
     of_sides = curve in ("equilibrium", "closing_equilibrium", "path", "jumps")
     if (curve in _OF_A_CYCLE and math.isnan(drawn.turn)) or (of_sides and not drawn.sides):
         return None
-    found = drawers[curve]()
+    found = _DRAWERS[curve](drawn)
     if found is None or not all(np.isfinite(values).all() for values in found):
         return None
     return {name: values.astype(_TYPES[name]) for name, values in zip(CURVES[curve], found, strict=True)}
@@ -84,10 +82,8 @@ def _check(
     if (PATTERN[0] in scene) != (toughness is not None):
         raise ValueError(f"{PATTERN[0]} belongs to a pattern of toughness, which needs it")
     known = tuple(CURVES) if loading == BY_DISPLACEMENT else GENERAL_CURVES
-    if toughness is not None:
-        known = PATTERN_CURVES
-    absent = [name for name in curves if name not in known]
-    if absent:
+    known = known if toughness is None else PATTERN_CURVES
+    if absent := [name for name in curves if name not in known]:
         one = "asymptotic" if "asymptotic" in absent else "envelope"
         why = f"at a prescribed depth only: {WITHOUT_LOAD[one]}" if toughness is None else "of plain interfaces only"
         raise ValueError(f"curves {absent} are known {why}; there are {', '.join(known)}")
@@ -187,8 +183,8 @@ def draw_curves(
             radius = float(solved["turning_radius"])
             if frame is not None and frame.rim == math.inf:
                 pulled = float(solve(plain, ["pull_off_radius"], threads=1, **shape)["pull_off_radius"])
-    drawn = None if frame is None else draw_scene(frame, radius, pulled)
     grows = scene.get(CLOSING, 1.0) == 0.0 and not starts_downwards(scene, profile)
+    drawn = None if frame is None else draw_scene(frame, radius, pulled)._replace(grows=grows)
     result: _Curves = {}
     failed = drawn_cycle = False
     for curve in curves:
@@ -199,7 +195,7 @@ def draw_curves(
                 variables["path_indentation"][:] = scene["indentation_max_over_R"]
         elif drawn is not None:
             with np.errstate(all="ignore"):
-                variables = _draw(drawn, curve, grows=grows)
+                variables = _draw(drawn, curve)
         failed |= variables is None
         drawn_cycle |= variables is not None and curve in ("path", "jumps")
         result |= _blank(curve, math.nan) if variables is None else variables

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.curve.trace import END, START
-from gradhesion.core.curve.values import Curve
 from gradhesion.core.cycle.jumps import (
     JUMP_ROWS,
     LANDED,
@@ -24,16 +23,14 @@ from gradhesion.core.cycle.jumps import (
     list_unloading_jumps,
 )
 from gradhesion.core.draw.sampling import sample, spans_of
-from gradhesion.core.draw.scene import Drawn, Frame, Side
-from gradhesion.core.jit import kernel
+from gradhesion.core.draw.scene import Drawn, Frame, Side, ends_of
 from gradhesion.core.scenes import rows as at
-from gradhesion.core.types import Floats, Integers
+from gradhesion.core.types import Floats
 
 _Corner: TypeAlias = tuple[float, ...]
 Y, DEPTH, LOAD, JOINED, BRANCH, JUMP = range(6)
 """Rows of corners: point as of sampling.py, the branch from 1 on (0: no contact), and flags."""
-_ROUNDING: Final = 1e-12
-"""Relative distance of radii that are one."""
+_ROUNDING: Final = 1e-12  # relative distance of radii that are one
 
 
 def draw_equilibrium(drawn: Drawn, *, closing: bool = False) -> tuple[NDArray[Any], ...]:
@@ -43,8 +40,7 @@ def draw_equilibrium(drawn: Drawn, *, closing: bool = False) -> tuple[NDArray[An
     where one of them is: each branch has a point in its inside.
     """
     side, end = drawn.sides[0 if closing else 1], drawn.end
-    folds = side.folds(end)
-    edges = np.concatenate([[0.0], folds, [end]])
+    edges = np.concatenate([[0.0], ends_of(side.trace, side.branches, end), [end]])
     extrema = side.extrema[side.extrema < end]
     lonely = np.searchsorted(extrema, edges[1:]) == np.searchsorted(extrema, edges[:-1])
     middles = 0.5 * (edges[1:] + edges[:-1])[lonely]
@@ -56,28 +52,6 @@ def draw_equilibrium(drawn: Drawn, *, closing: bool = False) -> tuple[NDArray[An
     stable = (branch >= 0) & (y < np.append(ends, 0.0)[branch])
     stable |= (y == 0.0) & (starts[:1] == 0.0).any()
     return drawn.frame.radii(y, end), points[1], points[2], stable
-
-
-@kernel
-def list_jumps(
-    closing: Curve,
-    opening: Curve,
-    turn: float,
-    loading: Floats,
-    visited: Integers,
-    unloading: Floats,
-    count: int,
-    jumps: Floats,
-) -> tuple[int, int]:
-    """Store the jumps of a cycle with their losses in `jumps`; return the number of those of loading, and of all.
-
-    `loading` and `unloading` are the traces of the two curves, the latter of `count` branches.
-    """
-    first = list_loading_jumps(closing, turn, loading, visited, visited.size, jumps)
-    last = list_unloading_jumps(opening, turn, unloading, count, jumps, first)
-    frozen_loss(closing, jumps, 0, first)
-    frozen_loss(opening, jumps, first, last)
-    return first, last
 
 
 class Corners(NamedTuple):
@@ -130,12 +104,14 @@ def _put_jump(frame: Frame, side: Side, corners: list[_Corner], y: float, branch
     corners.append((y, depth, load, 0.0, branch, 1.0))
 
 
-def find_corners(drawn: Drawn, *, grows: bool) -> Corners:
-    """Return the corners of the path of a cycle; where the contact `grows` from a point its first jump is none."""
+def find_corners(drawn: Drawn) -> Corners:
+    """Return the corners of the path of a cycle."""
     frame, turn, (closing, opening) = drawn.frame, drawn.turn, drawn.sides
     jumps = np.empty((JUMP_ROWS, 2 * (closing.trace.shape[1] + opening.trace.shape[1])))
-    traces = closing.trace, closing.visited, opening.trace, opening.branches
-    loading, total = list_jumps(closing.curve, opening.curve, turn, *traces, jumps)
+    loading = list_loading_jumps(closing.curve, turn, closing.trace, closing.visited, closing.visited.size, jumps)
+    total = list_unloading_jumps(opening.curve, turn, opening.trace, opening.branches, jumps, loading)
+    frozen_loss(closing.curve, jumps, 0, loading)
+    frozen_loss(opening.curve, jumps, loading, total)
     ways = jumps[[LEFT, LANDED, LANDED_BRANCH], :total].T.tolist()
     up: list[_Corner] = [(0.0,) * 6]
     branch, pinned = 0.0, frame.root < 1.0
@@ -157,19 +133,19 @@ def find_corners(drawn: Drawn, *, grows: bool) -> Corners:
         _put_jump(frame, opening, down, landed, branch)
     if branch > 0.0:  # the contact shrinks to a point, or is none (radius 0) to rounding
         _put_along(opening, down, 0.0, branch)
-    if grows:
+    if drawn.grows:
         up[1] = (*up[1][:JUMP], 0.0)
     return Corners(np.array(up).T, np.array(down).T, pinned, jumps[:, :total], loading)
 
 
-def draw_path(drawn: Drawn, *, grows: bool) -> tuple[NDArray[Any], ...]:
+def draw_path(drawn: Drawn) -> tuple[NDArray[Any], ...]:
     """Return the path of a cycle: from depth zero without contact up to the turn, and back until contact ends.
 
     The line from the point before is a jump, or unloading, if a point is marked so. Unloading begins pinned where the
     equilibrium of opening at the turn is not as deep as loading comes there. The path of an unbounded punch turns at
     the end of the drawn range. The sum of P d(delta) over its lines is the energy of a cycle but for the chords.
     """
-    corners = find_corners(drawn, grows=grows)
+    corners = find_corners(drawn)
     scales = spans_of(np.concatenate([corners.up[:3], corners.down[:3]], axis=1))
     rows = []
     for unloading, (own, side) in enumerate(zip((corners.up, corners.down), drawn.sides, strict=True)):
@@ -180,19 +156,18 @@ def draw_path(drawn: Drawn, *, grows: bool) -> tuple[NDArray[Any], ...]:
     return drawn.frame.radii(y, drawn.turn), *others
 
 
-def draw_jumps(drawn: Drawn, *, grows: bool) -> tuple[NDArray[Any], ...]:
+def draw_jumps(drawn: Drawn) -> tuple[NDArray[Any], ...]:
     """Return every jump of a cycle, in the order of the path: from the jump-in to the jump-out.
 
     An energy may be negative: a jump on loading over a groove that adhesion does not close gains some, but the contact
     is no single disc then. The jump-out under load control has no bounded energy and is left out, as in
     `dissipated_energy`.
     """
-    frame = drawn.frame
-    corners = find_corners(drawn, grows=grows)
+    frame, corners = drawn.frame, find_corners(drawn)
     all_corners = np.concatenate([corners.up, corners.down[:, 0 if corners.pinned else 1 :]], axis=1)
     after = np.flatnonzero(all_corners[JUMP])
     jumps, unloading = corners.jumps, np.arange(corners.jumps.shape[1]) >= corners.loading
-    if grows:
+    if drawn.grows:
         jumps, unloading = jumps[:, 1:], unloading[1:]
     kept = (jumps[LANDED] > 0.0) | (frame.reduced[at.BY_DEPTH, 0] > 0.0)
     jumps, unloading, after = jumps[:, kept], unloading[kept], after[kept]

@@ -21,8 +21,7 @@ from gradhesion.core.types import Floats, Integers, Truths
 
 TOLERANCE: Final = 1.2e-4
 """Of the drawn span; elsewhere than at the three places an error may be half as large again, 2e-4 at most."""
-_HALVINGS: Final = 30
-"""A piece of 2^-30 of the distance of two corners is a point."""
+_HALVINGS: Final = 30  # a piece of 2^-30 of the distance of two corners is a point
 
 
 class Line(NamedTuple):
@@ -91,16 +90,9 @@ def _across(step: Floats, chord: Floats) -> Truths:
 def sample(line: Line, corners: Floats, joined: Truths, scales: Floats) -> tuple[Floats, Integers]:
     """Return points of a line through corners, and the corner that each leads up to.
 
-    Parameters
-    ----------
-    line
-        The curve.
-    corners
-        Points in the order of the path, which may go in- or outwards, (3, n).
-    joined
-        Whether the path comes to a corner along the curve (else by a straight line), (n,).
-    scales
-        Those of `spans_of`, of all that is drawn.
+    `corners` are points in the order of the path, which may go in- or outwards, (3, n); `joined` says whether the path
+    comes to each along the curve (else by a straight line), (n,); `scales` are those of `spans_of`, of all that is
+    drawn.
     """
     ends = np.flatnonzero(joined)
     first, last = corners[:, ends - 1], corners[:, ends]  # of each piece

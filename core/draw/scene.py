@@ -31,12 +31,10 @@ from gradhesion.core.types import Floats, Integers
 
 BEYOND: Final = 1.05
 """How far an unbounded punch is drawn beyond its last fold or jump."""
-_BEYOND_SMOOTH: Final = 1.5
-"""How far it is drawn at least, in radii where the smooth curve is at zero depth."""
+_BEYOND_SMOOTH: Final = 1.5  # how far it is drawn at least, in radii where the smooth curve is at zero depth
 _LEAST: Final = 1e-5
 """Radii y that are resolved: a wave may be some hundred thousand times as long as the contact is wide."""
-_SAME: Final = 1e-8
-"""Relative distance below which the turn of a cycle and the landing of a jump are one."""
+_SAME: Final = 1e-8  # relative distance below which the turn of a cycle and the landing of a jump are one
 
 
 class Frame(NamedTuple):
@@ -106,11 +104,6 @@ class Side(NamedTuple):
     extrema: Floats
     visited: Integers
 
-    def folds(self, end: float) -> Floats:
-        """Return the folds in order: radii y of starts and ends of branches, between 0 and `end` (excluded)."""
-        ends = np.sort(self.trace[[START, END], : self.branches].ravel())
-        return ends[(ends > 0.0) & (ends < end)]
-
 
 class Drawn(NamedTuple):
     """A scene ready for drawing.
@@ -120,6 +113,7 @@ class Drawn(NamedTuple):
     turn              where its cycle turns; 0: before it makes contact; NaN: not known
     turned            whether it turns at a given depth or load, not at the rim
     sides             its curves of closing and opening; none if they fold too often to be drawn
+    grows             whether contact grows from a point, so that its first jump is none
     """
 
     frame: Frame
@@ -127,6 +121,7 @@ class Drawn(NamedTuple):
     turn: float
     turned: bool
     sides: tuple[Side, ...]
+    grows: bool = False
 
 
 def frame_of(request: Request) -> Frame | None:
@@ -148,14 +143,17 @@ def trace_curve(curve: Curve, y_end: float, trace: Floats) -> int:
     return count
 
 
+def ends_of(trace: Floats, branches: int, end: float) -> Floats:
+    """Return where branches of a trace start or end, in order, between 0 and `end` (excluded)."""
+    ends = np.sort(trace[[START, END], :branches].ravel())
+    return ends[(ends > 0.0) & (ends < end)]
+
+
 def extrema_of(curve: Curve, y_end: float) -> Floats | None:
     """Return the radii at which what a curve prescribes is extremal, in order; None if its table is too short."""
     trace = room_for(curve.table.bins)
     count = trace_curve(curve, y_end, trace)
-    if count < 0:
-        return None
-    ends = np.sort(trace[[START, END], :count].ravel())
-    return ends[(ends > 0.0) & (ends < min(y_end, span_of(curve.table)))]
+    return None if count < 0 else ends_of(trace, count, min(y_end, span_of(curve.table)))
 
 
 def waves_of(frame: Frame) -> tuple[float, float]:
@@ -219,14 +217,8 @@ def _end_of(frame: Frame, sides: tuple[Side, ...]) -> float:
 def draw_scene(frame: Frame, turn: float | None, pulled: float) -> Drawn:
     """Make a scene ready for drawing.
 
-    Parameters
-    ----------
-    frame
-        Its reduced form.
-    turn
-        a/R where its cycle turns, None if that is the rim; 0 without contact, NaN if it is not known.
-    pulled
-        a/R of the pull-off, if an unbounded punch turns.
+    `turn` is a/R where its cycle turns, None if that is the rim; 0 without contact, NaN if it is not known. `pulled` is
+    a/R of the pull-off, if an unbounded punch turns.
     """
     length, y_end, sides, complete = frame.units[0], frame.rim, tuple[Side, ...](), False
     turned = frame.rim if turn is None else turn / length

@@ -25,14 +25,9 @@ NAMED_STATES: Final = ("turning_point", "pull_off", "jump_out")
 """The states of a cycle that have a name."""
 STATE_CURVES: Final = tuple(name for name, curve in CURVES.items() if curve.of_a_state)
 """The curves of a state."""
-_FEWEST: Final = 96
-_MOST: Final = 4096
-_A_WAVE: Final = 24
-"""Points of a curve: at least, at most, and for each of the shortest waves."""
-_BEYOND: Final = 2.0
-"""How far the surface is drawn, in contact radii."""
-_WAVES_BEYOND: Final = 2.0
-"""How far it is drawn beyond the contact at least, in wavelengths of a wavy punch."""
+_FEWEST, _MOST, _A_WAVE = 96, 4096, 24  # points of a curve: at least, at most, and for each of the shortest waves
+_BEYOND: Final = 2.0  # how far the surface is drawn, in contact radii
+_WAVES_BEYOND: Final = 2.0  # how far it is drawn beyond the contact at least, in wavelengths of a wavy punch
 
 
 def series_of(amplitude: float, profile: Profile) -> tuple[list[float], list[float]]:
@@ -51,20 +46,10 @@ def series_of(amplitude: float, profile: Profile) -> tuple[list[float], list[flo
 
 
 def equilibrium_states(scene: Mapping[str, float], radii: Sequence[float], profile: Profile | None = None) -> Array:
-    """Return the states of equilibrium of given radii.
+    """Return the states of equilibrium of given radii a/R: a/R and delta/R, (2, radii).
 
-    Parameters
-    ----------
-    scene
-        A number for each name of `PARAMETERS`.
-    radii
-        a/R, above 0 and within the rim.
-    profile
-        Shape of the punch, as in `solve`.
-
-    Returns
-    -------
-    Array of shape (2, number of radii): a/R and delta/R; NaN for a radius outside (0, a_max] or a scene out of range.
+    `scene` has a number for each name of `PARAMETERS`, `profile` is as in `solve`. NaN for a radius outside (0, a_max]
+    or a scene out of range.
 
     Examples
     --------
@@ -85,23 +70,12 @@ def equilibrium_states(scene: Mapping[str, float], radii: Sequence[float], profi
 def named_states(
     scene: Mapping[str, float], profile: Profile | None = None, loading: Loading | None = None
 ) -> tuple[Array, int]:
-    """Return the states of a loading cycle that have a name, and the status of the cycle.
+    """Return the states of a loading cycle that have a name, and the status of the cycle as `solve` reports it.
 
-    Parameters
-    ----------
-    scene
-        A number for each name of `PARAMETERS`, and `machine_stiffness` under machine control.
-    profile, loading
-        Shape of the punch and what is prescribed, as in `solve`.
-
-    Returns
-    -------
-    states
-        Array of shape (2, 3): a/R and delta/R of the turning point (at the depth to which the rim is pressed),
-        the pull-off and the jump-out. NaN for one that is absent: there is no turning point without a rim or a depth or
-        load to turn at, and no jump-out where contact shrinks to a point.
-    status
-        Bits of status.FLAGS, as `solve` reports them.
+    `scene` has a number for each name of `PARAMETERS`, and `machine_stiffness` under machine control; profile and
+    loading are as in `solve`. States are a/R and delta/R, (2, 3): the turning point (at the depth to which the rim is
+    pressed), the pull-off and the jump-out. NaN for one that is absent: there is no turning point without a rim or a
+    depth or load to turn at, and no jump-out where contact shrinks to a point.
 
     Examples
     --------
@@ -133,29 +107,16 @@ def draw_states(
 ) -> dict[str, Array]:
     """Return the pressure under the punch and the surface around it, in given states.
 
-    Parameters
-    ----------
-    scene
-        A number for each name of `PARAMETERS`.
-    states
-        Array of shape (2, number of states): a/R and delta/R.
-    curves
-        Names out of `STATE_CURVES`.
-    profile
-        Shape of the punch, as in `solve`.
+    `scene` has a number for each name of `PARAMETERS`; states are a/R and delta/R, (2, states), curves names out of
+    `STATE_CURVES`, and `profile` is as in `solve`.
 
     Returns
     -------
-    The variables of the curves, each of shape (number of states, number of points), NaN in a state that is absent:
-    `pressure_radius` (r/R, from 0 to just short of the edge, where for k < 1 the pressure has no bound, denser there)
-    and `pressure` (p R/dgamma, compression positive); `surface_radius` (r/R, from 0 through the edge to two contact
-    radii, and two wavelengths beyond the edge at least), `surface_displacement` (u_z/R, positive into the half-space)
-    and `surface_gap` (/R; 0 within the contact, NaN beyond the rim, where no punch is).
-
-    Raises
-    ------
-    ValueError
-        For an unknown curve.
+    The variables of the curves, each of shape (states, points), NaN in a state that is absent: `pressure_radius` (r/R,
+    from 0 to just short of the edge, where for k < 1 the pressure has no bound, denser there) and `pressure`
+    (p R/dgamma, compression positive); `surface_radius` (r/R, from 0 through the edge to two contact radii, and two
+    wavelengths beyond the edge at least), `surface_displacement` (u_z/R, positive into the half-space) and
+    `surface_gap` (/R; 0 within the contact, NaN beyond the rim, where no punch is).
 
     Examples
     --------
@@ -164,9 +125,6 @@ def draw_states(
     >>> found["pressure"].round(2)[0, :2].tolist(), found["pressure_radius"].max().round(4).item()
     ([23.77, 23.75], 0.2)
     """
-    unknown = [name for name in curves if name not in STATE_CURVES]
-    if unknown:
-        raise ValueError(f"unknown curves {unknown} of a state; there are {', '.join(STATE_CURVES)}")
     shape = profile or Profile()
     k, wavelength = scene["k"], scene["lambda_over_R"]
     with np.errstate(all="ignore"):

@@ -25,8 +25,7 @@ from gradhesion.core.equations._arguments import Array, Real, Waves, exponent_of
 
 DEEPEST_SINC: Final = 0.21723362821122164
 """-min sin(y)/y, met at tan y = y, y = 4.4934094579090642 (a zero of the spherical Bessel function j_1)."""
-_MOST: Final = 2**20
-"""Most samples of a period."""
+_MOST: Final = 2**20  # most samples of a period
 
 
 def height(radius: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0) -> Array:

@@ -27,10 +27,8 @@ from gradhesion.core.table.functions import Functions, functions_of, pairs_at
 
 Harmonics: TypeAlias = Sequence[tuple[int, Any, Any]]
 """(n, a_n, b_n) of each harmonic, numbers or arrays."""
-_LOAD_UNIT: Final = 1.5 * math.pi
-"""1.5 pi R dgamma over R dgamma."""
-_LARGEST: Final = 2.0**49
-"""Turns beyond which a double resolves no phase."""
+_LOAD_UNIT: Final = 1.5 * math.pi  # 1.5 pi R dgamma over R dgamma
+_LARGEST: Final = 2.0**49  # turns beyond which a double resolves no phase
 _kept: Final = lru_cache(maxsize=16)(functions_of)
 """For repeated calls with a few points each."""
 

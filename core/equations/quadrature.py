@@ -16,7 +16,7 @@ distance from the singular end, and than that from s = 0, where profiles have br
 
 import math
 from collections.abc import Callable
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Final, TypeAlias
 
 import numpy as np
@@ -29,6 +29,8 @@ from gradhesion.core.equations._arguments import Array, Real, Waves, exponent_of
 Slope: TypeAlias = Callable[[Array], ArrayLike]
 _NODES: Final = 24
 _LEGENDRE: Final = roots_legendre(_NODES)
+_rule: Final = lru_cache(maxsize=64)(roots_jacobi)
+"""Jacobi's rule on (-1, 1), kept: it takes as long as the panels of a point."""
 _LEAST: Final = 2.0**-57
 """Width of the panel at s = 0, over that of all: the integral of a bounded function over it is below rounding."""
 
@@ -41,13 +43,13 @@ def hertz_indentation(k: Real, radius: Real, slope: Slope, shortest: float = mat
     >>> float(hertz_indentation(1.0, 0.6, lambda r: r / np.sqrt(1 - r**2)).round(12))
     0.2
     """
-    return _over_disc(k, radius, slope, shortest)[0]
+    return _over_disc(k, radius, slope, shortest, 0)
 
 
 def hertz_load(k: Real, stiffness: Real, radius: Real, slope: Slope, shortest: float = math.inf) -> Array:
     """Return P_H/(1.5 pi R dgamma), the load of contact over a disc without adhesion, of any profile (3.10)."""
-    depth, moment = _over_disc(k, radius, slope, shortest)
-    return hertz.disc_stiffness(k, stiffness, radius) * (depth - moment)
+    raised = _over_disc(k, radius, slope, shortest, 0) - _over_disc(k, radius, slope, shortest, 1)
+    return hertz.disc_stiffness(k, stiffness, radius) * raised
 
 
 def indentation(k: Real, stiffness: Real, radius: Real, slope: Slope, shortest: float = math.inf) -> Array:
@@ -77,7 +79,7 @@ def flat_pressure(k: Real, stiffness: Real, distance: Real, radius: Real, depth:
     n, r, a = 1.0 + exponent_of(k), not_negative(distance), positive(radius)
     inside, pressed = np.where(r <= a, (a - r) * (a + r), np.nan), np.asarray(depth, dtype=float)
     with np.errstate(divide="ignore", invalid="ignore"):
-        root = np.where(n < 2.0, inside ** (0.5 * n - 1.0), 1.0 + 0.0 * inside)
+        root = inside ** (0.5 * n - 1.0) + 0.0 * inside  # NaN to the power of 0 is 1
         return np.where(pressed == 0.0, 0.0 * inside, _front(k, stiffness) * pressed * root)
 
 
@@ -94,13 +96,9 @@ def hertz_pressure(
     >>> float((hertz_pressure(0.0, 500.0, 0.12, 0.13, 1.0, []) * np.pi).round(9))
     50.0
     """
-    waves = general.harmonics(cosines, sines)
-
-    def at(k: float, r: float, a: float, length: float, m: float, front: float) -> float:
-        return front * _pressed(k, r, a, length, waves, m)
-
-    a, m = positive(radius), power_of(exponent)
-    return _point_by_point(at, exponent_of(k), not_negative(distance), a, positive(wavelength), m, _front(k, stiffness))
+    pressed = partial(_pressed, general.harmonics(cosines, sines))
+    numbers = exponent_of(k), not_negative(distance), positive(radius), positive(wavelength), power_of(exponent)
+    return _front(k, stiffness) * _point_by_point(pressed, *numbers)
 
 
 def pressure(
@@ -109,8 +107,8 @@ def pressure(
 ) -> Array:  # fmt: skip
     """Return p R/dgamma under a punch at any depth, over a disc of radius a (4.2); in equilibrium (4.9).
 
-    Positive in compression. For k < 1 it is minus infinity at r = a where delta < delta_H, as in equilibrium, plus
-    infinity where delta > delta_H. Accurate to 1e-12 of the largest of both terms. At its edge it pulls:
+    Positive in compression; for k < 1 infinite at r = a, downwards where delta < delta_H, as in equilibrium. Accurate
+    to 1e-12 of the largest of both terms. At its edge it pulls:
 
     >>> depth = general.indentation(0.3, 500.0, 0.2, 0.1, [-0.02])
     >>> pressure(0.3, 500.0, [0.0, 0.19, 0.2], 0.2, depth, 0.1, [-0.02]).round(1).tolist()
@@ -174,12 +172,11 @@ def series_surface(
 
 def _point_by_point(formula: Callable[..., float], *numbers: Real) -> Array:
     """Return a formula of floats at every point of broadcast arrays, NaN where one of them is NaN."""
-    arrays = np.broadcast_arrays(*numbers)
-    out = np.full(arrays[0].shape, np.nan)
-    for place in np.ndindex(out.shape):
-        point = [float(array[place]) for array in arrays]
-        out[place] = math.nan if any(map(math.isnan, point)) else formula(*point)
-    return out
+
+    def at(*point: float) -> float:
+        return math.nan if any(map(math.isnan, point)) else formula(*map(float, point))
+
+    return np.asarray(np.vectorize(at, otypes=[float])(*numbers))
 
 
 def _front(k: Real, stiffness: Real) -> Array:
@@ -192,20 +189,19 @@ def _shortest(length: float, waves: hertz.Harmonics) -> float:
     return min((length / n for n, cosine, sine in waves if cosine != 0.0 or sine != 0.0), default=math.inf)
 
 
-def _over_disc(k: Real, radius: Real, slope: Slope, shortest: float) -> tuple[Array, Array]:
-    """Return delta_H and I/a^(1+k) of any profile."""
-    exponents, radii = np.broadcast_arrays(exponent_of(k), not_negative(radius))
-    found = np.array([0.0 * exponents * radii] * 2)
-    for place in map(tuple, np.argwhere(0.0 * exponents + radii > 0.0)):
-        gradient, a = float(exponents[place]), float(radii[place])
-        s, weights = _below(a, 0.5 * (gradient - 1.0), 0.5 * shortest)
-        values = weights * np.asarray(slope(s), dtype=float)
-        found[0, *place] = a ** (1.0 - gradient) * np.sum(values)
-        found[1, *place] = a ** (-1.0 - gradient) * np.sum(values * (a - s) * (a + s))
-    return found[0], found[1]
+def _over_disc(k: Real, radius: Real, slope: Slope, shortest: float, j: int) -> Array:
+    """Return a^(1-k-2j) int_0^a f'(s) (a^2-s^2)^((k-1)/2+j) ds: delta_H, and for j = 1 I/a^(1+k), of any profile."""
+
+    def at(k: float, a: float) -> float:
+        if a == 0.0:
+            return 0.0
+        s, weights = _below(a, 0.5 * (k - 1.0) + j, 0.5 * shortest)
+        return a ** (1.0 - k - 2.0 * j) * float(np.sum(weights * np.asarray(slope(s), dtype=float)))
+
+    return _point_by_point(at, exponent_of(k), not_negative(radius))
 
 
-def _pressed(k: float, r: float, a: float, length: float, waves: hertz.Harmonics, m: float) -> float:
+def _pressed(waves: hertz.Harmonics, k: float, r: float, a: float, length: float, m: float) -> float:
     """Return int_r^a (s^2-r^2)^((k-1)/2) delta_H'(s) ds; NaN for r > a."""
     if r >= a:
         return 0.0 if r == a else math.nan
@@ -219,7 +215,10 @@ def _pressed(k: float, r: float, a: float, length: float, waves: hertz.Harmonics
     steep = first + (0.0 if k + m > 1.0 else front)  # delta_H' at the apex
     if k == 0.0 and steep != 0.0:
         return math.copysign(math.inf, steep)
-    s, weights = _from_zero(a, k, widest)
+    low = min(a, widest)
+    near, weights = _jacobi(0.0, low, k, upper=False)
+    s, w = _legendre(low, a, lambda _: widest)
+    s, weights = np.append(near, s), np.append(weights, w * s**k)
     rest = float(np.sum(weights * (hertz.wave_terms(k, s, length, waves)[2] / s - first) / s))
     return smooth + rest + (first * a**k / k if first != 0.0 else 0.0)
 
@@ -247,22 +246,20 @@ def _gap(k: float, r: float, a: float, shortest: float, opening: Callable[[Array
         return s**k * opening(s) * (r + s) ** (c - 1.0)
 
     last = r - min(0.5 * (r - a), 0.5 * shortest)
-    s, weights = _legendre(_edges(a, last, lambda low: min(0.5 * shortest, low, 0.5 * (r - low))))
+    s, weights = _legendre(a, last, lambda low: min(0.5 * shortest, low, 0.5 * (r - low)))
     total = np.sum(weights * density(s) * (r - s) ** (c - 1.0))
     # as k tends to 1 all of the weight moves to r: the last panel is taken less density(r), with the weight (r-s)^c,
     # and density(r) has an integral in closed form
     s, weights = _jacobi(last, r, c, upper=True)
     at_end = density(np.asarray(r))
     total -= np.sum(weights * (at_end - density(s)) / (r - s))
-    wave = math.pi * c
-    share = math.sin(wave) / wave if c > 0.0 else 1.0
-    return float(2.0 / math.pi * math.sin(wave) * total + 2.0 * share * (r - last) ** c * at_end)
+    return float(2.0 * np.sinc(c) * (c * total + (r - last) ** c * at_end))
 
 
 def _below(a: float, power: float, widest: float) -> tuple[Array, Array]:
     """Return nodes s and weights w, sum w g(s) = int_0^a g(s) (a^2-s^2)^power ds, for power > -1. Else as `_beyond`."""
     last = a - min(0.5 * a, widest)
-    s, w = _legendre(np.array([0.0, *_edges(_LEAST * a, last, lambda low: min(widest, low))]))
+    s, w = _legendre(0.0, last, lambda low: min(widest, max(low, _LEAST * a)))
     end, weights = _jacobi(last, a, power, upper=True)
     return np.append(s, end), np.append(w * ((a - s) * (a + s)) ** power, weights * (a + end) ** power)
 
@@ -270,40 +267,23 @@ def _below(a: float, power: float, widest: float) -> tuple[Array, Array]:
 def _beyond(r: float, a: float, power: float, widest: float) -> tuple[Array, Array]:
     """Return nodes s and weights w, sum w g(s) = int_r^a g(s) (s^2-r^2)^power ds, for 0 < r < a and power > -1.
 
-    Both are (n,); lengths are in R. g is smooth, and its waves are no shorter than 2 `widest`, the largest width of a
-    panel (inf: without waves).
+    g is smooth, and its waves are no shorter than 2 `widest`, the largest width of a panel.
     """
     first = min(a, r + min(widest, 0.5 * r))
     near, weights = _jacobi(r, first, power, upper=False)
-    s, w = _legendre(_edges(first, a, lambda low: min(widest, low - r)))
+    s, w = _legendre(first, a, lambda low: min(widest, low - r))
     return np.append(near, s), np.append(weights * (near + r) ** power, w * ((s - r) * (s + r)) ** power)
 
 
-def _from_zero(a: float, power: float, widest: float) -> tuple[Array, Array]:
-    """Return nodes s and weights w, sum w g(s) = int_0^a g(s) s^power ds, for power > -1. Else as `_beyond`."""
-    first = min(a, widest)
-    near, weights = _jacobi(0.0, first, power, upper=False)
-    s, w = _legendre(_edges(first, a, lambda _: widest))
-    return np.append(near, s), np.append(weights, w * s**power)
-
-
-def _edges(low: float, high: float, width: Callable[[float], float]) -> Array:
-    """Return the edges of panels from low to high, no wider than a width of their lower edge."""
+def _legendre(low: float, high: float, width: Callable[[float], float]) -> tuple[Array, Array]:
+    """Return Gauss's rule on panels from low to high, no wider than a width of their lower edge."""
     edges = [low]
     while edges[-1] < high:
         edges.append(min(high, max(edges[-1] + width(edges[-1]), math.nextafter(edges[-1], high))))
-    return np.array(edges)
-
-
-def _legendre(edges: Array) -> tuple[Array, Array]:
-    """Return Gauss's rule on every panel between edges."""
+    lower, upper = np.array(edges[:-1])[:, None], np.array(edges[1:])[:, None]
     nodes, weights = _LEGENDRE
-    centre, half = 0.5 * (edges[1:] + edges[:-1]), 0.5 * (edges[1:] - edges[:-1])
-    return (centre[:, None] + half[:, None] * nodes).ravel(), (half[:, None] * weights).ravel()
-
-
-_rule = lru_cache(maxsize=64)(roots_jacobi)
-"""Jacobi's rule on (-1, 1), kept: it takes as long as the panels of a point."""
+    half = 0.5 * (upper - lower)
+    return (0.5 * (lower + upper) + half * nodes).ravel(), (half * weights).ravel()
 
 
 def _jacobi(low: float, high: float, power: float, *, upper: bool) -> tuple[Array, Array]:

@@ -24,12 +24,12 @@ from gradhesion.core.closed.reduced import WAYS
 from gradhesion.core.loops.fitted import FittedLoop
 from gradhesion.core.loops.measured.features import BaseLine, base_line, contact_point
 from gradhesion.core.loops.minima import minima
-from gradhesion.core.loops.paths.misfit import Data, Misfit
-from gradhesion.core.loops.paths.model import LINEAR, TURN
+from gradhesion.core.loops.paths.misfit import Misfit
+from gradhesion.core.loops.paths.model import TURN
 from gradhesion.core.loops.paths.offsets import DEPTH_ZERO, LOAD_ZERO, TILT, Offsets
 from gradhesion.core.loops.paths.path import LoopModel
 from gradhesion.core.loops.paths.speed import SpeedModel
-from gradhesion.core.loops.results import covariance_of, results_at
+from gradhesion.core.loops.results import results_at
 from gradhesion.core.loops.starts import starts as starts_of
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import CLOSING, TURNS
@@ -37,14 +37,9 @@ from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.toughness import Rate, Toughness
 from gradhesion.core.types import Floats, Truths
 
-INTERVALS: Final = ("linear", "profile")
-"""Methods for intervals."""
-_BLUR: Final = 6.0
-"""Standard deviations of the depth by which the path continues beyond the deepest point."""
-_LEVEL: Final = 3.0
-"""Standard deviations of the points of a base line within which the fitted path has it."""
-_MISSED: Final = 0.03
-"""Part of the span by which the furthest point may miss the turn."""
+_BLUR: Final = 6.0  # standard deviations of the depth by which the path continues beyond the deepest point
+_LEVEL: Final = 3.0  # standard deviations of the points of a base line within which the fitted path has it
+_MISSED: Final = 0.03  # part of the span by which the furthest point may miss the turn
 
 
 def fit_loop(
@@ -66,59 +61,33 @@ def fit_loop(
     starts: int = 16,
     seed: int = 0,
 ) -> FittedLoop:
-    """Fit parameters to the points of a loop.
+    """Fit parameters to the points of a loop: more than are fitted, all finite; ranges rise.
 
-    Parameters
-    ----------
-    indentation, load
-        Depth in m and load in N (positive presses) of the points, in any order; of one or several equal cycles, of both
-        branches or of one.
-    unloading
-        Whether each point belongs to unloading.
-    fixed
-        Numbers by name, in SI units: R, E_star (or E), work_of_adhesion, c0, wavelength, A (or amplitude), k, nu,
-        closing_ratio and, where the rim is met, a_max. What has no effect may be left out, as in a study.
-    free
-        The ends of the range of each name that is fitted: positive, but for k, nu and ratios.
-        The cycle turns where the data do, unless indentation_max (m) or preload (N) is given too.
-    noise
-        Standard deviations of depth (m) and load (N) of a point, both > 0.
-    noise_is_given
-        Whether these are known, not estimated from the points: intervals are not widened then.
-    counts
-        The number of points averaged in each, 1 if not given: its noise is that of one point over the root of it.
-    offsets
-        The zeros that are fitted too, and their ranges; those of depth and load if not given.
-    profile
-        The shape of the punch, a paraboloid with one cosine wave if not given.
-    loading
-        What is prescribed. With control "machine" the depths are those of the far end of a machine, depth +
-        load/spring_constant; then spring_constant in N/m is fixed or free.
-    toughness
-        A pattern of the toughness; toughness_wavelength and toughness_amplitude are fixed or free.
-    rate
-        How the work of adhesion grows with the speed of the edge; speed or reference_speed, or both as
-        speed_over_reference, are fixed or free, and its exponent may be free under that name. Every derivative is a
-        difference of paths then: fits take minutes.
-    intervals
-        "linear", those of the linear problem at the minimum, or "profile", by profile likelihoods.
-    starts
-        How many starts are refined.
-    seed
-        Seed of the Sobol set of starts.
+    Depths are in m and loads in N (positive presses), points in any order, of one or several equal cycles, of both
+    branches or of one; `unloading` says which branch each belongs to.
 
-    Returns
-    -------
-    The fit. It is unreliable where `converged` is false, `on_bound` has names, or `status` has `POOR_FIT` or
-    `ANOTHER_MINIMUM`.
+    fixed       numbers by name, in SI units: R, E_star (or E), work_of_adhesion, c0, wavelength, A (or amplitude), k,
+                nu, closing_ratio and, where the rim is met, a_max; what has no effect may be left out, as in a study
+    free        the ends of the range of each name that is fitted: positive, but for k, nu and ratios; the cycle turns
+                where the data do, unless indentation_max (m) or preload (N) is given too
+    noise       standard deviations of depth and load of a point, both > 0; where they are estimated from the points,
+                not known (`noise_is_given`), intervals are widened
+    counts      the number of points averaged in each, 1 if not given: its noise is that of one point over its root
+    offsets     the zeros that are fitted too, and their ranges; those of depth and load if not given
+    profile     the shape of the punch, a paraboloid with one cosine wave if not given
+    loading     what is prescribed; with control "machine" the depths are those of its far end, depth +
+                load/spring_constant, and spring_constant in N/m is fixed or free
+    toughness   a pattern, whose toughness_wavelength and toughness_amplitude are fixed or free
+    rate        how the work of adhesion grows with the speed of the edge; speed or reference_speed, or both as
+                speed_over_reference, are fixed or free, and its exponent may be free under that name; every
+                derivative is a difference of paths then: fits take minutes
+    intervals   "linear", those of the linear problem at the minimum, or "profile", by profile likelihoods
+    starts      how many starts are refined; `seed` is that of their Sobol set
 
-    Raises
-    ------
-    CannotTellApartError
-        Some of the free parameters have the same effect.
-    ValueError
-        For other intervals, too few points, ranges or noise out of range, no base line where the contact point is to
-        come from it, or where no start has a path.
+    A fit is unreliable where `converged` is false, `on_bound` has names, or `status` has `POOR_FIT` or
+    `ANOTHER_MINIMUM`. There is a CannotTellApartError where some of the free parameters have the same effect, and a
+    ValueError where loading has no base line that the contact point is to come from, no combination has a path, or a
+    number has no effect.
 
     Examples
     --------
@@ -134,49 +103,44 @@ def fit_loop(
     >>> round(found.values["E_star"] / E_star, 3), round(found.values["work_of_adhesion"] / work, 3)
     (1.0, 1.0)
     """
-    if intervals not in INTERVALS:
-        raise ValueError(f"intervals = {intervals!r}: they are {' or '.join(INTERVALS)}")
     points = np.column_stack([np.asarray(indentation, dtype=float).ravel(), np.asarray(load, dtype=float).ravel()])
     back, zeros = np.asarray(unloading, dtype=bool).ravel(), offsets or Offsets()
-    _check(points, back, free, noise, unknown=len(free) + len(zeros.names))
     each = np.ones(back.size) if counts is None else np.asarray(counts, dtype=float).ravel()
     root = float(np.sqrt(np.median(each)))
     of_means = noise[0] / root, noise[1] / root
     line = base_line(points, back, of_means[1])
+    known = dict(fixed)
     contact = contact_point(points, back, line, of_means) if zeros.indentation == "contact" else None
-    if contact is None and zeros.indentation == "contact":
+    if contact is not None:
+        known[DEPTH_ZERO] = contact.depth
+    elif zeros.indentation == "contact":
         raise ValueError(
             'offsets.indentation = "contact": loading has no base line from which contact could be told; measure '
             'further out, or write "free"'
         )
-    zero = np.array([0.0 if contact is None else contact.depth, 0.0])
-    shifted, drive = points - zero, loading or Loading()
-    driven, furthest = int(drive.control == "load"), shifted.max(axis=0)
-    ranges, blur = _searched(shifted, free, zeros, line), _BLUR * of_means[0]
+    drive, furthest, span = loading or Loading(), points.max(axis=0), np.ptp(points, axis=0)
+    driven = int(drive.control == "load")
+    ranges, blur = _searched(points, free, zeros, line), _BLUR * of_means[0]
     if _is_pinned({*fixed, *free}):  # at a turn that points may miss by a step
-        step = _MISSED * np.ptp(points[:, driven]) + _BLUR * of_means[driven]
+        step = _MISSED * span[driven] + _BLUR * of_means[driven]
         ranges[TURN], blur = (furthest[driven] - step, furthest[driven] + step), 0.0
     own: dict[str, Any] = {
         "furthest": tuple(furthest.tolist()), "blur": blur, "profile": profile or Profile(), "loading": drive,
-        "first": float(shifted[:, 0].min() - np.ptp(points[:, 0])), "toughness": toughness,
+        "first": float(points[:, 0].min() - span[0]), "toughness": toughness,
     }  # fmt: skip
     names = tuple(ranges)
-    model = LoopModel(fixed, names, **own) if rate is None else SpeedModel(fixed, names, rate=rate, **own)
-    low, high = (np.array([*model.searched(dict(zip(names, ends, strict=True))).values()])
-                 for ends in zip(*ranges.values(), strict=True))  # fmt: skip
-    misfit = Misfit(Data(shifted, back, noise, each), model, low, high)
+    model = LoopModel(known, names, **own) if rate is None else SpeedModel(known, names, rate=rate, **own)
+    low, high = (np.array([*model.searched({name: ends[i] for name, ends in ranges.items()}).values()]) for i in (0, 1))
+    misfit = Misfit(points, back, noise, each, model, low, high)
     with threadpool_limits(1):  # matrices of a few columns: threads only wait for each other
-        begun = starts_of(misfit, *_zeros(points, back, line, known=contact is not None), starts, seed)
-        _refuse_locked(misfit, begun)
-        found = minima(misfit, begun)
+        found = minima(misfit, starts_of(misfit, *_zeros(points, back, line), starts, seed))
         if misfit.nearest(found[0].x).drawn is None:
             raise ValueError("no combination within the ranges has a path; widen them")
         fitted = results_at(misfit, found, intervals, ranges, widened=not noise_is_given)
     if line is not None:  # points in contact may be flat, as those before the pull-off are: at another load
         level = fitted.values.get(LOAD_ZERO, 0.0) + fitted.values.get(TILT, 0.0) * line.middle
         line = line if abs(line.level - level) < _LEVEL * line.spread else None
-    paths = {"loading": fitted.loading + zero, "unloading": fitted.unloading + zero}
-    return replace(fitted, base_line=line, contact=contact, **paths)
+    return replace(fitted, base_line=line, contact=contact)
 
 
 def _is_pinned(given: set[str]) -> bool:
@@ -184,13 +148,12 @@ def _is_pinned(given: set[str]) -> bool:
     return bool(given & {CLOSING, *WAYS[CLOSING]}) and not any(given & {name, *WAYS[name]} for name in TURNS)
 
 
-def _zeros(points: Floats, back: Truths, line: BaseLine | None, *, known: bool) -> tuple[float, float]:
-    """Return estimates of the load out of contact and of the depth at which contact begins, 0 where it is known."""
+def _zeros(points: Floats, back: Truths, line: BaseLine | None) -> tuple[float, float]:
+    """Return estimates of the load out of contact and of the depth at which contact begins, NaN without any."""
     first = points[~back] if not back.all() else points
-    at = int(np.argmin(first[:, 0]))
-    level = float(first[at, 1]) if line is None else line.level
+    depth, level = first[np.argmin(first[:, 0])].tolist()
     end = math.nan if line is None else line.ends[0]
-    return level, 0.0 if known else float(first[at, 0]) if math.isnan(end) and not back.all() else end
+    return level if line is None else line.level, depth if math.isnan(end) and not back.all() else end
 
 
 def _searched(
@@ -212,32 +175,3 @@ def _searched(
     given = {DEPTH_ZERO: zeros.indentation, LOAD_ZERO: zeros.load}
     own |= {name: ends for name, ends in given.items() if isinstance(ends, tuple)}
     return ranges | {name: (float(own[name][0]), float(own[name][1])) for name in zeros.names}
-
-
-def _refuse_locked(misfit: Misfit, begun: list[Floats]) -> None:
-    """Refuse numbers that no start can tell apart."""
-    for vector in begun:
-        if misfit.nearest(vector).drawn is None:
-            return
-        try:
-            covariance_of(misfit, vector)
-        except ValueError as error:
-            found = error
-        else:
-            return
-    raise found
-
-
-def _check(
-    points: Floats, back: Truths, free: Mapping[str, tuple[float, float]], noise: tuple[float, float], *, unknown: int
-) -> None:
-    """Refuse what cannot be fitted: points (n, 2) of depth and load, and whether each unloads, (n,)."""
-    if points.shape[0] != back.size or not np.isfinite(points).all():
-        raise ValueError("depths, loads and unloading are lists of one length, of finite numbers")
-    if points.shape[0] <= unknown:
-        raise ValueError(f"{points.shape[0]} points cannot give {unknown} numbers; measure more or fix some")
-    if not (noise[0] > 0.0 and noise[1] > 0.0):
-        raise ValueError(f"noise = {noise}: both standard deviations are above 0")
-    for name, (low, high) in free.items():
-        if not low < high or (name not in LINEAR and not low > 0.0):
-            raise ValueError(f"{name}: the ends {low:g} and {high:g} of a range rise, and are above 0 but for k and nu")

@@ -18,67 +18,47 @@ class OtherMinimum:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class FittedLoop:
-    """The result of a fit to a loop.
-
-    Attributes
-    ----------
-    names
-        The free parameters in their order, then those of `OFFSETS` that are fitted.
-    values, standard_deviations, low, high
-        By name; low and high bound the 95 % interval, of the linear problem (of its logarithm where that is searched)
-        or by profile likelihood; never beyond the range that was searched.
-    ranges
-        The searched ranges, by name.
-    correlation
-        The correlations of all of them, a square in the order of the names.
-    on_bound
-        The names whose values are within 1 % of their range of one of its ends.
-    chi_square, degrees_of_freedom
-        The sum of squares of the residual, and the number of points less that of fitted values.
-    residual
-        The signed distance of every point to the path, in standard deviations of the noise.
-    loading, unloading
-        The vertices of the path, offsets included: rows of depth in m and load in N.
-    converged
-        Whether the last refinement converged.
-    status
-        What `solve` reports of the fitted cycle, with `POOR_FIT` and `ANOTHER_MINIMUM`.
-    others
-        Other minima that the noise allows, the best first.
-    alike
-        Sentences: other models that would explain the data as well.
-    base_line
-        The line of no load of the data, None where they have none.
-    contact
-        The contact point at which the zero of depth was fixed, if requested.
-    turning_radius
-        The radius a/R at which the fitted cycle turns.
-    widening
-        The factor by which deviations and intervals are widened where the noise was estimated: the root of the reduced
-        chi square, if that is above 1.
-    """
+    """The result of a fit to a loop."""
 
     names: tuple[str, ...]
+    """The free parameters in their order, then those of `OFFSETS` that are fitted."""
     values: dict[str, float]
     standard_deviations: dict[str, float]
     low: dict[str, float]
     high: dict[str, float]
+    """By name; low and high bound the 95 % interval, of the linear problem (of its logarithm where that is searched) or
+    by profile likelihood; never beyond the range that was searched."""
     ranges: dict[str, tuple[float, float]]
+    """What was searched, by name."""
     correlation: Floats
+    """Of all of them, a square in the order of the names."""
     on_bound: tuple[str, ...]
+    """The names whose values are within 1 % of their range of one of its ends."""
     chi_square: float
     degrees_of_freedom: int
+    """The sum of squares of the residual, and the number of points less that of fitted values."""
     residual: Floats
+    """The signed distance of every point to the path, in standard deviations of the noise."""
     loading: Floats
     unloading: Floats
+    """The vertices of the path, offsets included: rows of depth in m and load in N."""
     converged: bool
+    """Whether the last refinement converged."""
     status: int
+    """What `solve` reports of the fitted cycle, with `POOR_FIT` and `ANOTHER_MINIMUM`."""
     others: tuple[OtherMinimum, ...] = ()
+    """Other minima that the noise allows, the best first."""
     alike: tuple[str, ...] = ()
+    """Sentences: other models that would explain the data as well."""
     base_line: BaseLine | None = None
+    """The line of no load of the data, if they have one."""
     contact: ContactPoint | None = None
+    """The contact point at which the zero of depth was fixed, if requested."""
     turning_radius: float = math.nan
+    """The radius a/R at which the fitted cycle turns."""
     widening: float = 1.0
+    """By what deviations and intervals are widened where the noise was estimated: the root of the reduced chi square,
+    if that is above 1."""
 
     @property
     def reduced_chi_square(self) -> float:

@@ -11,25 +11,18 @@ from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.model import WAVELENGTHS
 from gradhesion.core.types import Floats
 
-_COST: Final = attrgetter("cost")
-_FEW: Final = 300
-"""Largest number of points by which starts are refined."""
-_WHOLE: Final = 4
-"""How many of the starts that fit some of the points best are refined by all points."""
-_ALLOWED: Final = 0.95
-"""Quantile of the rise of chi square: the noise allows other minima below it."""
-_WAVES: Final = (-1.0, -0.5, 0.5, 1.0)
-"""Differences of the number of waves within the contact that are tried."""
+COST: Final = attrgetter("cost")
+_FEW: Final = 300  # largest number of points by which starts are refined
+_WHOLE: Final = 4  # how many of the starts that fit some of the points best are refined by all points
+_ALLOWED: Final = 0.95  # quantile of the rise of chi square: the noise allows other minima below it
+_WAVES: Final = (-1.0, -0.5, 0.5, 1.0)  # differences of the number of waves within the contact that are tried
 _HOPELESS: Final = 25.0
 """Half the sum of squares of some of the points by which a minimum may be worse than one that leaves only noise."""
 _VALLEY: Final = 3.0
 """Standard deviations of the least certain combination by which a smooth fit is begun anew on both sides."""
-_FEWEST: Final = 0.2
-"""Least number of waves that is tried."""
-_HOPS: Final = 5
-"""Most rounds in which these are tried."""
-_BETTER: Final = 1e-6
-"""Relative difference of sums of squares, below which two minima are the same."""
+_FEWEST: Final = 0.2  # least number of waves that is tried
+_HOPS: Final = 5  # most rounds in which these are tried
+_BETTER: Final = 1e-6  # relative difference of sums of squares, below which two minima are the same
 _APART: Final = 9.0, 4.0
 """Another minimum is further away, in squared standard deviations, than the first, and than the second times the rise
 of chi square; two places in one valley are not."""
@@ -44,15 +37,15 @@ def minima(misfit: Misfit, begun: list[Floats]) -> list[Any]:
     few = misfit.thinned(_FEW)
 
     def best(vectors: list[Floats], count: int) -> list[Any]:
-        rough = sorted((few.refined(vector, most=30, tolerance=1e-6) for vector in vectors), key=_COST)
+        rough = sorted((few.refined(vector, most=30, tolerance=1e-6) for vector in vectors), key=COST)
         if rough and few.is_noise(rough[0].cost):
             rough = [done for done in rough if done.cost < rough[0].cost + _HOPELESS]
         return [misfit.refined(vector, most=100) for vector in distinct([done.x for done in rough], misfit)[:count]]
 
-    whole = sorted(best(begun, _WHOLE), key=_COST)
+    whole = sorted(best(begun, _WHOLE), key=COST)
     for _ in range(_HOPS):
         least = whole[0].cost * (1.0 - _BETTER)
-        whole = sorted([*whole, *best(_beside(misfit, whole[0].x), 2)], key=_COST)
+        whole = sorted([*whole, *best(_beside(misfit, whole[0].x), 2)], key=COST)
         if not whole[0].cost < least:
             break
     return whole

@@ -21,32 +21,20 @@ from gradhesion.core.types import Floats
 
 _SINGULAR: Final = 5e-4
 """Singular value over the largest, below which numbers are locked together: correlations above 1 - 1e-6."""
-_PART: Final = 0.01
-"""Least part of such a combination that a parameter has in it."""
-_WITHOUT: Final = 1e-6
-"""Effect of a parameter over the largest, below which it has none."""
+_PART: Final = 0.01  # least part of such a combination that a parameter has in it
+_WITHOUT: Final = 1e-6  # effect of a parameter over the largest, below which it has none
 LEVEL: Final = 0.95
 """Probability that an interval covers."""
-_NEAR_END: Final = 0.01
-"""Part of a range: a value closer than this to an end is on the bound."""
-_WIDE: Final = 10.0
-"""Ratio of stop to start above which a range is measured by its logarithm."""
-_NEAR: Final = 0.01
-"""Accuracy of the end of an interval, in parts of the quantile."""
-_FINE: Final = 1e-5
-"""Tolerance for the sum of squares and the numbers: a rise by 4 is known to a hundredth of it."""
-_TRIALS: Final = 8
-"""Steps to an end of an interval, at most."""
-_FURTHEST: Final = 4.0
-"""Most by which the displacement is corrected in one of them."""
-_ROUNDING: Final = 1e-12
-"""Relative difference of radii that is rounding."""
-_SEEN: Final = 5.0
-"""Size of a jump, in standard deviations of the noise, from which on it shows that there are waves."""
-_LEAST: Final = 0.01
-"""Strength of waves below which nothing is reported."""
-_PHASE: Final = 0.1
-"""Error of the number of waves within the contact, below which waves are resolved without jumps."""
+_NEAR_END: Final = 0.01  # part of a range: a value closer than this to an end is on the bound
+_WIDE: Final = 10.0  # ratio of stop to start above which a range is measured by its logarithm
+_NEAR: Final = 0.01  # accuracy of the end of an interval, in parts of the quantile
+_FINE: Final = 1e-5  # tolerance for the sum of squares and the numbers: a rise by 4 is known to a hundredth of it
+_TRIALS: Final = 8  # steps to an end of an interval, at most
+_FURTHEST: Final = 4.0  # most by which the displacement is corrected in one of them
+_ROUNDING: Final = 1e-12  # relative difference of radii that is rounding
+_SEEN: Final = 5.0  # size of a jump, in standard deviations of the noise, from which on it shows that there are waves
+_LEAST: Final = 0.01  # strength of waves below which nothing is reported
+_PHASE: Final = 0.1  # error of the number of waves within the contact, below which waves are resolved without jumps
 
 
 def results_at(
@@ -54,7 +42,7 @@ def results_at(
 ) -> FittedLoop:
     """Return the results at the first of some minima, the results of `minima`.
 
-    `intervals` is one of those of fit.py; `ranges` are the ends of what is searched, in SI units; where noise was
+    `intervals` is "linear" or "profile"; `ranges` are the ends of what is searched, in SI units; where noise was
     estimated, deviations and intervals are `widened` by the root of the reduced chi square.
     """
     best = found[0].x
@@ -182,9 +170,8 @@ def alternatives(model: Model, path: LoopPath, noise: Floats, spread: Floats) ->
             return ()
         waves = f"waves too fine to be seen, of chi = {chi:.3g}, would have the same effect as closing_ratio = "
         return (f"{waves}{scene.root**2:.3g}; a loop cannot tell the two apart",)
-    jumps = np.flatnonzero(path.jump)
-    jumps = jumps[(path.radius[jumps] > 0.0) & (path.radius[jumps - 1] > 0.0)]
-    sizes = np.hypot(*((path.places[jumps] - path.places[jumps - 1]) / noise).T)
+    jumps = np.flatnonzero(path.jump[1:] & (path.radius[1:] > 0.0) & (path.radius[:-1] > 0.0))
+    sizes = np.hypot(*((path.places[jumps + 1] - path.places[jumps]) / noise).T)
     length = model.place_of(WAVELENGTHS)
     is_known = length is not None and spread[length] * path.radius.max() < _PHASE * scene.wavelength * scene.R
     chi = float(waviness_strength(scene.k, scene.wavelength, scene.A) / adhesion_strength(scene.k, scene.stiffness))

@@ -9,50 +9,36 @@ than noise.
 import itertools
 import math
 from collections.abc import Mapping
-from operator import attrgetter
 from typing import Any, Final
 
 import numpy as np
 
 from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
-from gradhesion.core.loops.minima import distinct, minima
+from gradhesion.core.loops.minima import COST, distinct, minima
 from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.model import AMPLITUDES, SPEEDS, TURN, WAVELENGTHS, WAVES
 from gradhesion.core.loops.paths.offsets import DEPTH_ZERO, LOAD_ZERO
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.types import Floats
 
-_COST: Final = attrgetter("cost")
-_FEW: Final = 140
-"""Points that starts are compared with."""
+_FEW: Final = 140  # points that starts are compared with
 _WORK: Final = "work_of_adhesion"
 _MODULI: Final = ("E_star", "E", "modulus")
-_CONTACTS: Final = 12
-"""Contact points that are tried, beside the end of the base line."""
-_WORKS: Final = 3
-"""Works of adhesion that are tried with each."""
-_KEPT: Final = 8
-"""Starts of a smooth punch that are refined."""
-_HEIGHTS: Final = 3
-"""Amplitudes that are tried with each wavelength."""
-_PEAKS: Final = 6
-"""Peaks of the spectrum that are tried."""
-_BESIDE: Final = 2
-"""Peaks that are tried with a third of a wave more, and less, within the contact."""
+_CONTACTS: Final = 12  # contact points that are tried, beside the end of the base line
+_WORKS: Final = 3  # works of adhesion that are tried with each
+_KEPT: Final = 8  # starts of a smooth punch that are refined
+_HEIGHTS: Final = 3  # amplitudes that are tried with each wavelength
+_PEAKS: Final = 6  # peaks of the spectrum that are tried
+_BESIDE: Final = 2  # peaks that are tried with a third of a wave more, and less, within the contact
 _PER_WAVE: Final = 3.0
 """Wavelengths tried, over the number of waves by which the shortest and the longest differ within the contact."""
-_LEAST, _MOST = 8, 14
-"""How many they are at least and at most."""
+_LEAST, _MOST = 8, 14  # how many they are at least and at most
 _LONG: Final = 16
 """Wavelengths tried beside these, evenly by their logarithm: of long waves, few of which are in the contact."""
-_ALIKE: Final = 0.05
-"""Parts of the ranges within which two smooth curves share one search for waves."""
-_HELD, _ROUGH = 6, 15
-"""Steps in which starts are refined with the waves held, and the best of these with them."""
-_SPEEDS: Final = 4
-"""Speeds that are tried."""
-_WORSE: Final = 4.0
-"""Half the sum of squares over that of the best start, above which another is left out."""
+_ALIKE: Final = 0.05  # parts of the ranges within which two smooth curves share one search for waves
+_HELD, _ROUGH = 6, 15  # steps in which starts are refined with the waves held, and the best of these with them
+_SPEEDS: Final = 4  # speeds that are tried
+_WORSE: Final = 4.0  # half the sum of squares over that of the best start, above which another is left out
 
 
 def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: int) -> list[Floats]:
@@ -80,7 +66,7 @@ def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: i
     found: list[Any] = []
     for base in distinct([first, again], smooth, _ALIKE):
         found += _wavy(few, smooth, base, count)
-        if few.is_noise(min(found, key=_COST).cost):
+        if few.is_noise(min(found, key=COST).cost):
             break
     return _kept(found, few, count)
 
@@ -94,15 +80,15 @@ def put(misfit: Misfit, vector: Floats, values: Mapping[str, float]) -> Floats:
     return changed
 
 
-def shares_of(misfit: Misfit, number: int, count: int) -> Floats:
+def shares_of(misfit: Misfit, name: str, count: int) -> Floats:
     """Return values of a number evenly within its range, none at its ends; shape (count,)."""
-    shares = (np.arange(count) + 0.5) / count
-    return np.asarray(misfit.low[number] + shares * (misfit.high[number] - misfit.low[number]))
+    i, shares = misfit.names.index(name), (np.arange(count) + 0.5) / count
+    return np.asarray(misfit.low[i] + shares * (misfit.high[i] - misfit.low[i]))
 
 
 def _kept(found: list[Any], few: Misfit, count: int) -> list[Floats]:
     """Return the best of some refined starts that differ, in order, without those that are far worse."""
-    best = sorted(found, key=_COST)
+    best = sorted(found, key=COST)
     return distinct([done.x for done in best if done.cost <= _WORSE * best[0].cost], few)[:count]
 
 
@@ -111,9 +97,9 @@ def _smooth(few: Misfit, load_zero: float, contact: float, seed: int) -> list[Fl
     lows, highs, names = few.low, few.high, few.names
     depths, works = np.array([0.0]), np.zeros(1)
     if DEPTH_ZERO in names:
-        depths = np.append(shares_of(few, names.index(DEPTH_ZERO), _CONTACTS), contact)
+        depths = np.append(shares_of(few, DEPTH_ZERO, _CONTACTS), contact)
     if _WORK in names:
-        works = shares_of(few, names.index(_WORK), _WORKS)
+        works = shares_of(few, _WORK, _WORKS)
     others = [i for i, name in enumerate(names) if name not in (*OFFSETS, *_MODULI, _WORK)]
     drawn = np.full((1, len(others)), 0.5)
     if others:
@@ -130,7 +116,7 @@ def _smooth(few: Misfit, load_zero: float, contact: float, seed: int) -> list[Fl
     found: list[Any] = []
     for vectors in (begun[rest:], sorted(begun[:rest], key=few.size)[:_KEPT]):
         found += [few.refined(vector, most=40, tolerance=1e-6) for vector in vectors]
-        if found and few.is_noise(min(found, key=_COST).cost):
+        if found and few.is_noise(min(found, key=COST).cost):
             break  # contact points elsewhere have a larger misfit
     return _kept(found, few, len(found))
 
@@ -142,7 +128,7 @@ def matched(misfit: Misfit, vector: Floats, load_zero: float) -> Floats:
     if i is None:
         return vector
     scene, m = model.scenes(vector[None]).one, model.profile.exponent
-    deepest, load = misfit.data.points[int(np.argmax(misfit.data.points[:, 0]))]
+    deepest, load = misfit.data[np.argmax(misfit.data[:, 0])]
     place = (max(float(deepest) - model.shift(vector)[0], 0.0) / scene.rise) ** (1.0 / m)
     power = 1.0 + scene.k
     pressed = scene.rise * place**m * scene.disc * place**power * m / (power + m)
@@ -181,29 +167,23 @@ def _wavy(few: Misfit, smooth: Misfit, base: Floats, count: int) -> list[Any]:
 
     `smooth` and `base` are the same loop without waves, and its best start.
     """
-    length, height = few.model.place_of(WAVELENGTHS), few.model.place_of(AMPLITUDES)
-    held = [i for i in (length, height) if i is not None]
-    heights = [None] if height is None else shares_of(few, height, _HEIGHTS)
+    length, height = (next((name for name in few.names if name in ways), "") for ways in (WAVELENGTHS, AMPLITUDES))
+    held = [few.names.index(name) for name in (length, height) if name]
+    heights = shares_of(few, height, _HEIGHTS) if height else [math.nan]
     middle = put(few, 0.5 * (few.low + few.high), dict(zip(smooth.names, base, strict=True)))
     found: list[Any] = []
-    for waves in [[None]] if length is None else _lengths(few, smooth, base, middle, length):
-        begun = []
-        for wave, swell in itertools.product(waves, heights):
-            vector = middle.copy()
-            for i, value in ((length, wave), (height, swell)):
-                if i is not None:
-                    vector[i] = value
-            begun.append(few.refined(_softened(few, vector), most=_HELD, held=held, tolerance=1e-4))
-        begun = sorted(begun, key=_COST)[:count]
-        found += [few.refined(done.x, most=_ROUGH, tolerance=1e-4) for done in begun]
-        if found and few.is_noise(min(found, key=_COST).cost):
+    for waves in _lengths(few, smooth, base, middle, length) if length else [[math.nan]]:
+        begun = [put(few, middle, {length: wave, height: swell}) for wave, swell in itertools.product(waves, heights)]
+        rough = [few.refined(_softened(few, vector), most=_HELD, held=held, tolerance=1e-4) for vector in begun]
+        found += [few.refined(done.x, most=_ROUGH, tolerance=1e-4) for done in sorted(rough, key=COST)[:count]]
+        if found and few.is_noise(min(found, key=COST).cost):
             break
     return found
 
 
-def _lengths(few: Misfit, smooth: Misfit, base: Floats, middle: Floats, i: int) -> list[Any]:
+def _lengths(few: Misfit, smooth: Misfit, base: Floats, middle: Floats, name: str) -> list[Floats]:
     """Return the logarithms of the wavelengths that are tried: those of the spectrum, and others over the range."""
-    drawn, scene = smooth.nearest(base).drawn, few.model.scenes(middle[None]).one
+    i, drawn, scene = few.names.index(name), smooth.nearest(base).drawn, few.model.scenes(middle[None]).one
     unit = scene.wavelength * scene.R / math.exp(middle[i])  # the wavelength in m of a number of 1
     low, high = math.exp(few.low[i]) * unit, math.exp(few.high[i]) * unit
     largest = 0.0 if drawn is None else float(drawn.radius.max())
@@ -229,10 +209,7 @@ def _softened(misfit: Misfit, vector: Floats) -> Floats:
 
 def _fast(few: Misfit, at_rest: Mapping[str, float]) -> list[Floats]:
     """Return starts of some speeds from the minimum of an edge at rest, the best first."""
-    known = few.model.searched(at_rest)
-    start = put(few, 0.5 * (few.low + few.high), known)
-    free = [i for i, name in enumerate(few.names) if name in SPEEDS]
-    vectors = np.tile(start, (_SPEEDS if free else 1, 1))
-    for i in free:
-        vectors[:, i] = shares_of(few, i, _SPEEDS)
+    start = put(few, 0.5 * (few.low + few.high), few.model.searched(at_rest))
+    tried = {name: shares_of(few, name, _SPEEDS) for name in few.names if name in SPEEDS}
+    vectors = [put(few, start, {name: row[i] for name, row in tried.items()}) for i in range(_SPEEDS if tried else 1)]
     return _kept([few.refined(vector, most=12, tolerance=1e-4) for vector in vectors], few, 3)

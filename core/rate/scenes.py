@@ -33,13 +33,11 @@ CLOSED: Final = ("turning_radius", "delta_max", "closing_energy", "pinned_depth"
 """The results of opening and closing, in the order of the rows."""
 _SLOWEST: Final = 1e-15
 """(V/v*)^n below which a step may pass the end of a branch unseen: the lag there is below rounding."""
-_AT_RIM: Final = 1.0 - 1e-9
-"""Part of the radius where it started beyond which an edge has not moved."""
+_AT_RIM: Final = 1.0 - 1e-9  # part of the radius where it started beyond which an edge has not moved
 _ENDS: Final = 1e-12
 """How far inwards opening is followed, over its start: at most as much of the energy remains. And where closing starts,
 over the shortest of wave, rim and the length of a smooth contact."""
-_LEFT: Final = 1e-13
-"""Remaining ln y that is left to the leading term where closing comes to rest."""
+_LEFT: Final = 1e-13  # remaining ln y that is left to the leading term where closing comes to rest
 
 
 @kernel
@@ -176,7 +174,7 @@ def move(
 
     `parameters` are those of `solve` of core/sweep.py, arrays (scenes,), and speed_over_reference V/v* > 0;
     a_max_over_R is where opening starts. `known` has profile, loading and threads as of `solve`. `points` is the length
-    of the track of the last scene, 0 if there is more than one. See ways.py for how an edge moves.
+    of the track of the last scene, 0 if there is more than one.
 
     Returns arrays (scenes,) by the names of `OPENED` or `CLOSED`: those of results of cycles, and opening_energy and
     closing_energy, int 2 pi a G da in R^2 dgamma. `status` (int16): pull_off_at_rim (the edge has moved by less than

@@ -26,19 +26,16 @@ _to_series: Final = np.linalg.inv(legendre.legvander(_t, STAGES - 1))
 _integral: Final = 0.5 * legendre.legval(_t, legendre.legint(np.eye(STAGES), lbnd=-1)).T @ _to_series
 NODES: Final = 0.5 + 0.5 * _t
 """Parts of a step at which its values are, the last one its end (Hairer & Wanner, Solving ODEs II, IV.5)."""
-_WEIGHTS: Final = np.ascontiguousarray(_integral[-1])
-"""The integral over a step of length h is h sum_j _WEIGHTS[j] f_j."""
+_WEIGHTS: Final = np.ascontiguousarray(_integral[-1])  # the integral over a step of length h is h sum_j _WEIGHTS[j] f_j
 _SLOPES: Final = np.linalg.inv(_integral)
 """Slopes at the nodes of the polynomial through them and 0 at the start are sum_j _SLOPES[i, j] f_j/h."""
 _TAIL: Final = np.ascontiguousarray(_to_series[-2:])
 """Of values at the nodes, the last two coefficients of the Legendre series through them; (2, STAGES)."""
-_TOLERANCE: Final = 1e-13
-"""Error of rho, and of the energy over that of a contact of the largest radius, in a step."""
+_TOLERANCE: Final = 1e-13  # error of rho, and of the energy over that of a contact of the largest radius, in a step
 _LOST, _KINK = 0.01, 8.0
 """Parts of the last coefficients that a step loses where the edge relaxes in it (order reduction), and at the kinks of
 the law, lag = 0 and rho = 0. From experiment: without, 1e-11 and 3e-9 of the force."""
-_CLOSE, _ROUNDING = 1e-7, 2.0**-50
-"""A change whose square is below rounding, and rounding."""
+_CLOSE, _ROUNDING = 1e-7, 2.0**-50  # a change whose square is below rounding, and rounding
 _LONGEST, _PART = 2.0, 0.25
 """Longest step in ln y, and in parts of the shortest wave: a slow edge follows the curve, and could miss a fold."""
 RADIUS, PACE, PUSH, LEVEL, DRAG, LAG, SLOW, BY_LAG, WORK = range(9)

@@ -17,7 +17,7 @@ from figures.fig8 import parts_of
 from figures.fig9 import fitted_curve
 from gradhesion.core import PARAMETERS, TURNS, solve
 from gradhesion.core.answers.flags import LINEAR_DEVIATION_OFF
-from gradhesion.core.equations import effective, energy, envelopes, jkr
+from gradhesion.core.equations import effective, envelopes, jkr
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.status import LOADING_NOT_ONE_DISC, PULL_OFF_AT_RIM
 
@@ -160,7 +160,7 @@ def test_the_effective_path_turns_at_the_greatest_depth_along_a_line_from_envelo
     np.testing.assert_allclose(load[EARLY], line, rtol=1e-11)
     assert path["contact_radius"][EARLY].tolist() == [turn, turn]
     # its area is the closed form, but for the chords of 200 points along each envelope
-    assert area(depth, load) == pytest.approx(float(energy.dissipated_energy(k, M, length, A, turn)), rel=CHORDS)
+    assert area(depth, load) == pytest.approx(float(effective.dissipated_energy(k, M, length, A, turn)), rel=CHORDS)
 
 
 def test_fig7_both_paths_turn_and_end_close_to_each_other(computed: Compute) -> None:
@@ -181,9 +181,9 @@ def test_fig8_the_two_parts_are_those_of_the_closed_form(computed: Compute) -> N
     dataset = computed("fig8")
     numbers = (dataset["k"].item(), material(dataset), dataset["lambda_over_R"].item(), dataset["A"].item())
     first, second = parts_of(dataset)
-    assert area(*first) == pytest.approx(float(energy.first_part(*numbers)), rel=CHORDS)
+    assert area(*first) == pytest.approx(float(effective.first_part(*numbers)), rel=CHORDS)
     assert area(*second) == pytest.approx(
-        float(energy.second_part(*numbers, dataset["a_max_over_R"].item())), rel=CHORDS
+        float(effective.second_part(*numbers, dataset["a_max_over_R"].item())), rel=CHORDS
     )
 
 

@@ -14,16 +14,13 @@ _Places = NDArray[np.intp]
 
 MOST: Final = 2000
 """Points that are fitted as they are; more are averaged to about as many means."""
-_BENT: Final = 2.5
-"""Standard deviations of noise by which blocks bend at most."""
-_TOGETHER: Final = 7
-"""Neighbouring blocks whose bends are tested together, since those of the curve have one sign."""
+_BENT: Final = 2.5  # standard deviations of noise by which blocks bend at most
+_TOGETHER: Final = 7  # neighbouring blocks whose bends are tested together, since those of the curve have one sign
 _JUMPS: Final = 6.0
 """Standard deviations of noise between neighbours, beside what they differ by as a rule, from which on it jumps."""
 _ORDER: Final = 6
 """Order of the differences of means that detect noise which is not white: bends of the curve are of lower order."""
-_SLOWER: Final = 1.2
-"""How much larger noise is then than that of neighbouring points, at least."""
+_SLOWER: Final = 1.2  # how much larger noise is then than that of neighbouring points, at least
 
 
 @dataclass(frozen=True, eq=False)

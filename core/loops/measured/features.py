@@ -11,18 +11,13 @@ import numpy as np
 
 from gradhesion.core.types import Floats, Truths
 
-_SIGMAS: Final = 3.0
-"""Standard deviations of the noise by which points of a base line scatter at most, drift included."""
-_WHITE: Final = 1.05
-"""Standard deviations by which they scatter without drift, apart from chance."""
-_FLAT: Final = 0.05
-"""Slope over the mean slope of the loop: a steeper line is no base line."""
+_SIGMAS: Final = 3.0  # standard deviations of the noise by which points of a base line scatter at most, drift included
+_WHITE: Final = 1.05  # standard deviations by which they scatter without drift, apart from chance
+_FLAT: Final = 0.05  # slope over the mean slope of the loop: a steeper line is no base line
 _DOUBT: Final = 2.5
 """Error of a slope over that mean slope: with a larger one the points are too close together to be called flat."""
-_LEAST: Final = 6
-"""Least number of points of a base line."""
-_CLEAR: Final = 5.0
-"""Standard deviations from the base line at which contact is certain."""
+_LEAST: Final = 6  # least number of points of a base line
+_CLEAR: Final = 5.0  # standard deviations from the base line at which contact is certain
 
 
 @dataclass(frozen=True)
@@ -60,9 +55,8 @@ def _flat_part(depth: Floats, load: Floats, noise: float, steep: float) -> int:
         return 0
     number = np.arange(1.0, count + 1.0)
     x, y = depth - depth[0], load - load[0]
-    sums = [np.cumsum(part) for part in (x, y, x * x, x * y, y * y)]
-    mx, my = sums[0] / number, sums[1] / number
-    xx, xy, yy = sums[2] / number - mx * mx, sums[3] / number - mx * my, sums[4] / number - my * my
+    mx, my, xx, xy, yy = np.cumsum([x, y, x * x, x * y, y * y], axis=1) / number
+    xx, xy, yy = xx - mx * mx, xy - mx * my, yy - my * my
     with np.errstate(all="ignore"):
         slope = np.where(xx > 0.0, xy / xx, 0.0)
         scatter = np.sqrt(np.maximum(yy - slope * xy, 0.0) * number / np.maximum(number - 2.0, 1.0))
@@ -84,11 +78,6 @@ def _flat_part(depth: Floats, load: Floats, noise: float, steep: float) -> int:
     return int(begun[0]) if begun.size and begun[0] >= _LEAST else last + 1
 
 
-def _by_depth(points: Floats, own: Truths) -> Floats:
-    """Return those of the points (n, 2) that are on one branch, (n,), in order of depth."""
-    return points[own][np.argsort(points[own, 0], kind="stable")]
-
-
 def base_line(points: Floats, back: Truths, noise: float) -> BaseLine | None:
     """Find the line of no load of a loop; None where no branch has one.
 
@@ -105,7 +94,8 @@ def base_line(points: Floats, back: Truths, noise: float) -> BaseLine | None:
     steep = _FLAT * float(span[1] / span[0]) if span[0] > 0.0 else 0.0
     parts, ends = [], []
     for way in (False, True):
-        own = _by_depth(points, back == way)
+        own = points[back == way]
+        own = own[np.argsort(own[:, 0], kind="stable")]
         count = _flat_part(own[:, 0], own[:, 1], noise, steep)
         parts.append(own[:count])
         ends.append(float(own[count - 1, 0]) if count else float("nan"))
@@ -116,10 +106,9 @@ def base_line(points: Floats, back: Truths, noise: float) -> BaseLine | None:
     if np.isnan(ends[0]) and mean[1] - float(points[:, 1].min()) < _CLEAR * noise:
         return None  # flat at the pull-off, the lowest load of all
     away = flat - mean
-    across = float(away[:, 0] @ away[:, 0])
-    slope = float(away[:, 0] @ away[:, 1]) / across if across > 0.0 else 0.0
-    rest = away[:, 1] - slope * away[:, 0]
-    error = float(rest.std()) / across**0.5 if across > 0.0 else float("inf")
+    across = max(float(away[:, 0] @ away[:, 0]), float(np.finfo(float).tiny))
+    slope = float(away[:, 0] @ away[:, 1]) / across
+    error = float((away[:, 1] - slope * away[:, 0]).std()) / across**0.5
     return BaseLine(float(mean[1]), float(away[:, 1].std()), slope, error, (ends[0], ends[1]), float(mean[0]))
 
 

@@ -7,12 +7,10 @@ import numpy as np
 from gradhesion.core.loops.measured.points import FEWEST
 from gradhesion.core.types import Floats, Truths
 
-_END: Final = 0.1
-"""Length of an end of the depths, in parts of their span."""
+_END: Final = 0.1  # length of an end of the depths, in parts of their span
 _STRAIGHT: Final = 5.0
 """Standard deviations of chi square about a straight line, up to which the data are a straight line."""
-_FLAT: Final = 0.03
-"""Largest change of the load over a flat end of the depths, in parts of its span."""
+_FLAT: Final = 0.03  # largest change of the load over a flat end of the depths, in parts of its span
 _JUMPS: Final = 0.13
 """Scatter about a straight line, over the change along it, above which an end is no curve: it has a jump."""
 _WORDS: Final = {(False, True): "load", (True, True): "depth", (True, False): "both"}

@@ -14,22 +14,16 @@ _Places = NDArray[np.intp]
 
 TURN: Final = 0.2
 """How far the depth moves back at a turn, in parts of its span: noise, drift and creep in a pause are less."""
-_STILL: Final = 8.0
-"""Standard deviations of the depth within which a point has not moved."""
-_BLOCKS: Final = 4096
-"""Blocks of points whose extremes are searched for turns: a search of all would take minutes."""
-_TIE: Final = 1e-9
-"""Part of a turn that decides between equal depths."""
-_SPIKE: Final = 3
-"""Points of the running median, which removes a spike."""
+_STILL: Final = 8.0  # standard deviations of the depth within which a point has not moved
+_BLOCKS: Final = 4096  # blocks of points whose extremes are searched for turns: a search of all would take minutes
+_TIE: Final = 1e-9  # part of a turn that decides between equal depths
+_SPIKE: Final = 3  # points of the running median, which removes a spike
 FEWEST: Final = 40
 """Number of points below which nothing is said of their order."""
 _COARSE: Final = 0.12
 """Median step between neighbours, in parts of the span of the depth, from which on points are in no order."""
-_SORTED: Final = 0.05
-"""The same of one branch: to sort it by depth does no harm from there on."""
-_OF_NORMAL: Final = 0.6744897501960817
-"""The median of the absolute value of a normal variable of unit variance."""
+_SORTED: Final = 0.05  # the same of one branch: to sort it by depth does no harm from there on
+_OF_NORMAL: Final = 0.6744897501960817  # the median of the absolute value of a normal variable of unit variance
 
 
 def ways(depth: Floats, cycle: _Ints | None = None) -> tuple[Truths, _Ints]:

@@ -12,11 +12,8 @@ import numpy as np
 from gradhesion.core.jit import kernel
 from gradhesion.core.types import Floats, Integers, Truths
 
-_BLOCK: Final = 16
-"""Pieces in a box: where a box is further from a point than the nearest piece so far, all of them are skipped."""
-
-_STEPS: Final = 5
-"""Steps of Newton to the foot on a curve, the first of them to that on its chord."""
+_BLOCK: Final = 16  # pieces in a box: of one further away than the nearest piece so far all are skipped
+_STEPS: Final = 5  # steps of Newton to the foot on a curve, the first of them to that on its chord
 _LEAST: Final = 0.5
 """Least change of the slope that they divide by, over that of a straight line: it is 0 at the centre of curvature."""
 
@@ -53,23 +50,8 @@ class Feet:
 
 
 @kernel
-def _boxes(chain: Floats) -> Floats:
-    """Return the lowest x and y, then the highest, of each block of the pieces of a chain (m, 2): (blocks, 4)."""
-    pieces = chain.shape[0] - 1
-    boxes = np.empty(((pieces + _BLOCK - 1) // _BLOCK, 4))
-    for block in range(boxes.shape[0]):
-        first, last = block * _BLOCK, min((block + 1) * _BLOCK, pieces)
-        for axis in range(2):
-            low = high = chain[first, axis]
-            for i in range(first + 1, last + 1):
-                low, high = min(low, chain[i, axis]), max(high, chain[i, axis])
-            boxes[block, axis], boxes[block, axis + 2] = low, high
-    return boxes
-
-
-@kernel
 def _nearest(x: float, y: float, chain: Floats, boxes: Floats, guess: int) -> tuple[int, float]:
-    """Return the piece of a chain (m, 2) that is nearest to a point, and how far along it; blocks as of `_boxes`."""
+    """Return the piece of a chain (m, 2) that is nearest to a point, and how far along it; box `guess` comes first."""
     best, piece, share = np.inf, 0, 0.0
     for turn in range(boxes.shape[0]):
         block = guess if turn == 0 else turn - 1 if turn <= guess else turn
@@ -123,16 +105,24 @@ def _on_piece(
 
 @kernel
 def _feet(
-    points: Floats, chain: Floats, tangents: Floats, curved: Truths, distance: Floats, piece: Integers, share: Floats,
-    normal: Floats, bent: Truths,
-) -> None:  # fmt: skip
-    """Fill the fields of `Feet`, from distance (n,) to bent (n,), of points (n, 2) to a chain (m, 2)."""
-    boxes, last, guess = _boxes(chain), chain.shape[0] - 2, 0
+    points: Floats, chain: Floats, tangents: Floats, curved: Truths
+) -> tuple[Floats, Integers, Floats, Floats, Truths]:
+    """Return the fields of `Feet`; arguments are as to `feet`."""
+    count, last = points.shape[0], chain.shape[0] - 2
+    distance, piece, share = np.full(count, np.inf), np.zeros(count, np.int64), np.zeros(count)
+    normal, bent, guess = np.zeros((count, 2)), np.zeros(count, np.bool_), 0
+    boxes = np.full((last // _BLOCK + 1, 4), -np.inf)  # the lowest x and y of some pieces, then the highest
+    boxes[:, :2] = np.inf
+    for i in range(last + 1):
+        box = boxes[i // _BLOCK]
+        for axis in range(2):
+            box[axis] = min(box[axis], chain[i, axis], chain[i + 1, axis])
+            box[axis + 2] = max(box[axis + 2], chain[i, axis], chain[i + 1, axis])
     for j in range(points.shape[0]):
         i, t = _nearest(points[j, 0], points[j, 1], chain, boxes, guess)
         guess = i // _BLOCK
         other = min(i + 1, last) if t == 1.0 else max(i - 1, 0)
-        piece[j], share[j], distance[j] = i, t, np.inf
+        piece[j], share[j] = i, t
         for near in range(1 if 0.0 < t < 1.0 else 2):  # between two chords the foot may be on the curve over either
             on = other if near else i
             found = _on_piece(points[j], chain, tangents, curved, on)
@@ -153,6 +143,7 @@ def _feet(
         size, sign = np.hypot(left, over), -1.0 if across * left + up * over < 0.0 else 1.0
         distance[j] = sign * size
         normal[j, 0], normal[j, 1] = (sign * left / size, sign * over / size) if size > 0.0 else (across, up)
+    return distance, piece, share, normal, bent
 
 
 def feet(points: Floats, chain: Floats, tangents: Floats | None = None, curved: Truths | None = None) -> Feet:
@@ -166,13 +157,6 @@ def feet(points: Floats, chain: Floats, tangents: Floats | None = None, curved: 
     >>> feet(np.array([[0.5, 1.0], [0.5, -2.0], [3.0, 0.0]]), np.array([[0.0, 0.0], [1.0, 0.0]])).distance.tolist()
     [1.0, -2.0, 2.0]
     """
-    count = points.shape[0]
-    bent = np.zeros(chain.shape[0], bool) if curved is None else curved
-    distance, piece, share, normal = np.empty(count), np.empty(count, np.int64), np.empty(count), np.empty((count, 2))
-    inside = np.empty(count, bool)
-    _feet(
-        np.ascontiguousarray(points), np.ascontiguousarray(chain),
-        np.ascontiguousarray(chain if tangents is None else tangents), np.ascontiguousarray(bent),
-        distance, piece, share, normal, inside,
-    )  # fmt: skip
-    return Feet(distance, piece, share, normal, inside)
+    straight = np.zeros(chain.shape[0], bool)
+    rows = points, chain, chain if tangents is None else tangents, straight if curved is None else curved
+    return Feet(*_feet(*map(np.ascontiguousarray, rows)))

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -13,26 +14,10 @@ from gradhesion.core.loops.paths.motion import moving
 from gradhesion.core.loops.paths.path import LoopModel, LoopPath
 from gradhesion.core.types import Floats, Truths
 
-_STEP: Final = 1e-5
-"""Step of differences of paths, in parts of a range."""
-_CLEAR: Final = 4.0
-"""Standard deviations of chi square within which a misfit is noise."""
+_STEP: Final = 1e-5  # step of differences of paths, in parts of a range
+_CLEAR: Final = 4.0  # standard deviations of chi square within which a misfit is noise
 LOST: Final = 1e3
 """Distance, in standard deviations, of every point where a scene has no path."""
-
-
-class Data(NamedTuple):
-    """The points of a loop.
-
-    Rows of depth in m (of the machine's displacement, if that is measured) and load in N, of shape (n, 2); whether each
-    belongs to unloading; the standard deviations of depth and load of one raw point; and of how many of these each is
-    the mean.
-    """
-
-    points: Floats
-    back: Truths
-    noise: tuple[float, float]
-    counts: Floats
 
 
 class Nearest(NamedTuple):
@@ -43,28 +28,39 @@ class Nearest(NamedTuple):
     drawn: LoopPath | None
 
 
+@dataclass(eq=False)
 class Misfit:
     """The points of a loop in units of their noise, the model of its path, and the ends of the range of each number."""
 
-    def __init__(self, data: Data, model: LoopModel, low: Floats, high: Floats) -> None:
-        self.data, self.scale = data, np.array(data.noise)
-        self.points, self.weights = data.points / self.scale, np.sqrt(data.counts)
-        self.model, self.names, self.low, self.high = model, model.names, low, high
-        self.turn = [place for place, name in enumerate(model.names) if name == TURN]
+    data: Floats
+    """Rows of depth in m (of the machine's displacement, if that is measured) and load in N, of shape (n, 2)."""
+    back: Truths
+    """Whether each belongs to unloading."""
+    noise: tuple[float, float]
+    """The standard deviations of depth and load of one raw point."""
+    counts: Floats
+    """Of how many of these each is the mean."""
+    model: LoopModel
+    low: Floats
+    high: Floats
+
+    def __post_init__(self) -> None:
+        self.scale, self.names, self.weights = np.array(self.noise), self.model.names, np.sqrt(self.counts)
+        self.points = self.data / self.scale
+        self.turn = [place for place, name in enumerate(self.names) if name == TURN]
         """The place of the turn, which is likely near the middle of its range: one more residual says so."""
         self._kept = Nearest(b"", [], None)
 
     def thinned(self, count: int) -> "Misfit":
         """Return the misfit of about this many of the points, evenly."""
-        some = slice(None, None, max(1, self.points.shape[0] // count))
-        points, back, noise, counts = self.data
-        return Misfit(Data(points[some], back[some], noise, counts[some]), self.model, self.low, self.high)
+        some = slice(None, None, max(1, len(self.data) // count))
+        return replace(self, data=self.data[some], back=self.back[some], counts=self.counts[some])
 
     def without(self, names: Sequence[str], **more: float) -> "Misfit":
         """Return the misfit of the loop less some numbers, with others fixed."""
         model = self.model.without(names, **more)
         use = [self.names.index(name) for name in model.names]
-        return Misfit(self.data, model, self.low[use], self.high[use])
+        return replace(self, model=model, low=self.low[use], high=self.high[use])
 
     def named(self, vector: Floats) -> dict[str, float]:
         """Give the numbers their names and units."""
@@ -77,7 +73,7 @@ class Misfit:
             if (drawn := self._kept.drawn) is not None:
                 chain, tangents = drawn.places / self.scale, drawn.tangents / self.scale
                 up, down = slice(0, drawn.turn + 1), slice(drawn.turn, len(chain))
-                for own, piece in ((~self.data.back, up), (self.data.back, down)):
+                for own, piece in ((~self.back, up), (self.back, down)):
                     near = feet(self.points[own], chain[piece], tangents[piece], drawn.curved[piece])
                     self._kept.branches.append((own, piece, near))
         return self._kept
@@ -92,8 +88,11 @@ class Misfit:
 
     def jacobian(self, vector: Floats) -> Floats:
         """Return the derivatives of the residual, of shape (points, numbers)."""
-        if self.model.by_differences:
-            return self._differences(vector)
+        if self.model.by_differences:  # central ones, of one side at the end of a range
+            steps = np.diag(_STEP * (self.high - self.low))
+            ends = [(np.minimum(vector + step, self.high), np.maximum(vector - step, self.low)) for step in steps]
+            changes = [(self.residual(above) - self.residual(below)) / np.sum(above - below) for above, below in ends]
+            return np.column_stack(changes)
         found, (_, branches, drawn) = np.zeros((self.weights.size, vector.size)), self.nearest(vector)
         if drawn is not None:
             begun = np.concatenate([piece.start + near.piece for _, piece, near in branches])
@@ -113,13 +112,6 @@ class Misfit:
         count = self.weights.size
         return 2.0 * cost <= count + _CLEAR * math.sqrt(2.0 * count)
 
-    def _differences(self, vector: Floats) -> Floats:
-        """Return the derivatives of the distances by central differences, of one side at the end of a range."""
-        steps = np.diag(_STEP * (self.high - self.low))
-        ends = [(np.minimum(vector + step, self.high), np.maximum(vector - step, self.low)) for step in steps]
-        changes = [(self.residual(above) - self.residual(below)) / np.sum(above - below) for above, below in ends]
-        return np.column_stack(changes)
-
     def refined(self, start: Floats, *, most: int = 60, held: Sequence[int] = (), tolerance: float = 1e-8) -> Any:
         """Refine a start within the ranges, the numbers `held` fixed; as of `least_squares`, `x` with all numbers."""
         searched = np.setdiff1d(np.arange(start.size), held)
@@ -130,16 +122,11 @@ class Misfit:
             vector[searched] = part
             return vector
 
+        margin = 1e-6 * (high - low)
         done = least_squares(
-            lambda part: self.residual(whole(part)),
-            np.clip(start[searched], low + 1e-6 * (high - low), high - 1e-6 * (high - low)),
-            jac=lambda part: self.jacobian(whole(part))[:, searched],
-            bounds=(low, high),
-            x_scale="jac",
-            xtol=tolerance,
-            ftol=tolerance,
-            gtol=1e-10,
-            max_nfev=most,
-        )
+            lambda part: self.residual(whole(part)), np.clip(start[searched], low + margin, high - margin),
+            jac=lambda part: self.jacobian(whole(part))[:, searched], bounds=(low, high), x_scale="jac",
+            xtol=tolerance, ftol=tolerance, gtol=1e-10, max_nfev=most,
+        )  # fmt: skip
         done.x = whole(done.x)
         return done

@@ -116,7 +116,7 @@ class Model:
 
     def given(self, own: Mapping[str, Any]) -> dict[str, Any]:
         """Join the searched and the fixed numbers, with defaults without effect for what is left out."""
-        given = dict(self.fixed) | {name: value for name, value in own.items() if name not in (*OFFSETS, TURN)}
+        given = {name: value for name, value in {**self.fixed, **own}.items() if name not in (*OFFSETS, TURN)}
         return {name: one for name, one in _WITHOUT_EFFECT.items() if not WAYS[name].keys() & given.keys()} | given
 
     def scenes(self, vectors: Floats) -> Scenes:
@@ -150,14 +150,13 @@ class Model:
         k, R, m = scenes.k, scenes.R, self.profile.exponent
         a = radius / R
         flat, smooth = scenes.disc * a ** (1.0 + k), scenes.rise * a**m
-        first, second, third = self._waves(scenes, radius)
+        depth, moment, rise = self._waves(scenes, radius)
         tough, more = self._toughness(scenes, a)
         pull = edge * scenes.adhesion * a ** (0.5 * (1.0 - k))
         less, pull = pull * (0.5 * (1.0 - k) / a * tough + more), pull * tough
-        grows = m * smooth / a + R * third
-        depth = smooth + R * a * first - pull
-        load = flat * (smooth * (m / (1.0 + k + m)) + R * a * (first - second) - pull)
-        depth_rate, load_rate = grows - less, flat * (grows - less - pull * (1.0 + k) / a)
+        load = flat * (smooth * (m / (1.0 + k + m)) + depth - moment - pull)
+        depth, depth_rate = smooth + depth - pull, (m * smooth + rise) / a - less
+        load_rate = flat * (depth_rate - pull * (1.0 + k) / a)
         soft = scenes.compliance
         rows = depth + soft * load, load, (depth_rate + soft * load_rate) / R, load_rate / R
         return np.array(np.broadcast_arrays(*rows))
@@ -168,32 +167,19 @@ class Model:
         return 1.0 + scenes.compliance * stiffness, stiffness
 
     def _waves(self, scenes: Scenes, radius: Floats) -> Any:
-        """Return what the waves add to delta_H/a, I/a^(2+k) and d delta_H/da; those of equal waves from one pass."""
+        """Return what the waves add to delta_H, to I/a^(1+k) and to a delta_H'; those of equal waves from one pass."""
         if not self.has_waves:
             return 0.0, 0.0, 0.0
-        k, length = np.broadcast_arrays(scenes.k, scenes.wavelength * scenes.R)
-        if not k.ndim:
-            return scenes.A * self._sums(scenes.k, radius / length)
+        length, waves = scenes.wavelength * scenes.R, [(one.n, -one.cos, one.sin) for one in self.profile.harmonics]
+        if not np.ndim(scenes.k):
+            return scenes.A * length * np.array(hertz.wave_terms(scenes.k, radius / length, 1.0, waves))
         known: dict[tuple[float, bytes], Floats] = {}
         rows = []
-        for exponent, x in zip(k[:, 0].tolist(), radius / length, strict=True):
-            key = exponent, x.tobytes()
-            known[key] = known[key] if key in known else self._sums(exponent, x)
+        for k, x in zip(scenes.k[:, 0].tolist(), radius / length, strict=True):
+            key = k, x.tobytes()
+            known[key] = known[key] if key in known else np.array(hertz.wave_terms(k, x, 1.0, waves))
             rows.append(known[key])
-        return scenes.A * np.stack(rows, axis=1)
-
-    def _sums(self, k: float, x: Floats) -> Floats:
-        """Return the sums over the waves of a unit amplitude that `_waves` needs, at radii in wavelengths: (3, n)."""
-        sums = np.zeros((3, x.size))
-        for wave in self.profile.harmonics:
-            size = 2.0 * math.pi * wave.n
-            if wave.cos:
-                s0, s1, rate, _ = hertz.sine_integrals(k, wave.n * x)
-                sums += size * wave.cos * np.array([s0, s1, s0 + size * x * rate])
-            if wave.sin:
-                c0, c1 = hertz.cosine_integrals(k, wave.n * x)
-                sums += size * wave.sin * np.array([c0, c1, c0 - (size * x) ** 2 * c1 / (1.0 + k)])
-        return sums
+        return scenes.A * length * np.stack(rows, axis=1)
 
     def _toughness(self, scenes: Scenes, a: Floats) -> tuple[Any, Any]:
         """Return the toughness at radii over R, over its mean, and how it grows with them."""

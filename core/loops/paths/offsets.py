@@ -1,16 +1,11 @@
 """The zeros of an instrument: which of depth and load are fitted, fixed or found beforehand, and a tilt of the load."""
 
-import math
 from dataclasses import dataclass
 from typing import Final, Literal
 
 NAMES: Final = ("indentation_offset", "load_offset", "load_slope")
 DEPTH_ZERO, LOAD_ZERO, TILT = NAMES
 """What is added to a path: to its depth (m), to its load (N), and to its load for each metre of depth (N/m)."""
-CONTACT: Final = "contact"
-"""The zero of depth at the contact point, which is found before the fit."""
-FREE: Final = "free"
-"""A zero that is searched over the whole range that the data allow."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -19,20 +14,11 @@ class Offsets:
 
     measured depth = depth + indentation_offset, measured load = load + load_offset + load_slope * measured depth.
 
-    Parameters
-    ----------
-    indentation
-        "free" within the span of the depths, searched from low to high (m), at the "contact" point that is found
-        beforehand, or False: the zero of depth is right.
-    load
-        "free" within the spread of the base line and the pull-off force, searched from low to high (N), or False.
-    slope
-        Whether the base line is tilted.
-
-    Raises
-    ------
-    ValueError
-        Another word, or ends that do not rise.
+    indentation   "free" within the span of the depths, searched from low to high (m), at the "contact" point that is
+                  found beforehand, or False: the zero of depth is right
+    load          "free" within the spread of the base line and the pull-off force, searched from low to high (N), or
+                  False
+    slope         whether the base line is tilted
 
     Examples
     --------
@@ -42,26 +28,12 @@ class Offsets:
     ('load_offset', 'load_slope')
     """
 
-    indentation: Literal["free", "contact", False] | tuple[float, float] = FREE
-    load: Literal["free", False] | tuple[float, float] = FREE
+    indentation: Literal["free", "contact", False] | tuple[float, float] = "free"
+    load: Literal["free", False] | tuple[float, float] = "free"
     slope: bool = False
-
-    def __post_init__(self) -> None:
-        for name, words in (("indentation", (FREE, CONTACT)), ("load", (FREE,))):
-            value = getattr(self, name)
-            if value is False or (isinstance(value, str) and value in words):
-                continue
-            ends = isinstance(value, tuple) and len(value) == 2 and all(map(math.isfinite, value))
-            if not ends or not value[0] < value[1]:
-                known = ", ".join(f'"{word}"' for word in words)
-                raise ValueError(f"{name} = {value!r}: it is {known}, False, or the rising ends of a range")
 
     @property
     def names(self) -> tuple[str, ...]:
         """What is fitted, in the order of a fit."""
-        fitted = (self.indentation not in (CONTACT, False), self.load is not False, self.slope)
+        fitted = (self.indentation not in ("contact", False), self.load is not False, self.slope)
         return tuple(name for name, own in zip(NAMES, fitted, strict=True) if own)
-
-
-NO_OFFSETS: Final = Offsets(indentation=False, load=False)
-"""Both zeros are right."""

@@ -15,18 +15,13 @@ from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.loops.paths.walk import between, climb, met
 from gradhesion.core.types import Floats, Truths
 
-_A_WAVE: Final = 60
-"""Radii of the grid within the shortest wave: the cubics between them are off by 3e-7 of its height."""
-_SMOOTH: Final = 200
-"""Radii of the grid without waves, each a fixed part further out than the last."""
-_SMALLEST: Final = 0.02
-"""Smallest radius of the grid, in radii at which adhesion outweighs the curvature of the punch."""
-_MOST: Final = 400_000
-"""Radii of the grid at most."""
+_A_WAVE: Final = 60  # radii of the grid within the shortest wave: the cubics between them are off by 3e-7 of its height
+_SMOOTH: Final = 200  # radii of the grid without waves, each a fixed part further out than the last
+_SMALLEST: Final = 0.02  # smallest radius of the grid, in radii at which adhesion outweighs the curvature of the punch
+_MOST: Final = 400_000  # radii of the grid at most
 _REACH: Final = (1.25, 2.5, 10.0)
 """How far the grid reaches, in radii of contact without adhesion at the turn: the next if one is not enough."""
-_BY_LOAD: Final = (0.0, 1.0)
-"""What loading turns at, as parts of displacement and load."""
+_BY_LOAD: Final = (0.0, 1.0)  # what loading turns at, as parts of displacement and load
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +78,8 @@ class LoopModel(Model):
 
     def shift(self, vector: Floats) -> tuple[float, ...]:
         """Return the zeros of depth and load, and the tilt, of a vector."""
-        return tuple(float(vector[self.names.index(name)]) if name in self.names else 0.0 for name in OFFSETS)
+        own = dict(zip(self.names, vector.tolist(), strict=True))
+        return tuple(own.get(name, self.fixed.get(name, 0.0)) for name in OFFSETS)
 
     def path(self, vector: Floats) -> LoopPath | None:
         """Draw the path; None where the scene has none."""
@@ -96,9 +92,8 @@ class LoopModel(Model):
             aim = _BY_LOAD
         elif not self.turns:
             aim = _BY_LOAD if self.driven else (1.0, 0.0)
-            target = self.furthest[self.driven] - (load + tilt * self.furthest[0] if self.driven else depth)
-            if TURN in self.names:
-                target += float(vector[self.names.index(TURN)]) - self.furthest[self.driven]
+            turned = dict(zip(self.names, vector.tolist(), strict=True)).get(TURN, self.furthest[self.driven])
+            target = turned - (load + tilt * self.furthest[0] if self.driven else depth)
         with np.errstate(all="ignore"):
             drawn = self._drawn(scene, target, aim, self.first - depth)
         if drawn is None or not np.isfinite(drawn.places).all():

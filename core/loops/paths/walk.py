@@ -17,8 +17,7 @@ import numpy as np
 from gradhesion.core.jit import kernel
 from gradhesion.core.types import Floats, Truths
 
-_NEWTON: Final = 4
-"""Steps to the root of a cubic from that of its chord: they double the digits."""
+_NEWTON: Final = 4  # steps to the root of a cubic from that of its chord: they double the digits
 
 
 @kernel
@@ -51,26 +50,19 @@ def _crossing(low: float, high: float, begin: float, end: float, target: float) 
     return share
 
 
-@kernel
 def met(radius: Floats, states: Floats, jump: Truths, aim: tuple[float, float], target: float) -> tuple[int, float]:
     """Return where parts `aim` of displacement and load first reach a target on the way of `climb`.
 
     A place and the share of the way to it from the one before, 1 where a jump to it passes the target; the number of
     places if it is not reached.
     """
-    for i in range(radius.size):
-        level = aim[0] * states[0, i] + aim[1] * states[1, i]
-        if level >= target:
-            if i == 0 or jump[i]:
-                return i, 1.0
-            low = aim[0] * states[0, i - 1] + aim[1] * states[1, i - 1]
-            width = radius[i] - radius[i - 1]
-            begin, end = (
-                width * (aim[0] * states[2, i - 1] + aim[1] * states[3, i - 1]),
-                width * (aim[0] * states[2, i] + aim[1] * states[3, i]),
-            )
-            return i, _crossing(low, level, begin, end, target)
-    return radius.size, 1.0
+    level = np.array(aim) @ states[:2]
+    reached = np.flatnonzero(level >= target)
+    at = int(reached[0]) if reached.size else radius.size
+    if at in (0, radius.size) or jump[at]:
+        return at, 1.0
+    begin, end = (radius[at] - radius[at - 1]) * (np.array(aim) @ states[2:, at - 1 : at + 1])
+    return at, _crossing(level[at - 1], level[at], begin, end, target)
 
 
 @kernel

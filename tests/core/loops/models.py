@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core import draw_curves
-from gradhesion.core.loops.paths.misfit import Data, Misfit
+from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.model import LINEAR
 from gradhesion.core.loops.paths.path import LoopModel, LoopPath
 from gradhesion.core.problem.control import Loading
@@ -108,4 +108,4 @@ def misfit_of(
     model: LoopModel, here: Array, spots: Array, back: Array, *, count: float = 1.0, wide: float = 1e3
 ) -> Misfit:
     """The misfit of some points, with ranges so far away."""
-    return Misfit(Data(spots, back, NOISE, np.full(len(spots), count)), model, here - wide, here + wide)
+    return Misfit(spots, back, NOISE, np.full(len(spots), count), model, here - wide, here + wide)

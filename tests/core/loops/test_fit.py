@@ -9,7 +9,7 @@ import pytest
 from gradhesion.core import draw_curves
 from gradhesion.core.loops.fit import fit_loop
 from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop, poor_from
-from gradhesion.core.loops.paths.offsets import NO_OFFSETS, Offsets
+from gradhesion.core.loops.paths.offsets import Offsets
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
 from gradhesion.core.problem.toughness import Rate
 from tests.core.loops.models import CASES, SCENE, TURN, UNIT, Array, R
@@ -20,6 +20,7 @@ SMOOTH = {"k": 0.0, "nu": NU, "A": 0.0, "R": R}
 PULL = 1.5 * math.pi * R * WORK
 TRUE = {"E_star": E_STAR, "work_of_adhesion": WORK}
 RATE = Rate(exponent=0.6)
+NO_OFFSETS = Offsets(indentation=False, load=False)
 
 
 def ball(
@@ -74,6 +75,10 @@ def test_the_zero_of_depth_at_the_contact_point_and_a_tilt() -> None:
     *points, noise = ball(6, zero=(4e-7, 0.0), tilt=0.02)
     found = fit_loop(*points, SMOOTH, FREE, noise=noise, offsets=Offsets(slope=True))
     holds(found, TRUE | {"load_slope": 0.02})
+    found = fit_loop(*points, SMOOTH, FREE, noise=noise, offsets=Offsets(indentation="contact", slope=True))
+    assert found.contact is not None
+    level = found.values["load_offset"] + found.values["load_slope"] * found.contact.depth
+    assert level == pytest.approx(0.02 * 4e-7, abs=2e-9), "the tilt is that of the measured depth"
     *points, noise = ball(6, zero=(4e-7, 0.0))
     found = fit_loop(*points, SMOOTH, FREE, noise=noise, offsets=Offsets(indentation="contact"))
     assert found.contact is not None
@@ -219,30 +224,3 @@ def test_the_speed_of_the_edge_or_its_exponent_comes_back_with_the_material(
     )  # fmt: skip
     holds(found, TRUE | {one: value})
     assert all(found.standard_deviations[name] < 0.2 * found.values[name] for name in found.names)
-
-
-D, P, U = 1e-8 * np.array([0, 1, 2, 1, 0, -1]), 1e-8 * np.array([-1, 0, 1, 0, -1, -2]), np.arange(6) > 2
-WRONG: dict[str, tuple[dict[str, Any], str]] = {
-    "few points": ({"indentation": D[:4], "load": P[:4], "unloading": U[:4]}, "4 points cannot give 4 numbers"),
-    "nan": ({"load": P * np.nan}, "finite numbers"),
-    "lengths": ({"unloading": U[:5]}, "one length"),
-    "noise": ({"noise": (0.0, 1e-9)}, "both standard deviations are above 0"),
-    "range falls": ({"free": {"E_star": (1e8, 1e6)}}, "E_star: the ends"),
-    "range from 0": ({"free": {"E_star": (0.0, 1e6)}}, "above 0"),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("name", WRONG)
-def test_what_cannot_be_fitted_is_refused(name: str) -> None:
-    change, words = WRONG[name]
-    given = {"indentation": D, "load": P, "unloading": U, "fixed": SMOOTH, "free": FREE, "noise": (1e-10, 1e-9)}
-    with pytest.raises(ValueError, match=words):
-        fit_loop(**(given | change))
-
-
-@pytest.mark.parametrize("name", ["indentation", "load"])
-@pytest.mark.parametrize("wrong", ["fre", (1.0, 1.0), (0.0, math.inf), (1.0,)])
-def test_what_is_no_zero_is_refused(name: str, wrong: Any) -> None:
-    for given in ({name: wrong}, {"indentation": True}, {"load": "contact"}):
-        with pytest.raises(ValueError, match="or the rising ends of a range"):
-            Offsets(**given)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gradhesion.core.loops.paths.misfit import LOST, Data, Misfit
+from gradhesion.core.loops.paths.misfit import LOST, Misfit
 from gradhesion.core.loops.paths.offsets import NAMES
 from tests.core.loops.models import CASES, NOISE, Array, R, misfit_of, path_of, vector
 
@@ -113,8 +113,8 @@ def test_works_of_closing_down_to_0_have_derivatives() -> None:
     model = CASES["closing ratio 0"].model(("E_star", "closing_ratio"))
     here = vector(model, closing_ratio=0.0)
     drawn = path_of(model, here)
-    data = Data(drawn.places, np.arange(len(drawn.places)) > drawn.turn, NOISE, np.ones(len(drawn.places)))
-    slopes = Misfit(data, model, here - 0.1, here + 1.0).jacobian(here)
+    data = drawn.places, np.arange(len(drawn.places)) > drawn.turn, NOISE, np.ones(len(drawn.places))
+    slopes = Misfit(*data, model, here - 0.1, here + 1.0).jacobian(here)
     assert np.isfinite(slopes).all()
     assert slopes[:, 1].any()
 
