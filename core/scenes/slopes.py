@@ -317,7 +317,10 @@ def _fill_scene(
         return False
     turns = task.punch.turn != AT_RIM and y < reduced[at.RIM_Y, i]
     frozen = _freeze(walked, task.punch.turn == AT_DEPTH, opened, y, lowest.y, turns, near.jumps)
-    near.scene[:, 0], near.numbers[:, 0] = scenes[:, i], reduced[:, i]
+    for row in range(len(scenes)):  # one by one: an assignment of arrays takes seconds to compile
+        near.scene[row, 0] = scenes[row, i]
+    for row in range(len(reduced)):
+        near.numbers[row, 0] = reduced[row, i]
     near.value[:] = 0.0
     _observe(pair, frozen, 1.0, near.value)
     y_end = _farthest(frozen, pair.pattern.rows.shape[1] > 0)
