@@ -136,8 +136,16 @@ def kernel(function: _Function) -> _Function:
 
 
 def leaf(function: _Function) -> _Function:
-    """Compile what is short, or called in one place, into its callers: to hand over arrays takes as long as it does."""
+    """Compile what is short into its callers: to hand over arrays takes as long as it does."""
     return _compiled(function, fastmath=_CONTRACTED, forceinline=True)
+
+
+def inlined(function: _Function) -> _Function:
+    """Write a long function that is called in one place into its caller, before that is compiled: it is compiled once.
+
+    Any other kernel is compiled by itself, and again with each that it is part of.
+    """
+    return _compiled(function, fastmath=_CONTRACTED, inline="always")
 
 
 def quadrature(function: _Function) -> _Function:

@@ -39,6 +39,7 @@ from gradhesion.core.table.layout import BY_DEPTH, EXACT
 if TYPE_CHECKING:
     from gradhesion.core.problem.toughness import Rate, Toughness
 
+_MOST_NARROW: Final = np.iinfo(np.int8).max
 Results: TypeAlias = dict[str, NDArray[Any]]
 _GAINS: Final = {"adhesion_gain": "pull_off_force", "energy_gain": "dissipated_energy"}
 """Results compared with those of the smooth punch on the same interface."""
@@ -157,7 +158,7 @@ def _solved(
         none = (np.isnan(lost) | ((form != EXACT) & (lost < 0.0))) & ((status & NO_VALUE) == 0)
         status = np.where(none, NO_VALUE, status)
         found = {name: np.where(none, np.nan, values) for name, values in found.items()}
-    ratio = np.broadcast_to(np.asarray(parameters.get(CLOSING, 1.0), dtype=float), shape)
+    ratio = np.asarray(parameters.get(CLOSING, 1.0), dtype=float)
     if cycle and CLOSING in parameters and (ratio == 0.0).any():
         _without_adhesion(found, ratio, starts_downwards(parameters, profile))
     if "snap_in_force" in found:
@@ -313,7 +314,7 @@ def solve(
         found |= sensitivities(
             request, shape, slopes, [name for name in (*_COLUMNS, *TURNS) if name in parameters], threads
         )
-    wide = turn == TURNS[0] or toughness is not None or (status > np.iinfo(np.int8).max).any()
+    wide = turn == TURNS[0] or toughness is not None or (status > _MOST_NARROW).any()
     found["status"] = status.astype(np.int16 if wide else np.int8)
     return {name: _typed(name, found[name]) for name in (*outputs, "status")}
 

@@ -19,16 +19,16 @@ from gradhesion.core.types import Floats, Integers
 
 _SAMPLES: Final = 32
 """Of the profile, in its shortest wave."""
-_RULE: Final = 8
+RULE: Final = 8
 """Points of a half wave at which a gap is summed: good to 1e-9 of its terms."""
-_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(_RULE)
+_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(RULE)
 
 
 class Disc(NamedTuple):
     """What the tests of one exponent, power and series need.
 
     c           (1-k)/2
-    weights     of the rule for c x^(c-1) on (0, 1) at the points of Gauss's, (_RULE,)
+    weights     of the rule for c x^(c-1) on (0, 1) at the points of Gauss's, (RULE,)
     crest, mean  |U| < crest y E + mean
     wave        the shortest wave
     bend        the profile is bend B y^m + g profile[1]
@@ -63,17 +63,19 @@ def profile_of(waves: Floats) -> Floats:
 
 
 @kernel
-def disc_of(k: float, exponent: float, depth_factor: float, waves: Floats, profile: Floats) -> Disc:
+def disc_of(k: float, exponent: float, depth_factor: float, waves: Floats, profile: Floats, weights: Floats) -> Disc:
     """Return what the tests need; `depth_factor` is the depth of r^m/m over a^m, `profile` that of `profile_of`.
+
+    `weights` is room for those of the rule, (RULE,).
 
     The moments of Legendre's polynomials with the weight c x^(c-1) are prod_(j <= n) (c - j)/(c + j), also at c = 0.
     """
     c = 0.5 * (1.0 - k)
-    weights = np.zeros(_RULE)
-    for j in range(_RULE):
+    weights[:] = 0.0
+    for j in range(RULE):
         x, moment = _POINTS[j], 1.0
         before, polynomial = 0.0, 1.0
-        for n in range(_RULE):
+        for n in range(RULE):
             weights[j] += 0.5 * _WEIGHTS[j] * (2.0 * n + 1.0) * polynomial * moment
             before, polynomial = polynomial, ((2.0 * n + 1.0) * x * polynomial - n * before) / (n + 1.0)
             moment *= (c - n - 1.0) / (c + n + 1.0)
@@ -105,7 +107,7 @@ def _opening(curve: Curve, disc: Disc, depth: float, a: float, r: float) -> floa
     c = disc.c
     low = max(a, r - 0.5 * disc.wave, 0.6 * r)
     total = 0.0
-    for j in range(_RULE):
+    for j in range(RULE):
         y = r - (r - low) * (0.5 + 0.5 * _POINTS[j])
         total += disc.weights[j] * _excess(curve, depth, y) * (r + y) ** (c - 1.0)
     total *= (r - low) ** c
@@ -113,7 +115,7 @@ def _opening(curve: Curve, disc: Disc, depth: float, a: float, r: float) -> floa
         high = low
         low = max(a, high - disc.wave, 0.5 * high)
         part = 0.0
-        for j in range(_RULE):
+        for j in range(RULE):
             y = low + (high - low) * (0.5 + 0.5 * _POINTS[j])
             part += 0.5 * _WEIGHTS[j] * _excess(curve, depth, y) * ((r - y) * (r + y)) ** (c - 1.0)
         total += c * (high - low) * part

@@ -40,7 +40,7 @@ from gradhesion.core.cycle.path import (
 from gradhesion.core.cycle.pull_off import Lowest, deeper
 from gradhesion.core.cycle.ties import loading_is_tied, rim_is_tied, target_is_tied, unloading_is_tied
 from gradhesion.core.cycle.turning import turning_radius
-from gradhesion.core.jit import kernel
+from gradhesion.core.jit import inlined, kernel
 from gradhesion.core.many.losses import (
     INWARDS,
     JUMPS_INWARDS,
@@ -262,7 +262,7 @@ def _far_landing(long: Long, curve: Curve, before: Loading, rim: float) -> tuple
     return loaded, Loading(wave, True, state, lost, jumps, 0.0, snap, last, before.one_disc, before.tied)
 
 
-@kernel
+@inlined
 def finish_loading(
     long: Long, piece: Curve, count: int, before: Loading, last: int, rim: float, edge: float
 ) -> tuple[Loaded, Loading]:
@@ -323,7 +323,7 @@ def finish_loading(
     )
 
 
-@kernel
+@inlined
 def finish_unloading(
     long: Long, piece: Curve, count: int, after: Leaving, starts: int, last: int, rim: float
 ) -> tuple[Unloaded, bool]:
@@ -350,7 +350,7 @@ def finish_unloading(
     return Unloaded(unloaded.lost, unloaded.jumps, left.last), tied
 
 
-@kernel
+@inlined
 def turn_far(
     long: Long, curve: Curve, measured: Curve, target: float, before: Loading, rim: float
 ) -> tuple[float, bool]:
@@ -385,7 +385,7 @@ def turn_far(
     return min(found, rim), tied
 
 
-@kernel
+@inlined
 def lowest_far(long: Long, curve: Curve, rim: float) -> Lowest:
     """Return the lowest load within a rim beyond the waves next to the centre, as `lowest_load` does."""
     curve, space = load_curve(curve), long.window
@@ -426,7 +426,7 @@ def _end_wave(long: Long, folds: int, rim: float) -> int:
     return int(max(min(folds - 1.0, wave_of(long.waves, rim)) - 2.0, float(long.near)))
 
 
-@kernel
+@inlined
 def loop_far(
     long: Long,
     closing: Curve,

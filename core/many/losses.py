@@ -146,7 +146,8 @@ def sum_waves(long: Long, curve: Curve, out: int, back: int, last: int, folds: i
             if not _panel(long, curve, left, count, outwards, inwards, values, part):
                 longest = 0.5 * count
                 continue
-            total += part
+            for row in range(LOSSES):
+                total[row] += part[row]
         else:
             count = int(min(max(count, 1.0), ahead))
             walked += count
@@ -158,7 +159,8 @@ def sum_waves(long: Long, curve: Curve, out: int, back: int, last: int, folds: i
                 space = long.ends if several else long.scratch
                 if not _losses(long, curve, float(number), space, outwards, inwards, part):
                     return False
-                total += part
+                for row in range(LOSSES):
+                    total[row] += part[row]
                 number += _AT_ONCE if several else 1
         left += count
         longest *= 2.0

@@ -276,7 +276,8 @@ def fill_waves(waves: Waves, table: Table, source: Source) -> None:
         sums[1] += table.nodes[at.KUU, i] + table.nodes[at.PC, i] * table.nodes[at.KU, i]
         sums[2] += table.nodes[at.KV, i]
     for doubling in range(waves.values.shape[0]):
-        waves.sums[doubling] = sums
+        for row in range(sums.size):
+            waves.sums[doubling, row] = sums[row]
         first = FIRST_WAVE * 2**doubling
         _integrate(waves, first, 2 * first, nodes, polys, sums)
 

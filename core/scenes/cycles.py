@@ -15,14 +15,14 @@ from gradhesion.core.curve.folds import CLOSE, find_folds
 from gradhesion.core.curve.levels import polished
 from gradhesion.core.curve.trace import END, END_LEVEL, LANDING, START, room_for
 from gradhesion.core.curve.values import Curve, load_curve, softness, state_in
-from gradhesion.core.cycle.disc import Disc, gap_is_open, loading_is_one_disc
+from gradhesion.core.cycle.disc import RULE, Disc, gap_is_open, loading_is_one_disc
 from gradhesion.core.cycle.path import Loaded, Unloaded, load_to, snap_in, unload_from, visited_within, walk_loading
 from gradhesion.core.cycle.pull_off import Lowest, lowest_load, serves
 from gradhesion.core.cycle.residual import work_of_cycle
 from gradhesion.core.cycle.ties import loading_is_tied, rim_is_tied, target_is_tied, unloading_is_tied
 from gradhesion.core.cycle.turning import turning_radius
 from gradhesion.core.edge.pattern import Pattern, edge_area, patterned_table, toughness_at
-from gradhesion.core.jit import kernel, leaf
+from gradhesion.core.jit import inlined, kernel, leaf
 from gradhesion.core.problem.status import (
     CLOSE_TO_A_JUMP,
     JUMP_IN_TO_RIM,
@@ -47,6 +47,7 @@ class Rooms(NamedTuple):
     nodes       of the tables of closing and of opening of interfaces with a pattern, (2, ROWS, bins + 1)
     polys       their polynomials, (2, bins, LANES + 1, N)
     limits      those of `loading_is_one_disc` of the last curve, (2,)
+    weights     of the rule of `Task.disc`, (RULE,)
     """
 
     traces: Floats
@@ -54,6 +55,7 @@ class Rooms(NamedTuple):
     nodes: Floats
     polys: Floats
     limits: Floats
+    weights: Floats
 
 
 def rooms_for(bins: int, patterned: bool) -> Rooms:
@@ -61,7 +63,7 @@ def rooms_for(bins: int, patterned: bool) -> Rooms:
     nodes, polys = room_of(bins if patterned else 0, LANES + 1)
     traces = np.empty((3, *room_for(bins).shape))
     columns = np.empty((2, traces.shape[2]), dtype=np.int64)
-    return Rooms(traces, columns, np.stack((nodes, nodes)), np.stack((polys, polys)), np.empty(2))
+    return Rooms(traces, columns, np.stack((nodes, nodes)), np.stack((polys, polys)), np.empty(2), np.empty(RULE))
 
 
 class Task(NamedTuple):
@@ -224,7 +226,7 @@ def _target_is_tied(walked: Walked, turn: int, y: float, reduced: Floats, i: int
     )
 
 
-@leaf
+@inlined
 def _is_tied(walked: Walked, opened: int, y: float, at_rim: bool) -> bool:
     """Return whether a decision of a cycle that turns at y is close, but for the turn."""
     closing, opening = walked.closing, walked.opening
@@ -317,7 +319,7 @@ def put_losses(
     return JUMP_IN_TO_RIM if loaded.in_to_rim and cycle.turn == reduced[at.RIM_Y, i] else 0
 
 
-@leaf
+@inlined
 def _put_cycle(walked: Walked, wanted: Wanted, opened: int, y: float, reduced: Floats, i: int, out: Floats) -> int:
     """Store what the cycle of scene i, which turns at y, loses; return its bits of status, -1: too short a table.
 
@@ -421,7 +423,7 @@ def open_curve(walked: Walked, turn: int, first: int, last: int, out: Floats) ->
     return opened, farthest
 
 
-@leaf
+@inlined
 def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Solve the scenes `first` to `last` - 1, all of one curve and valid; store their results, or SHORT as status."""
     wanted, turn = task.wanted, task.punch.turn
@@ -482,7 +484,7 @@ def put_force(lowest: Lowest, reduced: Floats, i: int, out: Floats) -> None:
     out[at.STATUS, i] = put_pull_off(lowest, reduced[at.RIM_Y, i], reduced, i, out) if lowest.known else at.SHORT
 
 
-@leaf
+@inlined
 def solve_patterned_forces(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Solve the pull-off alone of the scenes `first` to `last` - 1 with a pattern: no farther than it can be."""
     rooms = task.rooms
@@ -499,13 +501,10 @@ def solve_patterned_forces(task: Task, scenes: Floats, reduced: Floats, first: i
         put_force(lowest, reduced, i, out)
 
 
-@kernel
+@inlined
 def solve_exponent(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
-    """Solve the scenes `first` to `last` - 1 of one exponent.
-
-    It stays a function of its own: in the one that Python calls, scenes would take a quarter longer.
-    """
-    task, scenes, reduced, out = borrowed((task, scenes, reduced, out))
+    """Solve the scenes `first` to `last` - 1 of one exponent, on arrays that Python holds."""
+    task = borrowed(task)
     if not task.wanted.cycle and task.punch.turn == AT_RIM:  # of an interface with a pattern
         solve_patterned_forces(task, scenes, reduced, first, last, out)
         return

@@ -144,8 +144,9 @@ def _long_of(punch: Punch, wanted: Wanted, k: float, form: int, profile: Floats,
         _waves[key] = waves
         while len(_waves) > 1 and sum(own.values.nbytes for own in _waves.values()) > _KEPT_WAVES:
             _waves.popitem(last=False)
-    disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
-    task = Task(punch, wanted, table, table, crest, disc, rooms_for(0, patterned=False), math.inf)
+    rooms = rooms_for(0, patterned=False)
+    disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile, rooms.weights)
+    task = Task(punch, wanted, table, table, crest, disc, rooms, math.inf)
     spaces = (space_for(bins) for bins in (table.bins, 2 * waves.per, 3 * waves.per, 5 * waves.per))
     return task, Long(table, waves, NEAR, most, disc, wanted.contact, *spaces)
 

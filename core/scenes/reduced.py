@@ -192,7 +192,8 @@ def reduce_scenes(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats) -
     for i in range(scenes.shape[1]):
         shares = i > 0 and punch.rows.shape[1] == 0 and reduced[at.VALID, i - 1] > 0.0
         if shares and _differs_in_rim_alone(scenes, i - 1, i):
-            reduced[:, i] = reduced[:, i - 1]
+            for row in range(at.REDUCED_ROWS):  # one by one, as in table/functions.py
+                reduced[row, i] = reduced[row, i - 1]
             fill_rim(punch, scenes, i, reduced)
             continue
         if scenes[at.K, i] != k:

@@ -96,7 +96,7 @@ def task_of(
             pull = kept_table(tables.by_load, tables.kept_by_load, k, bins)
         low, high = between(basis, k)
         crest = 1.01 * max(basis.crest[low], basis.crest[high])
-    disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile)
+    disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile, tables.rooms.weights)
     return Task(punch, wanted, table, pull, crest, disc, tables.rooms, tables.reach)
 
 

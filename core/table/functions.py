@@ -87,7 +87,8 @@ def _fill_bins(K: float, at_zero: float, bins: Floats) -> None:
                 elif lane == 0:
                     rest += half * half
                 taylor[n + 2] = rest / (centre * (n + 1.0) * (n + 2.0))
-            bins[i, lane] = taylor[:TERMS]
+            for n in range(TERMS):  # one by one: an assignment of arrays takes seconds to compile
+                bins[i, lane, n] = taylor[n]
             ahead, rise = 0.0, 0.0  # at the centre of the next bin, t = 2
             for n in range(taylor.size - 1, -1, -1):
                 rise = rise * 2.0 + ahead
