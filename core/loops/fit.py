@@ -29,7 +29,7 @@ from gradhesion.core.loops.paths.model import TURN
 from gradhesion.core.loops.paths.offsets import DEPTH_ZERO, LOAD_ZERO, TILT, Offsets
 from gradhesion.core.loops.paths.path import LoopModel
 from gradhesion.core.loops.paths.speed import SpeedModel
-from gradhesion.core.loops.results import results_at
+from gradhesion.core.loops.results import covariance_of, results_at
 from gradhesion.core.loops.starts import starts as starts_of
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import CLOSING, TURNS
@@ -133,7 +133,9 @@ def fit_loop(
     low, high = (np.array([*model.searched({name: ends[i] for name, ends in ranges.items()}).values()]) for i in (0, 1))
     misfit = Misfit(points, back, noise, each, model, low, high)
     with threadpool_limits(1):  # matrices of a few columns: threads only wait for each other
-        found = minima(misfit, starts_of(misfit, *_zeros(points, back, line), starts, seed))
+        begun = starts_of(misfit, *_zeros(points, back, line), starts, seed)
+        _refuse_locked(misfit, begun)
+        found = minima(misfit, begun)
         if misfit.nearest(found[0].x).drawn is None:
             raise ValueError("no combination within the ranges has a path; widen them")
         fitted = results_at(misfit, found, intervals, ranges, widened=not noise_is_given)
@@ -175,3 +177,17 @@ def _searched(
     given = {DEPTH_ZERO: zeros.indentation, LOAD_ZERO: zeros.load}
     own |= {name: ends for name, ends in given.items() if isinstance(ends, tuple)}
     return ranges | {name: (float(own[name][0]), float(own[name][1])) for name in zeros.names}
+
+
+def _refuse_locked(misfit: Misfit, begun: list[Floats]) -> None:
+    """Refuse, before the search, numbers that no start can tell apart: an error that all starts have."""
+    for vector in begun:
+        if misfit.nearest(vector).drawn is None:
+            return
+        try:
+            covariance_of(misfit, vector)
+        except ValueError as error:
+            found = error
+        else:
+            return
+    raise found

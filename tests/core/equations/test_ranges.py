@@ -1,5 +1,6 @@
-"""Every equation: NaN for each argument out of range, and the broadcast shape."""
+"""Every equation: NaN for each argument out of range, the broadcast shape, a place in `help`; names of merged modules."""
 
+import importlib
 import inspect
 from collections.abc import Callable
 from typing import Any
@@ -7,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import gradhesion.core.equations
 from gradhesion.core.equations import effective, envelopes, general, hertz, jkr, quadrature, short_waves
 
 FUNCTIONS: dict[str, Callable[..., Any]] = {
@@ -76,3 +78,20 @@ def test_the_shape_is_the_broadcast_one(name: str) -> None:
     assert found.shape[-2:] == (2, 3 if several else 1)
     one = np.asarray(call(name, k=0.4))
     np.testing.assert_allclose(found[..., 1, -1], one, rtol=1e-15)  # to the last place of a power
+
+
+@pytest.mark.parametrize(
+    ("old", "function", "new"),
+    [
+        ("any_profile", "load", quadrature), ("gap", "series_gap", quadrature), ("pressure", "pressure", quadrature),
+        ("early_unloading", "drop", effective), ("energy", "first_part", effective), ("profile", "height", general),
+        ("fourier", "coefficients", general), ("stress_intensity", "stress_intensity", general),
+        ("pair", "sine_integrals", hertz), ("saturation", "share", short_waves),
+    ],
+)  # fmt: skip
+def test_names_of_merged_modules_work(old: str, function: str, new: Any) -> None:
+    for module in (
+        importlib.import_module(f"gradhesion.core.equations.{old}"),
+        getattr(gradhesion.core.equations, old),
+    ):
+        assert getattr(module, function) is getattr(new, function)
