@@ -10,8 +10,7 @@ from pathlib import Path
 
 from benchmarks.clock import ROOT, table
 
-SMOKE = ROOT / "configs" / "smoke.toml"
-CURVE = ROOT / "configs" / "curve.toml"
+SMOKE, CURVE = (ROOT / "configs" / f"{name}.toml" for name in ("smoke", "curve"))
 FORCE = ("--set", 'outputs=["pull_off_force"]')
 """Of the smoke study, the force alone."""
 
