@@ -8,8 +8,8 @@ from typing import Final
 from flint import arb
 
 from gradhesion.twin.envelope import amplitude, jump_in_radius, similarity_length, solve_envelope
-from gradhesion.twin.general import PLAIN, Shape
 from gradhesion.twin.scene import PullOff, Solution, solve, solve_pull_off, waves_to_follow
+from gradhesion.twin.shape import PLAIN, Shape
 from gradhesion.twin.turning import TURNS
 
 FORCE: Final = 1e-12

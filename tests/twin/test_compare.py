@@ -7,7 +7,7 @@ import pytest
 
 from gradhesion.core import OUTPUTS
 from gradhesion.core.problem.names import EDGE
-from gradhesion.twin.general import PLAIN
+from gradhesion.twin.shape import PLAIN
 from gradhesion.twin.turning import TURNS
 from tests.conformance.kinds import EXACT, one_of
 from tests.core.scene import scene_of
