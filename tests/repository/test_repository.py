@@ -83,11 +83,11 @@ def test_help_imports_nothing_heavy(arguments: list[str]) -> None:
 @pytest.mark.slow
 def test_commands_import_only_what_they_need(tmp_path: Path) -> None:
     study, file = str(ROOT / "configs" / "smoke.toml"), str(tmp_path / "x.nc")
-    compilers, extras = ("numba", "llvmlite", "flint"), ("afmformats", "cryptography", "dask", "distributed")
+    compilers, extras = ("numba", "llvmlite", "flint"), ("afmformats", "cryptography", "distributed")
     for arguments, names in (
         (["run", study, "-o", file, "--quiet"], ("xarray", "pandas", "matplotlib", "pint")),
         (["validate", study], compilers),
-        (["info", file], (*compilers, "pint", "scipy")),
+        (["info", file], (*compilers, "dask", "pint", "scipy")),
         (["plot", file], compilers),
     ):
         assert loaded(arguments, (*names, *extras)) == "[]", arguments
