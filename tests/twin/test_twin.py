@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from flint import arb
 
-from gradhesion.twin import stated
+from gradhesion.twin import bounds, stated
 from gradhesion.twin.curve import Curve
 from gradhesion.twin.energy import dissipated, double_exponential, loop
 from gradhesion.twin.integrals import Integral
@@ -176,6 +176,20 @@ def test_slopes_of_kappa_are_those_of_differences(of: str) -> None:
     assert float((high - low) / (2 * step)) == pytest.approx(float(first), rel=1e-10)
     assert float((above - below) / (2 * step)) == pytest.approx(float(second), rel=1e-10)
     assert abs(float(kappa)) <= pattern.greatest
+
+
+@pytest.mark.parametrize(("m", "waves"), [(1.0, ((2, 3.0, 0.0), (5, 0.0, 2.0))), (1.3, ((1, 4.0, 0.0),))])
+def test_the_last_phase_is_one_beyond_which_nothing_pulls(
+    m: float, waves: tuple[tuple[int, float, float], ...]
+) -> None:
+    """And it is not far beyond: of strong waves on a blunt tip, whose folds may have no end."""
+    curve = Curve(scene_of(0.2, 0.3, 500.0, 0.1, 0.1, 0.1, math.inf), Shape(m, waves))
+    end = bounds.last(curve, curve.trough)
+    far, near = (
+        [curve.force(arb(z)) for z in np.linspace(*ends, 200).tolist()] for ends in ((end, 3 * end), (0.8 * end, end))
+    )
+    assert all(force > 0 for force in far)
+    assert any(force < 0 for force in near)
 
 
 def test_what_is_solved_does_not_depend_on_the_outputs() -> None:
