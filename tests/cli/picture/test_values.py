@@ -47,6 +47,13 @@ def test_every_shape_is_drawn_in_line(shape: str) -> None:
     )
 
 
+def test_a_line_ends_before_infinity_which_stands_apart() -> None:
+    for axes in gr.plot(computed(**SHAPES["a line to infinity"])):
+        line, end = axes.get_lines()[:2]
+        assert line.get_xdata()[-1] < end.get_xdata()[0]
+        assert (len(line.get_xdata()), len(end.get_xdata())) == (3, 1)
+
+
 def test_lines_are_the_values_of_the_dataset(grid: xarray.Dataset) -> None:
     few = grid.isel(A=1, k=[0, 3, 8])
     panels = gr.plot(few)
