@@ -23,7 +23,7 @@ docs: .venv/complete ## build the manual into build/docs/, offline, a warning be
 lowest: build/lowest/tested build/before/tested # the quick tests with the lowest versions of pyproject.toml, and with the numba before the newest
 
 stress: .venv/complete ## run what takes minutes: 100,000 hostile scenes, runs killed at 200 random moments and at every rename, the recipes of docs/architecture.md
-	.venv/bin/python -m tests.stress.long
+	STRESS_SCENES=100000 STRESS_SEED=1000 .venv/bin/pytest tests/stress -k long
 	.venv/bin/python -m tests.faults.trials --random 200
 	.venv/bin/pytest tests/stress/recipes.py
 

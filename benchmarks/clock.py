@@ -2,30 +2,57 @@
 
 import importlib.metadata
 import math
-import os
 import platform
 import time
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
-ROOT = Path(__file__).parents[1]
-FIGURES = ROOT / "docs" / "figures"
+import numpy as np
+
+from gradhesion.core import solve
+from gradhesion.core.processors import processors
+
+ROOT: Final = Path(__file__).parents[1]
+FIGURES: Final = ROOT / "docs" / "figures"
+BOTH: Final = ("pull_off_force", "dissipated_energy")
+FORCE: Final = BOTH[:1]
+_WARM: Final = 0.2
+"""Seconds of calls that are not counted: the first ones of a process take half as long again."""
 
 
-def seconds_of(function: Callable[[], Any], *, repeat: int = 7, at_least: float = 0.01) -> float:
-    """Return the least time of one call, the calls of one sample filling `at_least` seconds: other work only adds."""
-    start = time.perf_counter()
-    function()
-    once = time.perf_counter() - start
-    calls = max(1, math.ceil(at_least / max(once, 1e-7)))
-    samples = []
-    for _ in range(repeat):
-        start = time.perf_counter()
+def seconds_of(
+    function: Callable[[], Any],
+    *,
+    repeat: int = 7,
+    most: float = math.inf,
+    clock: Callable[[], float] = time.process_time,
+) -> float:
+    """Return the least time of one call, the calls of a sample filling a hundredth of a second: other work only adds.
+
+    There are `repeat` samples; after `most` seconds no other begins, if there is one.
+    """
+    function()  # what is compiled or made once
+    calls, begin = 0, clock()
+    while not calls or clock() - begin < min(_WARM, most):
+        function()
+        calls += 1
+    once = (clock() - begin) / calls
+    calls, samples = max(1, math.ceil(0.01 / max(once, 1e-7))), [once]
+    while len(samples) <= repeat and (len(samples) == 1 or clock() - begin < most):
+        start = clock()
         for _ in range(calls):
             function()
-        samples.append((time.perf_counter() - start) / calls)
+        samples.append((clock() - start) / calls)
     return min(samples)
+
+
+def microseconds(
+    scenes: Any, outputs: Sequence[str] = BOTH, *, repeat: int = 3, most: float = 3.0, **how: Any
+) -> float:
+    """Return the processor time of a scene in a call on one thread."""
+    count = math.prod(np.broadcast_shapes(*(np.shape(values) for values in scenes.values())))
+    return 1e6 * seconds_of(lambda: solve(scenes, outputs, threads=1, **how), repeat=repeat, most=most) / count
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
@@ -43,21 +70,12 @@ def cell(value: Any) -> str:
     return f"{value:,}" if isinstance(value, int) else str(value)
 
 
-def processors() -> int:
-    """Return the number of processors that this process is bound to."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 def machine() -> str:
     """Return the machine and the versions in one sentence."""
-    processor = platform.processor() or platform.machine()
     info = Path("/proc/cpuinfo")
-    if info.exists():
-        names = [
-            line.split(":", 1)[1].strip() for line in info.read_text().splitlines() if line.startswith("model name")
-        ]
-        processor = names[0] if names else processor
+    lines = info.read_text().splitlines() if info.exists() else []
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    processor = [*names, platform.processor() or platform.machine()][0]
     packages = ("gradhesion", "numpy", "numba", "llvmlite", "scipy", "mpmath", "netCDF4")
     versions = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in packages)
-    cores = processors()
-    return f"{processor}, {cores} cores, {platform.system()}; Python {platform.python_version()}, {versions}."
+    return f"{processor}, {processors()} cores, {platform.system()}; Python {platform.python_version()}, {versions}."

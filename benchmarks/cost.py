@@ -1,7 +1,6 @@
 """Processor time of a scene, class by class: `python -m benchmarks.cost [--scenes N] [--json FILE] [--over FILE]`.
 
-Every call solves many scenes on one thread. The first call of a class may compile; the least time of some calls is
-kept. Two checkouts are compared on one machine by the numbers of the first, of which the second prints ratios:
+Two checkouts are compared on one machine by the numbers of the first, of which the second prints ratios:
 
     PYTHONPATH=../before/build/types python -m benchmarks.cost --json before.json
     python -m benchmarks.cost --over before.json
@@ -11,21 +10,18 @@ so that only names that both have may stand here.
 
 import argparse
 import json
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from benchmarks.clock import table
+from benchmarks.clock import BOTH, FORCE, microseconds, table
 from benchmarks.draw import Parameters, mixture, waves
 from gradhesion import core
-from gradhesion.core import SENSITIVITIES, Harmonic, Loading, Profile, solve
+from gradhesion.core import SENSITIVITIES, Harmonic, Loading, Profile
 from gradhesion.core.problem.toughness import Rate, Toughness, ToughnessHarmonic
 
-FORCE: Final = ("pull_off_force",)
-BOTH: Final = ("pull_off_force", "dissipated_energy")
 VALUES: Final = {"force": FORCE, "both": BOTH}
 SLOPES: Final = {"force + slopes": (*FORCE, *SENSITIVITIES[:1]), "both + slopes": (*BOTH, *SENSITIVITIES)}
 TASKS: Final = VALUES | SLOPES
@@ -34,10 +30,6 @@ SHARED: Final = 50
 """Rims, or depths, on one curve."""
 CHI: Final = 0.8
 """r/s of long curves, whose waves fold up to the rim."""
-SECONDS: Final = 3.0
-"""Time of the calls of one task, after which no other call begins, if there were at least two."""
-CALLS: Final = 7
-"""Calls of one task at most."""
 
 
 class Case(NamedTuple):
@@ -88,22 +80,10 @@ def cases(number: int) -> Iterator[Case]:
     yield Case("a speed, 20 waves", moved, {"rate": Rate(exponent=0.6)})
 
 
-def microseconds(case: Case, outputs: tuple[str, ...]) -> float:
-    """Return the least processor time of a scene."""
-    least, begin = np.inf, time.process_time()
-    for call in range(CALLS):
-        start = time.process_time()
-        if call > 1 and start - begin > SECONDS:
-            break
-        scenes = solve(case.scenes, outputs, threads=1, **case.how)["status"].size
-        least = min(least, (time.process_time() - start) / scenes)
-    return 1e6 * float(least)
-
-
 def measured(number: int, only: str = "") -> dict[str, dict[str, float]]:
     """Return the microseconds of a scene by class and task."""
     return {
-        case.name: {task: microseconds(case, outputs) for task, outputs in case.tasks.items()}
+        case.name: {task: microseconds(case.scenes, asked, repeat=6, **case.how) for task, asked in case.tasks.items()}
         for case in cases(number)
         if only in case.name
     }

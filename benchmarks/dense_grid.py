@@ -4,7 +4,6 @@ Both depth and load come from SciPy on the same grid, points at which it returns
 the least load, and the energy of the cycle is the trapezoidal integral of load over depth along the path.
 """
 
-import argparse
 import math
 from collections.abc import Mapping
 
@@ -37,26 +36,3 @@ def solve_on_grid(scene: Mapping[str, float], points: int) -> tuple[float, float
     pinned = drop * (load[-1] + K * rim ** (1 + k) * drop / 2)
     energy = np.trapezoid(load, loading) - pinned + np.trapezoid(load[::-1], unloading)
     return -float(load.min()) / (1.5 * math.pi), float(energy)
-
-
-def main() -> None:
-    """Solve one scene."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--points", type=int, default=100_000)
-    names = {
-        "k": 0.3,
-        "nu": 0.3,
-        "modulus": 500,
-        "c0_over_R": 0.01,
-        "lambda_over_R": 0.05,
-        "A": 0.02,
-        "a_max_over_R": 0.8,
-    }
-    for name, value in names.items():
-        parser.add_argument(f"--{name}", type=float, default=value)
-    arguments = vars(parser.parse_args())
-    print("force {:.9g}, energy {:.9g}".format(*solve_on_grid(arguments, arguments["points"])))
-
-
-if __name__ == "__main__":
-    main()

@@ -1,6 +1,5 @@
 """Run time against error: the three solvers and a dense grid on the same scenes, whose truth has 30 digits."""
 
-import argparse
 import json
 import math
 import statistics
@@ -10,14 +9,13 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 
-from benchmarks.clock import FIGURES, ROOT, seconds_of, table
+from benchmarks.clock import BOTH, FIGURES, FORCE, ROOT, microseconds, seconds_of, table
 from benchmarks.dense_grid import solve_on_grid
 from gradhesion.core import PARAMETERS, SOLVERS, solve
 
 mpl.use("Agg")
 from matplotlib import pyplot as plt
 
-OUTPUTS = ("pull_off_force", "dissipated_energy")
 TARGETS = {"pull_off_force": 1e-7, "dissipated_energy": 1e-4}
 SIZES = (100, 300, 1000, 3000, 10_000, 30_000, 100_000)
 COPIES = 2000
@@ -38,7 +36,7 @@ def scenes_of_twin(number: int) -> list[dict[str, Any]]:
 def errors(scenes: list[dict[str, Any]], values: dict[str, Any]) -> dict[str, tuple[float, float]]:
     """Return the relative errors that a half and nine tenths of the scenes keep."""
     kept = {}
-    for name in OUTPUTS:
+    for name in BOTH:
         truth = np.array([scene[name] for scene in scenes])
         error = np.maximum(np.abs(np.asarray(values[name]) / truth - 1), LEAST)
         kept[name] = (float(np.median(error)), float(np.quantile(error, 0.9)))
@@ -50,15 +48,15 @@ def of_solver(scenes: list[dict[str, Any]], solver: str, outputs: tuple[str, ...
     order = np.random.default_rng(5).permutation(np.repeat(np.arange(len(scenes)), COPIES))
     parameters = {name: np.array([scene[name] for scene in scenes]) for name in PARAMETERS}
     copies = {name: values[order] for name, values in parameters.items()}
-    seconds = seconds_of(lambda: solve(copies, outputs, solver=solver, threads=1), repeat=5) / order.size
-    return solver, seconds, errors(scenes, solve(parameters, OUTPUTS, solver=solver))
+    seconds = 1e-6 * microseconds(copies, outputs, repeat=5, solver=solver)
+    return solver, seconds, errors(scenes, solve(parameters, BOTH, solver=solver))
 
 
 def of_grid(scenes: list[dict[str, Any]], points: int) -> Point:
     """Time the dense grid, scene by scene."""
-    times = [seconds_of(partial(solve_on_grid, scene, points), repeat=2) for scene in scenes]
+    times = [seconds_of(partial(solve_on_grid, scene, points), repeat=1) for scene in scenes]
     values = np.array([solve_on_grid(scene, points) for scene in scenes])
-    return f"grid of {points:,}", statistics.mean(times), errors(scenes, dict(zip(OUTPUTS, values.T, strict=True)))
+    return f"grid of {points:,}", statistics.mean(times), errors(scenes, dict(zip(BOTH, values.T, strict=True)))
 
 
 def time_at(grids: list[Point], output: str, target: float, kept_by: int) -> float:
@@ -78,7 +76,7 @@ def picture(forces: list[Point], both: list[Point], grids: list[Point]) -> None:
     """Draw run time against error, one panel an output; the bars reach to the error that nine tenths keep."""
     figure, axes = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained", sharey=True)
     marks: dict[str, str] = dict(zip(SOLVERS, "os^", strict=True))
-    for axis, name, points in zip(axes, OUTPUTS, (forces, both), strict=True):
+    for axis, name, points in zip(axes, BOTH, (forces, both), strict=True):
         for solver, seconds, kept in points:
             half, most = kept[name]
             axis.errorbar(
@@ -99,36 +97,21 @@ def picture(forces: list[Point], both: list[Point], grids: list[Point]) -> None:
 def measure(number: int, sizes: tuple[int, ...]) -> tuple[list[Point], list[Point], list[Point]]:
     """Return the points of the solvers for the force, for both outputs, and those of the grid."""
     scenes = scenes_of_twin(number)
-    forces = [of_solver(scenes, solver, OUTPUTS[:1]) for solver in SOLVERS]
-    both = [of_solver(scenes, solver, OUTPUTS) for solver in SOLVERS]
+    forces = [of_solver(scenes, solver, FORCE) for solver in SOLVERS]
+    both = [of_solver(scenes, solver, BOTH) for solver in SOLVERS]
     return forces, both, [of_grid(scenes, points) for points in sizes]
 
 
 def tables(forces: list[Point], both: list[Point], grids: list[Point]) -> str:
     """Return times and errors, and the speed ratios at equal error."""
     lines = [
-        [name, 1e6 * force_seconds, 1e6 * seconds, *(f"{error:.1e}" for output in OUTPUTS for error in kept[output])]
+        [name, 1e6 * force_seconds, 1e6 * seconds, *(f"{error:.1e}" for output in BOTH for error in kept[output])]
         for (name, force_seconds, _), (_, seconds, kept) in zip([*forces, *grids], [*both, *grids], strict=True)
     ]
     header = ["", "force, us", "both, us", "force: median error", "90 %", "energy: median error", "90 %"]
     ratios = []
-    for output, (_, seconds, _) in zip(OUTPUTS, (forces[0], both[0]), strict=True):
+    for output, (_, seconds, _) in zip(BOTH, (forces[0], both[0]), strict=True):
         times = [time_at(grids, output, TARGETS[output], kept_by) for kept_by in (0, 1)]
         ratios.append([output, f"{TARGETS[output]:g}", *times, *(time / seconds for time in times)])
     ratio_header = ["output", "error", "grid, s: median", "90 %", "grid/exact: median", "90 %"]
     return table(header, lines) + "\n" + table(ratio_header, ratios)
-
-
-def main() -> None:
-    """Print the tables and draw the figure."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--scenes", type=int, default=24, help="scenes [24]")
-    parser.add_argument("--largest", type=int, default=SIZES[-1], help=f"largest grid [{SIZES[-1]}]")
-    arguments = parser.parse_args()
-    points = measure(arguments.scenes, tuple(size for size in SIZES if size <= arguments.largest))
-    picture(*points)
-    print(tables(*points))
-
-
-if __name__ == "__main__":
-    main()

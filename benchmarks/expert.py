@@ -1,21 +1,20 @@
-"""Gradhesion against the compiled script of an expert, at equal worst error: `python -m benchmarks.expert`.
+"""Gradhesion against the compiled script of an expert, at equal worst error.
 
 Both solve the same random scenes on one thread, and processor time is compared. What the script needs once (compiling,
 a table for each k, the stiffness M of each scene) is not timed for it; a call of gradhesion is timed whole, with its
 checks of the parameters and its test of whether contact is one disc, of which the script has none.
 """
 
-import argparse
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from benchmarks.clock import table
+from benchmarks.clock import seconds_of, table
 from benchmarks.draw import EXPONENTS
 from benchmarks.expert_script import Effort, Values, solve, table_of
+from gradhesion.core import PARAMETERS
 from gradhesion.core import solve as solve_exactly
 from gradhesion.core.problem.material import stiffness
 
@@ -30,8 +29,6 @@ LADDERS: Final = {
     ],
 }
 """Efforts of which the script is given the quickest that keeps an error."""
-_WARM: Final = 0.2
-"""Seconds of calls before those that are measured."""
 
 
 class Scenes(NamedTuple):
@@ -50,13 +47,9 @@ def draw(number: int) -> Scenes:
     rng = np.random.default_rng(20)
     which = rng.integers(0, len(EXPONENTS), number)
     k, modulus = np.array(EXPONENTS)[which], 10 ** rng.uniform(2, 3, number)
-    wavelength, A, rim = (
-        10 ** rng.uniform(-1.5, -0.5, number),
-        10 ** rng.uniform(-3, -1.3, number),
-        np.full(number, 0.5),
-    )
-    names = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
-    parameters = dict(zip(names, (k, 0.3, modulus, 0.1, wavelength, A, rim), strict=True))
+    wavelength, A = 10 ** rng.uniform(-1.5, -0.5, number), 10 ** rng.uniform(-3, -1.3, number)
+    rim = np.full(number, 0.5)
+    parameters = dict(zip(PARAMETERS, (k, 0.3, modulus, 0.1, wavelength, A, rim), strict=True))
     return Scenes(parameters, which, np.column_stack([k, stiffness(k, 0.3, modulus, 0.1), wavelength, A, rim]))
 
 
@@ -65,11 +58,13 @@ def compare(size: int, repeat: int = 7) -> Iterator[list[Any]]:
     scenes, tables = draw(size), np.array([table_of(k) for k in EXPONENTS])
     for output, targets in TARGETS.items():
         truth = solve_exactly(scenes.parameters, [output], threads=1)[output]
-        own = _seconds(partial(solve_exactly, scenes.parameters, [output], threads=1), repeat)
+        own = seconds_of(partial(solve_exactly, scenes.parameters, [output], threads=1), repeat=repeat)
         found = []
         for effort in LADDERS[output]:
             call = partial(solve, output, tables, scenes.which, scenes.rows, effort)
-            found.append((_seconds(call, max(2, repeat // 3)), float(np.max(np.abs(call() / truth - 1.0))), effort))
+            found.append(
+                (seconds_of(call, repeat=max(2, repeat // 3)), float(np.max(np.abs(call() / truth - 1.0))), effort)
+            )
         for target in targets:
             quickest = min((one for one in found if one[1] <= target), default=None)
             if quickest is not None:
@@ -80,49 +75,5 @@ def compare(size: int, repeat: int = 7) -> Iterator[list[Any]]:
 
 def expert_table(sizes: tuple[int, ...] = SIZES, repeat: int = 7) -> str:
     """Return the comparison as a table."""
-    header = [
-        "output",
-        "error",
-        "scenes a call",
-        "its worst error",
-        "radii a wave",
-        "script, us",
-        "gradhesion, us",
-        "times",
-    ]
-    return table(header, [row for size in sizes for row in compare(size, repeat)])
-
-
-def _seconds(call: Callable[[], Any], repeat: int, at_least: float = 0.01) -> float:
-    """Return the least processor time of a call, the calls of one sample filling `at_least` seconds.
-
-    Calls of the first fifth of a second are not counted: the first ones of a process take half as long again.
-    """
-    samples: list[float] = []
-    calls = 1
-    call()  # what is compiled or made once
-    begin = time.process_time()
-    while time.process_time() - begin < _WARM:
-        call()
-    while len(samples) < repeat:
-        start = time.process_time()
-        for _ in range(calls):
-            call()
-        used = time.process_time() - start
-        if used < at_least and not samples:
-            calls *= 2
-        else:
-            samples.append(used / calls)
-    return min(samples)
-
-
-def main() -> None:
-    """Print the table."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.expert", description=__doc__)
-    parser.add_argument("--quick", action="store_true", help="one call of 200 scenes, and fewer samples")
-    arguments = parser.parse_args()
-    print(expert_table(SIZES[:1], 3) if arguments.quick else expert_table())
-
-
-if __name__ == "__main__":
-    main()
+    header = ["output", "error", "scenes a call", "its worst error", "radii a wave", "script, us", "gradhesion, us"]
+    return table([*header, "times"], [row for size in sizes for row in compare(size, repeat)])

@@ -21,7 +21,6 @@ from benchmarks.clock import table
 from benchmarks.measured_loops import POINTS, WORDS, Loop, draw_loop
 from gradhesion.core.loops.fit import fit_loop
 from gradhesion.core.loops.fitted import FittedLoop
-from gradhesion.core.loops.measured.averaging import MOST, averaged
 from gradhesion.core.loops.paths.offsets import Offsets
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
 
@@ -32,16 +31,10 @@ SLACK: Final = 15.0
 
 
 def fit(loop: Loop, intervals: str = "profile") -> FittedLoop:
-    """Fit a loop as a user would: many points are averaged along the path."""
-    depth, load, back = loop.used
-    noise, counts = loop.noise, None
-    if depth.size > MOST:
-        means = averaged(depth, load, back, np.ones(depth.size, np.int32), noise)
-        depth, load, back, noise, counts = means.depth, means.load, means.unloading, means.noise, means.counts
+    """Fit a loop."""
     offsets = Offsets(slope="load_slope" in loop.true)
-    return fit_loop(
-        depth, load, back, loop.fixed, loop.free, noise=noise, counts=counts, offsets=offsets, intervals=intervals
-    )
+    points = (loop.depth, loop.load, loop.unloading)
+    return fit_loop(*points, loop.fixed, loop.free, noise=loop.noise, offsets=offsets, intervals=intervals)
 
 
 def flags_of(found: FittedLoop) -> list[str]:
@@ -56,8 +49,7 @@ def judged(number: int, seed: int, kind: str, points: int = POINTS, intervals: s
     """Draw a loop by its number, fit it, and judge the fit."""
     loop = draw_loop(seed, number, kind, points)
     row: dict[str, Any] = {"number": number, "true": loop.true, "fixed": loop.fixed, "turned": loop.turned}
-    size = loop.used[0].size
-    row |= {"best": loop.chi_square() if size <= MOST else np.inf, "size": size}
+    row |= {"best": loop.chi_square(), "size": loop.depth.size}
     start = time.perf_counter()
     try:
         found = fit(loop, intervals)

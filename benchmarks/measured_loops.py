@@ -25,9 +25,9 @@ Array = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 Range = tuple[float, float]
 
-WORDS: Final = ("smooth", "wavy", "works", "drift", "walk", "tilt", "pauses", "approach", "retract", "raw")
+WORDS: Final = ("smooth", "wavy", "works", "drift", "walk", "tilt", "approach", "retract")
 """smooth or wavy (one of them); unequal works; the zero of load drifts evenly or by a random walk; a tilt of the base
-line; pauses at the turn; one branch alone; 10^4 to 10^6 points."""
+line; one branch alone."""
 DECADES: Final = {"E_star": 2.0, "work_of_adhesion": 2.0, "wavelength": 1.0, "A": 1.0}
 """The widths of the ranges searched."""
 WITHIN: Final = (0.1, 0.9)
@@ -58,24 +58,15 @@ class Loop:
     depth: Array
     load: Array
     unloading: Bools
-    pause: Bools
-    """Points that a label excludes."""
     noise: tuple[float, float]
     paths: tuple[Array, Array] = field(repr=False)
     """The exact loading and unloading, base lines included, rows of depth and load without offsets."""
     turned: float
     """The largest load over the pull-off force."""
 
-    @property
-    def used(self) -> tuple[Array, Array, Bools]:
-        """Depth, load and branch of the points that are fitted."""
-        keep = ~self.pause
-        return self.depth[keep], self.load[keep], self.unloading[keep]
-
     def chi_square(self) -> float:
         """Return that of the truth: squares of the distances to the exact path, over the noise."""
-        depth, load, back = self.used
-        true = self.true
+        depth, load, back, true = self.depth, self.load, self.unloading, self.true
         shifted = load - true["load_offset"] - true.get("load_slope", 0.0) * depth
         points = np.column_stack([depth - true["indentation_offset"], shifted]) / self.noise
         sides = ((~back, self.paths[0]), (back, self.paths[1]))
@@ -88,8 +79,6 @@ def draw_loop(seed: int, number: int, kind: str = "wavy", points: int = POINTS) 
     if unknown := words - set(WORDS):
         raise ValueError(f"kind = {kind!r}: {min(unknown)!r} is none of {', '.join(WORDS)}")
     rng = np.random.default_rng([seed, number])
-    if "raw" in words:
-        points = int(10.0 ** rng.uniform(4.0, 6.0))
     turned = _log(rng, *TURNED)
     while (made := _cycle(rng, words, points, turned)) is None:
         pass
@@ -227,17 +216,10 @@ def _squares(points: Array, chain: Array) -> Array:
 
 def _measured(rng: np.random.Generator, words: frozenset[str], kind: str, seed: int, number: int, made: _Cycle) -> Loop:
     """Add what the instrument does to a cycle, and draw the ranges."""
-    depth, load, back, pull = made.depth.copy(), made.load.copy(), made.unloading.copy(), made.pull_off
-    pause = np.zeros(depth.size, bool)
-    if "pauses" in words:  # the tip creeps in and the load relaxes
-        count, turn = int(rng.integers(20, 200)), int(np.argmax(depth))
-        creep = 1.0 - np.exp(-np.linspace(0.0, 4.0, count))
-        depth = np.insert(depth, turn + 1, depth[turn] + 0.02 * creep * float(np.ptp(depth)))
-        load = np.insert(load, turn + 1, load[turn] * (1.0 - 0.1 * creep))
-        back, pause = np.insert(back, turn + 1, np.zeros(count, bool)), np.insert(pause, turn + 1, np.ones(count, bool))
+    depth, load, back, pull = made.depth, made.load, made.unloading, made.pull_off
     if one := words & {"approach", "retract"}:
         keep = back == ("retract" in one)
-        depth, load, back, pause = depth[keep], load[keep], back[keep], pause[keep]
+        depth, load, back = depth[keep], load[keep], back[keep]
     noise = NOISE * made.out, NOISE * pull
     travel = float(np.ptp(depth))
     true = made.physical | {
@@ -261,6 +243,4 @@ def _measured(rng: np.random.Generator, words: frozenset[str], kind: str, seed: 
             free[name] = (low, low * 10.0**decades)
     if "closing_ratio" in made.physical:
         free["closing_ratio"] = (0.01, 1.0)
-    return Loop(
-        kind, seed, number, true, made.fixed, free, depth, load, back, pause, noise, made.paths, made.turned
-    )  # fmt: skip
+    return Loop(kind, seed, number, true, made.fixed, free, depth, load, back, noise, made.paths, made.turned)

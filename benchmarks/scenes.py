@@ -1,29 +1,17 @@
 """The cost of scenes: mixtures, smooth ones, many waves, many rims."""
 
-import argparse
-import math
 from typing import Any
 
 import matplotlib as mpl
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.clock import FIGURES, seconds_of, table
-from benchmarks.draw import Parameters, mixture, waves
+from benchmarks.clock import BOTH, FIGURES, FORCE, microseconds, table
+from benchmarks.draw import mixture, waves
 from gradhesion.core import solve
 
 mpl.use("Agg")
 from matplotlib import pyplot as plt
-
-BOTH = ("pull_off_force", "dissipated_energy")
-
-
-def microseconds(
-    parameters: Parameters, outputs: Any = BOTH, solver: str = "exact", repeat: int = 3, **how: Any
-) -> float:
-    """Return the time of a scene on one thread."""
-    scenes = math.prod(np.broadcast_shapes(*(np.shape(value) for value in parameters.values())))
-    return 1e6 * seconds_of(lambda: solve(parameters, outputs, solver=solver, threads=1, **how), repeat=repeat) / scenes
 
 
 def mixture_table(number: int = 1_000_000) -> str:
@@ -31,14 +19,14 @@ def mixture_table(number: int = 1_000_000) -> str:
     lines = []
     for name, spacing in [("log-uniform lambda/L", "log"), ("uniform lambda/L", "linear")]:
         scenes = mixture(number, spacing)
-        lines.append([name, microseconds(scenes, BOTH[:1]), microseconds(scenes)])
+        lines.append([name, microseconds(scenes, FORCE), microseconds(scenes)])
     smooth: dict[str, Any] = {**mixture(number, "log"), "A": 0.0}
-    lines.append(["smooth, all materials different", microseconds(smooth, BOTH[:1]), microseconds(smooth)])
+    lines.append(["smooth, all materials different", microseconds(smooth, FORCE), microseconds(smooth)])
     smooth |= {"k": 0.3, "modulus": 500.0, "lambda_over_R": 0.1, "a_max_over_R": np.linspace(0.5, 3, number)}
-    lines.append(["smooth, one material", microseconds(smooth, BOTH[:1]), microseconds(smooth)])
+    lines.append(["smooth, one material", microseconds(smooth, FORCE), microseconds(smooth)])
     for solver in ("asymptotic", "envelope"):
         scenes = mixture(number // 10, "log")
-        lines.append([f"log-uniform, {solver}", *(microseconds(scenes, out, solver) for out in (BOTH[:1], BOTH))])
+        lines.append([f"log-uniform, {solver}", *(microseconds(scenes, out, solver=solver) for out in (FORCE, BOTH))])
     return table([f"{number:,} scenes, one thread", "force, us", "force and energy, us"], lines)
 
 
@@ -77,7 +65,7 @@ def rims_table() -> tuple[str, NDArray[np.float64]]:
 def numbers() -> NDArray[np.float64]:
     """Return the time of a scene against the number of scenes of a call."""
     counts = [1, 10, 100, 1000, 10_000, 100_000]
-    return np.array([[n, *(microseconds(mixture(n, "log"), out) for out in (BOTH[:1], BOTH))] for n in counts])
+    return np.array([[n, *(microseconds(mixture(n, "log"), out) for out in (FORCE, BOTH))] for n in counts])
 
 
 def picture(by_waves: NDArray[np.float64], by_rims: NDArray[np.float64], by_number: NDArray[np.float64]) -> None:
@@ -98,20 +86,3 @@ def picture(by_waves: NDArray[np.float64], by_rims: NDArray[np.float64], by_numb
         axis.legend()
     FIGURES.mkdir(parents=True, exist_ok=True)
     figure.savefig(FIGURES / "cost.png", dpi=110)
-
-
-def main() -> None:
-    """Print all tables and draw the figure."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--scenes", type=int, default=1_000_000, help="scenes of a mixture [1000000]")
-    arguments = parser.parse_args()
-    print(mixture_table(arguments.scenes))
-    text, by_waves = waves_table()
-    print(text)
-    text, by_rims = rims_table()
-    print(text)
-    picture(by_waves, by_rims, numbers())
-
-
-if __name__ == "__main__":
-    main()

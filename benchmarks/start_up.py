@@ -1,6 +1,5 @@
 """Start-up of the command: help, a study checked, run and described; the first run ever, which compiles."""
 
-import argparse
 import os
 import statistics
 import subprocess
@@ -11,8 +10,7 @@ from pathlib import Path
 
 from benchmarks.clock import ROOT, table
 
-SMOKE = ROOT / "configs" / "smoke.toml"
-CURVE = ROOT / "configs" / "curve.toml"
+SMOKE, CURVE = (ROOT / "configs" / f"{name}.toml" for name in ("smoke", "curve"))
 FORCE = ("--set", 'outputs=["pull_off_force"]')
 """Of the smoke study, the force alone."""
 
@@ -55,13 +53,3 @@ def start_up_table(repeat: int = 9) -> str:
     lines: list[list[object]] = [[f"`{words}`", statistics.median(own)] for words, own in times.items()]
     lines += [[words, seconds] for words, seconds in first.items()]
     return table(["command", "s"], lines)
-
-
-def main() -> None:
-    """Print the table."""
-    argparse.ArgumentParser(description=__doc__).parse_args()
-    print(start_up_table())
-
-
-if __name__ == "__main__":
-    main()

@@ -1,18 +1,18 @@
 """Studies of 10^5 to 10^7 scenes through the command: wall time, how threads share it, and peak memory."""
 
-import argparse
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 
-from benchmarks.clock import processors, seconds_of, table
+from benchmarks.clock import BOTH, seconds_of, table
 from gradhesion.core import solve
+from gradhesion.core.processors import processors
 
-OUTPUTS: Final = ("pull_off_force", "dissipated_energy")
 SIZES: Final = {10**5: (4, 25, 4), 10**6: (8, 50, 10), 10**7: (8, 250, 20)}
 """Values of c0/R, lambda/R and A, over the same ranges, so that the scenes are of the same kind."""
 _EXPONENTS: Final = (0.0, 0.2, 0.4, 0.6, 0.8)
@@ -27,18 +27,10 @@ sys.exit(os.waitstatus_to_exitcode(status))
 """Runs a command from a small process: what a large one takes would count as the command's memory."""
 
 
-class Ran(NamedTuple):
-    """What a run took: wall time in s, peak memory in GiB, and the size of its file in MB."""
-
-    seconds: float
-    memory: float
-    size: float
-
-
 def text_of(depths: int, wavelengths: int, amplitudes: int) -> str:
     """Return a study over five axes, of 250 times the product of the numbers."""
     return f"""title = "Scenes over five axes"
-outputs = ["{'", "'.join(OUTPUTS)}"]
+outputs = ["{'", "'.join(BOTH)}"]
 [parameters]
 k             = {[*_EXPONENTS]}
 nu            = 0.3
@@ -50,15 +42,15 @@ a_max_over_R  = {{ start = 0.1, stop = 1.0, num = {_RIMS} }}
 """
 
 
-def run(numbers: tuple[int, int, int], threads: int) -> Ran:
-    """Run a study by the command, once."""
+def run(numbers: tuple[int, int, int], threads: int) -> tuple[float, float, float]:
+    """Run a study by the command; return its wall time in s, peak memory in GiB and the size of its file in MB."""
     with tempfile.TemporaryDirectory() as folder:
         study, output = Path(folder) / "study.toml", Path(folder) / "study.nc"
         study.write_text(text_of(*numbers))
         command = ["-m", "gradhesion.cli", "run", str(study), "-o", str(output), "--threads", str(threads), "--quiet"]
         done = subprocess.run([sys.executable, "-c", _LAUNCH, *command], capture_output=True, text=True, check=True)
         seconds, memory = map(float, done.stdout.split())
-        return Ran(seconds, memory, output.stat().st_size / 1e6)
+        return seconds, memory, output.stat().st_size / 1e6
 
 
 def solving(numbers: tuple[int, int, int], threads: int) -> float:
@@ -73,7 +65,7 @@ def solving(numbers: tuple[int, int, int], threads: int) -> float:
     }
     open_mesh = dict(zip(axes, np.ix_(*axes.values()), strict=True))
     scenes = {**open_mesh, "nu": 0.3, "modulus": 500.0}
-    return seconds_of(lambda: solve(scenes, OUTPUTS, threads=threads), repeat=3)
+    return seconds_of(lambda: solve(scenes, BOTH, threads=threads), repeat=2, clock=time.perf_counter)
 
 
 def study_table(most: int = 10**7) -> str:
@@ -81,18 +73,7 @@ def study_table(most: int = 10**7) -> str:
     lines = []
     for count in [size for size in SIZES if size <= most]:
         for threads in sorted({1, processors()}):
-            ran = run(SIZES[count], threads)
+            seconds, *memory_and_size = run(SIZES[count], threads)
             alone = solving(SIZES[count], threads)
-            lines.append([count, threads, alone, ran.seconds, 1e6 * ran.seconds / count, ran.memory, ran.size])
+            lines.append([count, threads, alone, seconds, 1e6 * seconds / count, *memory_and_size])
     return table(["scenes", "threads", "solving, s", "command, s", "us a scene", "peak GiB", "file in MB"], lines)
-
-
-def main() -> None:
-    """Print the table."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--most", type=int, default=10**7, help="the largest number of scenes")
-    print(study_table(parser.parse_args().most))
-
-
-if __name__ == "__main__":
-    main()

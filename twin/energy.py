@@ -15,7 +15,7 @@ from typing import Final
 
 from flint import arb
 
-from gradhesion.twin.contact import Contact
+from gradhesion.twin.curve import Curve
 from gradhesion.twin.path import Jump, Path
 
 NODES: Final = 28
@@ -46,7 +46,7 @@ def double_exponential() -> list[tuple[arb, arb]]:
     return rule
 
 
-def integral(curve: Contact, f: Callable[[arb], arb], lo: arb, hi: arb) -> arb:
+def integral(curve: Curve, f: Callable[[arb], arb], lo: arb, hi: arb) -> arb:
     """Return the integral of f, a function on the curve, over phases from lo to hi."""
     total = arb(0)
     if lo == 0:
@@ -62,7 +62,7 @@ def integral(curve: Contact, f: Callable[[arb], arb], lo: arb, hi: arb) -> arb:
     return total
 
 
-def dissipated(curve: Contact, jump: Jump) -> arb:
+def dissipated(curve: Curve, jump: Jump) -> arb:
     """Drop of potential energy in a jump, negative where the potential rises."""
     scale = curve.wavelength / (2 * arb.pi())
 
@@ -75,7 +75,7 @@ def dissipated(curve: Contact, jump: Jump) -> arb:
     return drop if jump.start < jump.end else -drop
 
 
-def loop(curve: Contact, path: Path) -> arb:
+def loop(curve: Curve, path: Path) -> arb:
     """Return the same energy as the loop integral of P dY along branches and the line at the rim; not for a load."""
     assert curve.rim is not None
 
@@ -99,7 +99,7 @@ def loop(curve: Contact, path: Path) -> arb:
     return result - work(arb(0), at) if at > 0 else result
 
 
-def area(curve: Contact) -> arb:
+def area(curve: Curve) -> arb:
     """Return the area within the rim, each part by its work of adhesion over dgamma; inf without a rim."""
     if curve.rim is None:
         return arb("inf")

@@ -16,7 +16,7 @@ from typing import Final
 
 from flint import arb
 
-from gradhesion.twin.general import PLAIN, Harmonic, Shape
+from gradhesion.twin.shape import PLAIN, Harmonic, Shape
 from gradhesion.twin.special import theta
 
 

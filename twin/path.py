@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from flint import arb
 
-from gradhesion.twin.contact import Contact
+from gradhesion.twin.curve import Curve
 from gradhesion.twin.roots import refine, zeros
 
 
@@ -43,7 +43,7 @@ class Path:
     last: arb
 
 
-def branches(curve: Contact, folds: list[arb]) -> list[Branch]:
+def branches(curve: Curve, folds: list[arb]) -> list[Branch]:
     """Rising branches in order; Y falls at first for k < 1 and may rise from a = 0 at k = 1."""
     ends = [arb(0), *folds] if curve.starts_rising else folds
     made: list[Branch] = []
@@ -53,12 +53,12 @@ def branches(curve: Contact, folds: list[arb]) -> list[Branch]:
     return made
 
 
-def ends_at_rim(curve: Contact, made: list[Branch]) -> bool:
+def ends_at_rim(curve: Curve, made: list[Branch]) -> bool:
     """Whether the rim (or infinity) lies on a rising branch, and is stable."""
     return bool(made) and (made[-1].hi is None or made[-1].hi is curve.rim)
 
 
-def crossing(curve: Contact, branch: Branch, level: arb) -> arb:
+def crossing(curve: Curve, branch: Branch, level: arb) -> arb:
     """Return the phase where a rising branch has Y = level."""
     hi = branch.hi
     if hi is None:
@@ -68,7 +68,7 @@ def crossing(curve: Contact, branch: Branch, level: arb) -> arb:
     return refine(lambda z: (curve.coordinate(z) - level, curve.slope(z)), branch.lo, hi)
 
 
-def load(curve: Contact, made: list[Branch]) -> tuple[list[Jump], arb, arb]:
+def load(curve: Curve, made: list[Branch]) -> tuple[list[Jump], arb, arb]:
     """Return the jumps from a = 0, Y = 0 to full contact, the largest Y on the way, and its phase."""
     jumps: list[Jump] = []
     at, level = arb(0), arb(0)
@@ -88,7 +88,7 @@ def load(curve: Contact, made: list[Branch]) -> tuple[list[Jump], arb, arb]:
     return jumps, level, at
 
 
-def unload(curve: Contact, made: list[Branch]) -> tuple[list[Jump], arb, arb]:
+def unload(curve: Curve, made: list[Branch]) -> tuple[list[Jump], arb, arb]:
     """Return the jumps from full contact to a = 0, Y where contact is lost, and its phase."""
     jumps: list[Jump] = []
     inner = list(made)
@@ -108,7 +108,7 @@ def unload(curve: Contact, made: list[Branch]) -> tuple[list[Jump], arb, arb]:
     return jumps, level, at
 
 
-def cycle(curve: Contact) -> tuple[Path, list[Branch]]:
+def cycle(curve: Curve) -> tuple[Path, list[Branch]]:
     """Return the whole cycle and the branches it rests on."""
     made = branches(curve, zeros(curve, curve.fold, curve.rim))
     loading, largest, deepest = load(curve, made)
@@ -116,7 +116,7 @@ def cycle(curve: Contact) -> tuple[Path, list[Branch]]:
     return Path(loading, unloading, largest, lowest, deepest, last), made
 
 
-def pull_off(curve: Contact) -> tuple[arb, arb, list[arb]]:
+def pull_off(curve: Curve) -> tuple[arb, arb, list[arb]]:
     """Return the pull-off force -min P, its phase, and -P at every candidate (the minima of P, and the rim)."""
     found = zeros(curve, curve.trough, curve.rim)[::2]  # P falls at first, so minima come first
     if curve.rim is not None:

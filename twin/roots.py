@@ -2,11 +2,11 @@
 
 from collections.abc import Callable
 from itertools import pairwise
-from typing import Any, Final
+from typing import Final
 
 from flint import arb
 
-from gradhesion.twin.contact import Contact
+from gradhesion.twin.curve import Control, Curve
 
 NARROW: Final = arb(2) ** -140
 """Relative step at which Newton's iteration ends (42 digits)."""
@@ -33,7 +33,7 @@ def refine(f: Callable[[arb], tuple[arb, arb]], lo: arb, hi: arb) -> arb:
     raise ArithmeticError(message)
 
 
-def zeros(curve: Contact, control: Any, end: arb | None) -> list[arb]:
+def zeros(curve: Curve, control: Control, end: arb | None) -> list[arb]:
     """All zeros of the tilt of a control in (0, end], in order.
 
     Every piece of the grid is halved until the enclosure of the tilt, or of its derivative, excludes 0: then the piece
@@ -62,7 +62,7 @@ def zeros(curve: Contact, control: Any, end: arb | None) -> list[arb]:
     return found
 
 
-def extrema(curve: Contact, control: Any, end: arb | None) -> list[arb]:
+def extrema(curve: Curve, control: Control, end: arb | None) -> list[arb]:
     """Extrema of the tilt in the window, by sign changes of its slope on a grid (only margins rest on them)."""
     coarse = curve.grid(control, end)
     edges = [z for lo, hi in pairwise(coarse) for z in (lo, ((lo + hi) / 2).mid())] + coarse[-1:]

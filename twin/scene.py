@@ -8,15 +8,12 @@ from typing import Final
 from flint import arb
 
 from gradhesion.twin import energy
-from gradhesion.twin.contact import Contact
+from gradhesion.twin.bounds import waves_within
 from gradhesion.twin.curve import Curve
-from gradhesion.twin.general import PLAIN, Shape
-from gradhesion.twin.general.bounds import waves_within
-from gradhesion.twin.general.curve import GeneralCurve
 from gradhesion.twin.path import Branch, Jump, Path, cycle, pull_off
 from gradhesion.twin.roots import extrema
+from gradhesion.twin.shape import PLAIN, Shape
 from gradhesion.twin.turning import TURNS, turning
-from gradhesion.twin.window import window
 
 ZERO: Final = arb(0)
 PARAMETERS = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
@@ -76,26 +73,9 @@ class Solution:
     """The relative change of the force for one of the turning radius; 0 where the pull-off is not there."""
 
 
-def curve_of(parameters: Mapping[str, float], shape: Shape = PLAIN, work: float = 1.0) -> Contact:
-    """Return the equilibrium curve of a scene at some work of adhesion, over dgamma.
-
-    One cosine on a paraboloid under displacement control has its own.
-    """
-    return Curve(parameters, work) if shape == PLAIN else GeneralCurve(parameters, shape, work)
-
-
 def waves_to_follow(parameters: Mapping[str, float], shape: Shape = PLAIN, *, cycle: bool) -> float:
     """Estimate the waves that `solve` goes through (`solve_pull_off` if not `cycle`): the time is 15 ms for each."""
-    if shape != PLAIN:
-        return waves_within(GeneralCurve(parameters, shape), cycle=cycle)
-    curve = Curve(parameters)
-    furthest = window(curve, curve.trough)[1]
-    if cycle:
-        jump_in = ((1 + curve.k) * curve.adhesion) ** (2 / (3 + curve.k))
-        furthest = max(furthest, window(curve, curve.fold)[1], curve.phase(jump_in))
-    if curve.rim is not None and curve.rim < furthest:
-        furthest = curve.rim
-    return float(furthest) / (2 * math.pi)
+    return waves_within(Curve(parameters, shape), cycle=cycle)
 
 
 def solve(parameters: Mapping[str, float], shape: Shape = PLAIN) -> Solution:
@@ -105,7 +85,7 @@ def solve(parameters: Mapping[str, float], shape: Shape = PLAIN) -> Solution:
     curve, unloading along another one.
     """
     ratio = parameters.get("closing_ratio", 1.0)
-    curve, closing = curve_of(parameters, shape), curve_of(parameters, shape, ratio)
+    curve, closing = Curve(parameters, shape), Curve(parameters, shape, ratio)
     turn = next((turning(closing, name, parameters[name]) for name in TURNS if name in parameters), None)
     if turn is not None and turn.place is not None and not turn.place > 0:
         return _without_contact(parameters["indentation_max_over_R"], turn.margin)
@@ -179,7 +159,7 @@ def _without_contact(depth: float, margin: float) -> Solution:
     )
 
 
-def _pinned(closing: Contact) -> arb:
+def _pinned(closing: Curve) -> arb:
     """Return how far the curve of closing is above that of dgamma where the edge turns."""
     if closing.work == 1:
         return ZERO
@@ -191,7 +171,7 @@ def _condition(terms: list[arb], total: arb) -> float:
     return float(sum((abs(term) for term in terms), arb(0)) / abs(total)) if total.is_finite() and total != 0 else 1.0
 
 
-def _snap_in_force(closing: Contact, path: Path, shape: Shape) -> arb:
+def _snap_in_force(closing: Curve, path: Path, shape: Shape) -> arb:
     """Return the pull just after the jump into contact, in 1.5 pi; a dead load holds none."""
     first = path.loading[0] if path.loading else None
     if first is None or first.start != 0 or not closing.work > 0:
@@ -202,7 +182,7 @@ def _snap_in_force(closing: Contact, path: Path, shape: Shape) -> arb:
     return ZERO if shape.control == "load" else pull
 
 
-def _turning_slope(curve: Contact) -> float:
+def _turning_slope(curve: Curve) -> float:
     """Return the relative change of the load for one of the radius, at the place where it turns."""
     z = curve.rim
     assert z is not None
@@ -213,10 +193,10 @@ def _turning_slope(curve: Contact) -> float:
 
 def solve_pull_off(parameters: Mapping[str, float], shape: Shape = PLAIN) -> PullOff:
     """Solve the pull-off of one scene, for which its cycle need not be followed."""
-    return _pull_off(curve_of(parameters, shape))
+    return _pull_off(Curve(parameters, shape))
 
 
-def _pull_off(curve: Contact) -> PullOff:
+def _pull_off(curve: Curve) -> PullOff:
     force, at, forces = pull_off(curve)
     return PullOff(
         pull_off_force=force / (3 * arb.pi() / 2),
@@ -238,7 +218,7 @@ def _margin_radius(force: arb, forces: list[arb]) -> float:
     return min(1.0, others[1]) if len(others) > 1 else 1.0
 
 
-def _radius_condition(curve: Contact, z: arb) -> float:
+def _radius_condition(curve: Curve, z: arb) -> float:
     if curve.rim is not None and z == curve.rim:
         return 1.0
     return float(curve.tilt_size(z, curve.trough) / (z * abs(curve.tilt(z, curve.trough)[1])))
@@ -247,7 +227,7 @@ def _radius_condition(curve: Contact, z: arb) -> float:
 class _Fold:
     """The coordinate of a fold, to be compared with the levels of jumps."""
 
-    def __init__(self, curve: Contact, depth: arb, z: arb) -> None:
+    def __init__(self, curve: Curve, depth: arb, z: arb) -> None:
         self.z, self.depth = z, depth
         self.rough, self.size = float(depth), curve.coordinate_size(z)
 
@@ -259,7 +239,7 @@ class _Fold:
         return rough if rough > 1e-9 else float(abs(jump.level - self.depth)) / scale
 
 
-def _margin_jumps(curve: Contact, path: Path, made: list[Branch], *, turned: bool) -> float:
+def _margin_jumps(curve: Curve, path: Path, made: list[Branch], *, turned: bool) -> float:
     """Least of: fold depths against the levels of jumps; the tilt at its extrema and at the rim (folds about to be)."""
     margins = [1.0]
     tops = [(b.top, b.hi) for b in made if b.top is not None and b.hi is not None and b.hi is not curve.rim]

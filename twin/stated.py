@@ -8,8 +8,8 @@ from typing import Final
 from flint import arb
 
 from gradhesion.twin.envelope import amplitude, jump_in_radius, similarity_length, solve_envelope
-from gradhesion.twin.general import PLAIN, Shape
 from gradhesion.twin.scene import PullOff, Solution, solve, solve_pull_off, waves_to_follow
+from gradhesion.twin.shape import PLAIN, Shape
 from gradhesion.twin.turning import TURNS
 
 FORCE: Final = 1e-12
@@ -230,13 +230,16 @@ def _of_cycle(solution: Solution) -> dict[str, Expected]:
     error = _share(ENERGY * solution.energy_condition, solution.dissipated_energy)  # of the sizes of all jumps
     moved = ROUNDED + DEPTH * solution.turning_condition  # of the radius at which the edge turns
     edge = _share(2 * moved, solution.front_energy)
+    pinned = _share(DEPTH + 3 * moved, solution.pinned_depth)
+    if solution.delta_max is not None:  # at a ratio next to 1 a small difference of two depths
+        pinned += ROUNDED * solution.delta_max_size
     snaps = solution.snap_in_force.is_finite()
     return {
         "dissipated_energy": Expected(solution.dissipated_energy, error + edge),
         "loading_energy": Expected(solution.loading_energy, error),
         "unloading_energy": Expected(solution.unloading_energy, error + edge),
         "front_energy": Expected(solution.front_energy, edge, near),
-        "pinned_depth": Expected(solution.pinned_depth, _share(DEPTH + 3 * moved, solution.pinned_depth), near),
+        "pinned_depth": Expected(solution.pinned_depth, pinned, near),
         "snap_in_force": Expected(solution.snap_in_force, DEPTH * solution.snap_in_size if snaps else 0.0),
         "loading_jumps": Expected(arb(solution.loading_jumps), 0.0, near),
         "unloading_jumps": Expected(arb(solution.unloading_jumps), 0.0, near),

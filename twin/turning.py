@@ -7,12 +7,11 @@ searched there piece by piece, between the extrema of the load; a value that a j
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any, Final
+from typing import Final
 
 from flint import arb
 
-from gradhesion.twin.contact import Contact
-from gradhesion.twin.general.curve import Control, GeneralCurve
+from gradhesion.twin.curve import Control, Curve
 from gradhesion.twin.path import Branch, branches, crossing
 from gradhesion.twin.roots import refine, zeros
 
@@ -35,13 +34,10 @@ class Turn:
 class Measured:
     """The depth, or the load, along a curve."""
 
-    def __init__(self, curve: Contact, turn: str) -> None:
+    def __init__(self, curve: Curve, turn: str) -> None:
         """Choose what is measured; loads are in 1.5 pi."""
         self.curve, self.by_load = curve, turn == "load_max"
-        general = isinstance(curve, GeneralCurve)
-        self.control: Any = Control(arb(0), arb(1)) if general else curve.trough
-        if not self.by_load:
-            self.control = Control(arb(1), arb(0)) if general else curve.fold
+        self.control = Control(arb(0), arb(1)) if self.by_load else Control(arb(1), arb(0))
 
     def value(self, z: arb) -> arb:
         """Return it at a phase."""
@@ -69,7 +65,7 @@ class Measured:
         return refine(f, low, high)
 
 
-def turning(curve: Contact, turn: str, target: float) -> Turn:
+def turning(curve: Curve, turn: str, target: float) -> Turn:
     """Find where a cycle turns."""
     measured, wanted = Measured(curve, turn), arb(target)
     if turn == TURNS[0] and target < 0.0:
@@ -99,7 +95,7 @@ def turning(curve: Contact, turn: str, target: float) -> Turn:
     return Turn(None, min(margins), 0.0)
 
 
-def _first_place(curve: Contact) -> arb:
+def _first_place(curve: Curve) -> arb:
     """Return where the first branch is met at the coordinate 0, or the rim."""
     for branch in branches(curve, zeros(curve, curve.fold, curve.rim)):
         if branch.top is None or branch.top > 0:

@@ -21,7 +21,7 @@ from gradhesion.core import FAILED, PARAMETERS
 from gradhesion.core.answers.spectrum import random_profile
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, NO_VALUE
 from gradhesion.twin import stated
-from gradhesion.twin.general import Shape
+from gradhesion.twin.shape import Shape
 
 CANDIDATES: Final = 20
 """Scenes that may be drawn for each one of the sample, where some are left out."""

@@ -24,13 +24,14 @@ def test_rounded_values_are_exact_to_their_six_digits_and_single_where_they_fit(
 
 
 def test_axes_rise_and_infinity_has_a_place(made: Made) -> None:
-    path = made(parameters={"a_max_over_R": [np.inf, 9.0, 3.0, 1.0], "k": [0.31, 0.1]})
+    path = made(parameters={"a_max_over_R": [np.inf, 27.0, 9.0, 3.0, 1.0], "k": [0.31, 0.1]})
     with opened(path) as dataset:
         study, variables = study_data(dataset)
     axes = {axis["name"]: axis for axis in study["axes"]}
     assert axes["k"]["values"].tolist() == [0.1, 0.31]
-    assert axes["a_max_over_R"]["places"] == pytest.approx(np.log10([1.0, 3.0, 9.0, 27.0]))
-    assert axes["a_max_over_R"]["infinity"] == pytest.approx(np.log10(27.0))
+    assert axes["a_max_over_R"]["places"] == pytest.approx(np.log10([1.0, 3.0, 9.0, 27.0, 81.0]))
+    assert axes["a_max_over_R"]["infinity"] == pytest.approx(np.log10(81.0))
+    assert axes["a_max_over_R"]["ends"] == pytest.approx(np.log10([1.0, 27.0]))
     with gr.open(path) as whole:
         force = whole["pull_off_force"].sortby([*axes]).transpose(*axes).values
     values = variables[0]["values"].reshape(force.shape)

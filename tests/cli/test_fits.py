@@ -223,6 +223,7 @@ def test_a_tabor_parameter_has_a_range_said_if_long(models: dict[str, Path], gra
     result = gradhesion("run", "many.toml", "-o", "far.nc", *options)
     assert result.exit_code == 0, result.stderr
     assert "Tabor" in result.stderr
+    assert ") is below " in gradhesion("info", folder / "far.nc").stdout
     for path, reach, word in ((models["zeros"], 3e-10, "0.3 nm, assumed"), (folder / "far.nc", 1e-7, "100 nm, given")):
         with gr.open(path) as fit:
             E_star, work = fit["value"].values[:2]

@@ -58,7 +58,7 @@ class Kind:
     @property
     def shape(self) -> Any:
         """The shape by which the twin knows it."""
-        from gradhesion.twin.general import Shape
+        from gradhesion.twin.shape import Shape
 
         return Shape(self.exponent, self.waves, self.control, self.pattern_waves, self.pattern or "toughness")
 

@@ -18,7 +18,6 @@ from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.rules.asked import checked
 
 from .pages import PAGES, ROOT, Block, blocks_of, commands_of, made_smaller, same
-from .plain import HIDE, hidden
 
 pytestmark = pytest.mark.slow
 
@@ -42,15 +41,6 @@ WHOLE = tomllib.loads(next(block.text for block in BLOCKS if block.language == "
 """The study of the README, which the parts of studies are added to."""
 
 
-def _environment(folder: Path) -> dict[str, str]:
-    """Find the installed command first, write nothing outside of the folder, and have no more than is installed plainly."""
-    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
-    (folder / "hide").mkdir(exist_ok=True)
-    (folder / "hide" / "sitecustomize.py").write_text(HIDE, encoding="utf-8")
-    own = {"PATH": path, "HOME": os.environ.get("HOME", str(folder)), "MPLBACKEND": "agg"}
-    return os.environ | own | {"PYTHONPATH": str(folder / "hide"), "HIDDEN": " ".join(hidden())}
-
-
 def _run_commands(block: Block, folder: Path) -> None:
     for command in commands_of(block):
         line = made_smaller(command.line, block)
@@ -62,16 +52,11 @@ def _run_commands(block: Block, folder: Path) -> None:
 
 
 def _in_a_shell(line: str, folder: Path) -> tuple[int, str]:
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])  # the installed command first
+    own, bash = os.environ | {"PATH": path, "MPLBACKEND": "agg"}, ["bash", "-euo", "pipefail", "-c", line]
+    none, both = subprocess.DEVNULL, subprocess.STDOUT
     done = subprocess.run(
-        ["bash", "-euo", "pipefail", "-c", line],
-        cwd=folder,
-        env=_environment(folder),
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        timeout=600,
-        check=False,
+        bash, cwd=folder, env=own, stdin=none, stdout=subprocess.PIPE, stderr=both, text=True, timeout=600, check=False
     )
     return done.returncode, done.stdout
 

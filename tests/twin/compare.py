@@ -18,8 +18,8 @@ import numpy as np
 from gradhesion.core import FAILED, OUTPUTS, Loading, solve
 from gradhesion.core.problem.control import CONTROLS
 from gradhesion.twin import stated
-from gradhesion.twin.general import PLAIN, Shape
 from gradhesion.twin.scene import waves_to_follow
+from gradhesion.twin.shape import PLAIN, Shape
 from tests.core.scene import profile_of
 from tests.stress.draw import Scenes, eventful, hostile
 

@@ -55,6 +55,13 @@ def test_panels_in_a_column_are_high_enough_to_be_read(kind: Any) -> None:
     assert min(axes.get_position().height for axes in panels) * inches > 0.75
 
 
+def test_a_line_ends_before_infinity_which_stands_apart() -> None:
+    for axes in gr.plot(computed(**SHAPES["a line to infinity"])):
+        line, end = axes.get_lines()[:2]
+        assert line.get_xdata()[-1] < end.get_xdata()[0]
+        assert (len(line.get_xdata()), len(end.get_xdata())) == (3, 1)
+
+
 def test_lines_are_the_values_of_the_dataset(grid: xarray.Dataset) -> None:
     few = grid.isel(A=1, k=[0, 3, 8])
     panels = gr.plot(few)

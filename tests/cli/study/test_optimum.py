@@ -1,5 +1,6 @@
 """Studies of optima: against brute force, in blocks, in units, with requirements, as fronts, and what is refused."""
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +10,7 @@ import xarray
 
 import gradhesion as gr
 from gradhesion.cli.dataset.writer import write
+from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study import study_from
 from gradhesion.core import solve
 from tests.cli.conftest import Call, Run
@@ -189,3 +191,20 @@ def test_what_of_optima_cannot_be_joined(study: dict[str, Any], gradhesion: Call
         result = gradhesion("merge", *(tmp_path / f"{name}.nc" for name in names), "-o", tmp_path / "all.nc")
         assert result.exit_code == 2
         assert word in result.stderr
+
+
+def test_the_resolution_that_is_named_is_the_finest_that_is_searched(study: dict[str, Any]) -> None:
+    parameters = study["parameters"] | {"A": {"start": 0.01, "stop": 0.1}}
+    finest = int(re.findall(r"at most (\d+)", refusal(study, parameters, 10**6))[0])
+    assert refusal(study, parameters, finest) == ""
+    assert str(finest) in refusal(study, parameters, finest + 1)
+
+
+def refusal(study: dict[str, Any], parameters: dict[str, Any], resolution: int) -> str:
+    """What is said against a search over two inputs."""
+    search = {"maximise": "pull_off_force", "over": ["lambda_over_R", "A"], "resolution": resolution}
+    try:
+        study_from(study | {"optimum": search, "parameters": parameters})
+    except StudyError as error:
+        return str(error)
+    return ""

@@ -10,7 +10,7 @@ import pytest
 from gradhesion.core import OUTPUTS, solve
 from gradhesion.core.problem.profile import swings
 from gradhesion.twin import stated
-from gradhesion.twin.general import Shape
+from gradhesion.twin.shape import Shape
 from tests.core.scene import adhesion, profile_of, scene_of_ratio
 from tests.exact import envelope_loop
 

@@ -191,11 +191,6 @@ def test_one_jump_there_and_back_and_none(scene: dict[str, float]) -> None:
 
 
 def test_what_cannot_be_drawn_has_no_value(scene: dict[str, float]) -> None:
-    variables, status = draw_curves(scene | {"k": 1.1}, list(CURVES))
-    assert status == NO_VALUE
-    for name, values in variables.items():
-        expected = [] if name in CURVES["jumps"] else [-1 if name in INTEGERS else math.nan]
-        np.testing.assert_array_equal(values, expected)
     scene["lambda_over_R"] = 8e-6  # more folds than can be drawn leave what has a closed form
     variables, status = draw_curves(scene, list(CURVES))
     assert status == NO_VALUE

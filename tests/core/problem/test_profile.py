@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from gradhesion.core import Harmonic, Loading, Profile, solve
+from gradhesion.core import Harmonic, Loading, Profile
 from gradhesion.core.problem.toughness import Rate, Toughness, ToughnessHarmonic
 from tests.core.scene import scene_of
 
@@ -34,11 +34,6 @@ REFUSED: list[tuple[Any, dict[str, Any], str]] = [
 def test_what_is_out_of_range(kind: Any, values: dict[str, Any], told: str) -> None:
     with pytest.raises(ValueError, match=told):
         kind(**values)
-
-
-def test_the_default_profile_and_control_change_nothing() -> None:
-    plain, other = solve(SCENE), solve(SCENE, profile=Profile(), loading=Loading())
-    assert all(plain[name].tobytes() == other[name].tobytes() for name in plain)
 
 
 @pytest.mark.parametrize(

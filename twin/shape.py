@@ -1,4 +1,4 @@
-"""The twin of any profile under any control: m, a Fourier series, and displacement, load or a machine prescribed."""
+"""What a scene of the twin is: a power m, a Fourier series, and displacement, load or a machine prescribed."""
 
 from dataclasses import dataclass
 from typing import Final

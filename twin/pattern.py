@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 from flint import arb
 
-from gradhesion.twin.general import Shape
+from gradhesion.twin.shape import Shape
 
 
 class Pattern:

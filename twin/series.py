@@ -13,8 +13,8 @@ from typing import Final
 
 from flint import arb, arb_poly
 
-from gradhesion.twin.general import Harmonic
-from gradhesion.twin.general.integrals import Integral, taylor, taylor_at_zero
+from gradhesion.twin.integrals import Integral, taylor, taylor_at_zero
+from gradhesion.twin.shape import Harmonic
 
 WIDTH: Final = 2
 """Phase of the shortest wave from one series to the next."""
@@ -90,11 +90,6 @@ class Series:
         """W and U."""
         here = self._bin(z)
         return here.w(z - here.centre), here.u(z - here.centre)
-
-    def w(self, z: arb) -> arb:
-        """W alone."""
-        here = self._bin(z)
-        return here.w(z - here.centre)
 
     def v(self, z: arb) -> tuple[arb, arb]:
         """V = W + z W' and V'; for a ball no wider than a bin an enclosure of all its values."""

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Final
 from flint import arb
 
 if TYPE_CHECKING:
-    from gradhesion.twin.general.curve import Control, GeneralCurve
+    from gradhesion.twin.curve import Control, Curve
 
 SMALLEST: Final = 1e-280
 """Phase at which the search for a sign next to a = 0 is given up."""
@@ -27,13 +27,13 @@ FACTOR: Final = 1.25
 """From one phase of a grid to the next, where the waves are longer."""
 
 
-def _osculating(curve: "GeneralCurve") -> tuple[float, float]:
+def _osculating(curve: "Curve") -> tuple[float, float]:
     """C and e."""
     e = 0.5 * (float(curve.k) - 1)
     return 2.0**e * math.gamma(1 + e), e
 
 
-def greatest(curve: "GeneralCurve", y: arb) -> arb:
+def greatest(curve: "Curve", y: arb) -> arb:
     """Return the bound of |S0| and |T0|."""
     if not y > 0:
         return curve.series.start
@@ -42,7 +42,7 @@ def greatest(curve: "GeneralCurve", y: arb) -> arb:
     return min(curve.series.start, far)
 
 
-def _powers_at_zero(curve: "GeneralCurve", control: "Control") -> tuple[dict[float, arb], dict[float, arb]]:
+def _powers_at_zero(curve: "Curve", control: "Control") -> tuple[dict[float, arb], dict[float, arb]]:
     """Return the coefficients of the powers of z in the tilt next to 0, and those of bounds of the rest."""
     k, m, c, series = float(curve.k), float(curve.m), float(curve.c), curve.series
     alpha, beta, _ = control
@@ -78,7 +78,7 @@ def _powers_at_zero(curve: "GeneralCurve", control: "Control") -> tuple[dict[flo
     }
 
 
-def first(curve: "GeneralCurve", control: "Control") -> arb:
+def first(curve: "Curve", control: "Control") -> arb:
     """Return a phase up to which the tilt has one sign."""
     powers, rest = _powers_at_zero(curve, control)
     lowest = min(powers)
@@ -93,7 +93,7 @@ def first(curve: "GeneralCurve", control: "Control") -> arb:
     raise ArithmeticError(message)
 
 
-def _rises(curve: "GeneralCurve", control: "Control", z: float) -> bool:
+def _rises(curve: "Curve", control: "Control", z: float) -> bool:
     """Tell whether the tilt is positive at z and, as m - 1 >= (1-k)/2, beyond."""
     front, e = _osculating(curve)
     waves = 0.0
@@ -107,7 +107,7 @@ def _rises(curve: "GeneralCurve", control: "Control", z: float) -> bool:
     return bool(bend > 1.001 * (2 * arb.pi() * curve.amplitude * waves + level * curve.adhesion * a ** (curve.c - 1)))
 
 
-def _presses(curve: "GeneralCurve", z: float) -> bool:
+def _presses(curve: "Curve", z: float) -> bool:
     """Tell whether P is positive at z and beyond."""
     front, e = _osculating(curve)
     waves = 0.0
@@ -120,7 +120,7 @@ def _presses(curve: "GeneralCurve", z: float) -> bool:
     return bool(bend > 1.001 * pull)
 
 
-def last(curve: "GeneralCurve", control: "Control") -> float:
+def last(curve: "Curve", control: "Control") -> float:
     """Return a phase beyond which Y rises, or the load is positive where it has to pull; inf if there is none."""
     ends = bool(curve.m - 1 >= curve.c) or not curve.amplitude > 0
     z = 1.0
@@ -131,7 +131,7 @@ def last(curve: "GeneralCurve", control: "Control") -> float:
     return math.inf
 
 
-def grid(curve: "GeneralCurve", control: "Control", end: arb | None) -> list[arb]:
+def grid(curve: "Curve", control: "Control", end: arb | None) -> list[arb]:
     """Return the edges of pieces, half a radian of the shortest wave at most, that cover all zeros of the tilt."""
     low, high = float(first(curve, control)), last(curve, control)
     if end is not None and end < high:
@@ -151,7 +151,7 @@ def grid(curve: "GeneralCurve", control: "Control", end: arb | None) -> list[arb
     return [*edges, stop] if low < stop else []
 
 
-def waves_within(curve: "GeneralCurve", *, cycle: bool) -> float:
+def waves_within(curve: "Curve", *, cycle: bool) -> float:
     """Estimate how many waves of the shortest are gone through, weighed by what each costs against one cosine wave."""
     furthest = last(curve, curve.trough)
     if cycle:
