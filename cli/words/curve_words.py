@@ -1,6 +1,6 @@
 """Curves in words: how long they are, how often they fold and jump, and how far they reach."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -102,8 +102,17 @@ def jump_lines(dataset: xarray.Dataset) -> Iterator[str]:
         item = int(jumps["jump_energy"].values.argmax())
         scene = int(np.searchsorted(np.cumsum(counts), item, side="right"))
         varying = [name for name in INPUTS if name in dataset and dataset[name].ndim]
-        columns = columns_of(dataset, varying, dataset["status"])
-        place = {name.removeprefix("jump_"): jumps[name].values[item] for name in names}
-        place |= {name: own[scene] for name, own in columns.items()}
-        told_of = ", ".join(f"{name} = {value + 0.0:.6g}" for name, value in place.items() if name != "energy")
-        yield f"  the largest dissipates {place['energy']:.6g}: {told_of}"
+        place = {name: values[scene] for name, values in columns_of(dataset, varying, dataset["status"]).items()}
+        yield _largest({name: jumps[name].values[item].item() for name in names}, place)
+
+
+def _largest(jump: Mapping[str, float], place: Mapping[str, np.generic]) -> str:
+    """Report what is known of the jump that dissipates most."""
+    written = [f"  the largest dissipates {jump['jump_energy']:.6g}"]
+    if "jump_unloading" in jump:
+        written.append("on unloading" if jump["jump_unloading"] == 1 else "on loading")
+    if "jump_indentation" in jump:
+        written.append(f"at the depth {jump['jump_indentation'] + 0.0:.6g}")
+    if {"jump_radius_before", "jump_radius_after"} <= jump.keys():
+        written.append(f"from the radius {jump['jump_radius_before']:.6g} to {jump['jump_radius_after']:.6g}")
+    return ", ".join([*written, *(f"{name} = {value:g}" for name, value in place.items())])
