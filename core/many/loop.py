@@ -229,7 +229,7 @@ def leave(long: Long, curve: Curve, starts: int, last: int) -> Leaving:
     return Leaving(wave, left.lost, left.jumps, left.last, tied)
 
 
-@kernel
+@inlined
 def _far_landing(long: Long, curve: Curve, before: Loading, rim: float) -> tuple[Loaded, Loading]:
     """Return what loading loses that jumps to the endless branch far out, or to the rim, and how it stands there.
 

@@ -8,7 +8,7 @@ from gradhesion.core.curve import trace as at
 from gradhesion.core.curve.values import Curve, slope_at
 from gradhesion.core.cycle.disc import gap_is_open
 from gradhesion.core.cycle.path import end_state, fill_unloading, walk_on
-from gradhesion.core.jit import kernel
+from gradhesion.core.jit import inlined, kernel
 from gradhesion.core.many.search import (
     BORN,
     BOTTOM,
@@ -90,7 +90,7 @@ def _losses(long: Long, curve: Curve, number: float, space: Space, outwards: boo
     return True
 
 
-@kernel
+@inlined
 def _panel(
     long: Long, curve: Curve, first: int, count: int, outwards: bool, inwards: bool, values: Floats, sums: Floats
 ) -> bool:

@@ -12,7 +12,7 @@ from gradhesion.core.curve.values import Curve, coordinate_at, coordinate_of, de
 from gradhesion.core.cycle.disc import Disc
 from gradhesion.core.cycle.path import end_state, walk_on
 from gradhesion.core.cycle.turning import turning_radius
-from gradhesion.core.jit import kernel, leaf
+from gradhesion.core.jit import inlined, kernel, leaf
 from gradhesion.core.many.waves import Waves, fill_from_zero, wave_of, waves_from
 from gradhesion.core.table.basis import room_of
 from gradhesion.core.table.layout import Table
@@ -160,7 +160,7 @@ def turn_in(long: Long, sought: Sought, number: int) -> float:
     return turning_radius(measured, sought.level, trace, visited, visits, space.measured, rising)
 
 
-@kernel
+@inlined
 def _is_past(long: Long, sought: Sought, number: int) -> bool:
     """Return whether a wave is at what is looked for, or past it."""
     trace, per = long.scratch.trace, long.waves.per
@@ -237,7 +237,7 @@ def end_of_folds(long: Long, curve: Curve) -> int:
     return first_wave(long, Sought(FOLDS, curve, 0.0, curve), long.near + 1, long.most)
 
 
-@kernel
+@inlined
 def from_birth(long: Long, curve: Curve) -> Long:
     """Return the same with more waves next to the centre where folds begin only beyond them: a curve of low power."""
     near = long.near
