@@ -8,16 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from gradhesion.cli.commands import shared
 from gradhesion.cli.commands.run import finish
-from gradhesion.cli.commands.shared import (
-    A_PATH,
-    dataset_to_write,
-    example,
-    given_up,
-    history_now,
-    overwriting,
-    quietly,
-)
 from gradhesion.cli.commands.status import status_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.terminal import messages
@@ -28,13 +20,13 @@ if TYPE_CHECKING:
     from gradhesion.cli.study.study import Study
 
 
-@click.command(epilog=example("merge big.nc", "merge first.nc second.nc -o all.nc"))
-@click.argument("files", nargs=-1, required=True, type=A_PATH)
-@dataset_to_write("Dataset to write, if several are joined.")
-@overwriting
-@quietly
-@given_up("--chunk", "the size of blocks is chosen by itself")
-@given_up("--log-json", "`gradhesion status FILE --json` shows how far a run is")
+@click.command(epilog=shared.example("merge big.nc", "merge first.nc second.nc -o all.nc"))
+@click.argument("files", nargs=-1, required=True, type=shared.A_PATH)
+@shared.dataset_to_write("Dataset to write, if several are joined.")
+@shared.overwriting
+@shared.quietly
+@shared.given_up("--chunk", "the size of blocks is chosen by itself")
+@shared.given_up("--log-json", "`gradhesion status FILE --json` shows how far a run is")
 def merge(files: tuple[Path, ...], output: Path | None, overwrite: bool, quiet: bool) -> None:
     """Join the blocks of shards, or datasets.
 
@@ -58,7 +50,8 @@ def merge(files: tuple[Path, ...], output: Path | None, overwrite: bool, quiet: 
         messages.say(f"{files[0]}: was complete already")
     else:
         with progress(shards.scenes, quiet=quiet) as advance:
-            written = write(shards, files[0], history=history_now(), overwrite=overwrite, engine=kept, advance=advance)
+            settings = {"history": shared.history_now(), "overwrite": overwrite}
+            written = write(shards, files[0], **settings, engine=kept, advance=advance)
         finish(files[0], shards.scenes, written, time.monotonic() - start, quiet=quiet)
 
 
@@ -91,7 +84,7 @@ def _joined(files: tuple[Path, ...], output: Path, *, overwrite: bool) -> "tuple
     refuse_existing(output, overwrite=overwrite)
     with ExitStack() as stack:
         sources = {file: stack.enter_context(opened(file)) for file in files}
-        history = "\n".join([*(str(source.attrs["history"]) for source in sources.values()), history_now()])
+        history = "\n".join([*(str(source.attrs["history"]) for source in sources.values()), shared.history_now()])
         study, dataset = joined(sources, history)
         write_dataset(dataset, output, overwrite=overwrite)
     status, steep = dataset["status"].values, int(dataset[STEEP].sum()) if STEEP in dataset else 0

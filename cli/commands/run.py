@@ -9,16 +9,7 @@ from typing import TYPE_CHECKING, Final
 
 import click
 
-from gradhesion.cli.commands.shared import (
-    A_PATH,
-    dataset_to_write,
-    example,
-    given_up,
-    history_now,
-    overriding,
-    overwriting,
-    quietly,
-)
+from gradhesion.cli.commands import shared
 from gradhesion.cli.errors import FitDoubtfulError, ScenesFailedError
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
@@ -46,11 +37,11 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
     return shard
 
 
-@click.command(epilog=example("run study.toml", "run study.toml -o wavier.nc --set parameters.A=0.05"))
-@click.argument("study", type=A_PATH)
-@dataset_to_write("Dataset to write [outputs/<study name>.nc].")
-@overriding
-@overwriting
+@click.command(epilog=shared.example("run study.toml", "run study.toml -o wavier.nc --set parameters.A=0.05"))
+@click.argument("study", type=shared.A_PATH)
+@shared.dataset_to_write("Dataset to write [outputs/<study name>.nc].")
+@shared.overriding
+@shared.overwriting
 @click.option("--fresh", is_flag=True, help="Discard the finished blocks of an earlier run.")
 @click.option("--shard", metavar="I/N", callback=_shard, help="Compute every N-th block, for `merge`.")
 @click.option(
@@ -66,11 +57,11 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
     type=click.IntRange(min=1),
     help="Threads to use [all available to the process]; values do not depend on it.",
 )
-@quietly
-@given_up("--dry-run", "use `gradhesion plan`")
-@given_up("--chunk", "the size of blocks is chosen by itself")
-@given_up("--fail-fast", "run fewer scenes first, and `gradhesion info` reports which have failed, and why")
-@given_up("--log-json", "`gradhesion status FILE --json` shows how far a run is")
+@shared.quietly
+@shared.given_up("--dry-run", "use `gradhesion plan`")
+@shared.given_up("--chunk", "the size of blocks is chosen by itself")
+@shared.given_up("--fail-fast", "run fewer scenes first, and `gradhesion info` reports which have failed, and why")
+@shared.given_up("--log-json", "`gradhesion status FILE --json` shows how far a run is")
 def run(
     study: Path,
     output: Path | None,
@@ -113,7 +104,7 @@ def run(
         done = write(
             loaded,
             path,
-            history=history_now(),
+            history=shared.history_now(),
             overwrite=overwrite,
             fresh=fresh,
             shard=shard,
@@ -177,7 +168,7 @@ def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> 
     with progress(len(study.loops), quiet=quiet or len(study.loops) == 1, noun="loop") as advance:
         fits = fits_of(study, advance)
     seconds = time.monotonic() - start
-    write_dataset(dataset_of(study, fits, history_now()), path, overwrite=overwrite)
+    write_dataset(dataset_of(study, fits, shared.history_now()), path, overwrite=overwrite)
 
     about = {fit.loop.file: path if study.is_of_one else f"{path}: {fit.loop.file}" for fit in fits}
     if not quiet:
