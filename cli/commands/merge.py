@@ -4,7 +4,7 @@ import os
 import time
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -33,8 +33,7 @@ def merge(files: tuple[Path, ...], output: Path | None, overwrite: bool, quiet: 
     With one FILE, join the blocks left by `gradhesion run STUDY.toml --shard I/N -o FILE`. With several FILES and -o,
     join maps or optima whose studies differ along axes; the result has the values of all, and none may be missing.
     """
-    from gradhesion.cli.dataset.writer import write
-    from gradhesion.cli.work.engines import kept
+    from gradhesion.cli.dataset.writer import only_kept, write
 
     start = time.monotonic()
     if output is not None and len(files) > 1:
@@ -50,8 +49,8 @@ def merge(files: tuple[Path, ...], output: Path | None, overwrite: bool, quiet: 
         messages.say(f"{files[0]}: was complete already")
     else:
         with progress(shards.scenes, quiet=quiet) as advance:
-            settings = {"history": shared.history_now(), "overwrite": overwrite}
-            written = write(shards, files[0], **settings, engine=kept, advance=advance)
+            settings: dict[str, Any] = {"history": shared.history_now(), "overwrite": overwrite}
+            written = write(shards, files[0], **settings, engine=only_kept(files[0]), advance=advance)
         finish(files[0], shards.scenes, written, time.monotonic() - start, quiet=quiet)
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 import click
 
 from gradhesion.cli.commands import shared
-from gradhesion.cli.errors import FitDoubtfulError, ScenesFailedError
+from gradhesion.cli.errors import DoubtfulError
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.terminal.progress import progress, rate
@@ -18,8 +18,6 @@ from gradhesion.cli.terminal.progress import progress, rate
 if TYPE_CHECKING:
     from gradhesion.cli.dataset.writer import Written
     from gradhesion.cli.study.fit.study import FitStudy
-    from gradhesion.cli.study.study import Study
-    from gradhesion.cli.work.engines import Engine
     from gradhesion.cli.work.solve.fitting import Fit
 
 SAID: Final = 20
@@ -98,7 +96,15 @@ def run(
         raise click.UsageError("--shard: the study has one block only, and needs no shards; run it without --shard")
     if scheduler is None:  # the workers of another cluster have caches of their own
         prepare(loaded)
-    solver = _engine(loaded, engine, scheduler, threads, quiet=quiet)
+    solver = None  # this process
+    if engine == "dask":
+        from gradhesion.cli.work.cluster import on_cluster, require_dask
+
+        require_dask()
+        if loaded.has_parts:
+            solver = on_cluster(scheduler, threads, quiet=quiet)
+        elif not quiet:
+            messages.say("the study has one block or consists of curves, and is solved in this process")
     start = time.monotonic()
     with progress(loaded.scenes // (shard[1] if shard else 1), quiet=quiet) as advance:
         done = write(
@@ -122,7 +128,7 @@ def run(
 
 
 def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet: bool) -> None:
-    """Say what was written, how much of it an earlier run had done, and what has failed (ScenesFailedError)."""
+    """Say what was written, how much of it an earlier run had done, and what has failed (DoubtfulError)."""
     if not quiet:
         count, size = counted(scenes, "scene"), bytes_in_words(path.stat().st_size)
         reused = f"; reused {counted(written.reused, 'block')}, computed {written.computed:,}" if written.reused else ""
@@ -131,28 +137,13 @@ def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet
         for sentence in written.cautions:
             messages.say(f"{path}: {sentence}")
     if written.failed:
-        raise ScenesFailedError(
+        raise DoubtfulError(
             f"{path}: {written.failed:,} of {counted(scenes, 'scene')} failed; `gradhesion info {path}` reports why"
         )
 
 
-def _engine(study: "Study", engine: str, scheduler: str | None, threads: int | None, *, quiet: bool) -> "Engine":
-    """Choose who solves the blocks of a study."""
-    from gradhesion.cli.work.engines import in_threads
-
-    if engine == "dask":
-        from gradhesion.cli.work.cluster import on_cluster, require_dask
-
-        require_dask()
-        if study.has_parts:
-            return on_cluster(scheduler, threads, quiet=quiet)
-        if not quiet:
-            messages.say("the study has one block or consists of curves, and is solved in this process")
-    return in_threads(threads)
-
-
 def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> None:
-    """Fit the loops of a study, write what is found, and say what is doubtful (FitDoubtfulError)."""
+    """Fit the loops of a study, write what is found, and say what is doubtful (DoubtfulError)."""
     from gradhesion.cli.dataset.fits import cautions_of_fit, dataset_of, refuse_size
     from gradhesion.cli.dataset.select import write_dataset
     from gradhesion.cli.disk import refuse_existing
@@ -179,7 +170,7 @@ def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> 
             messages.say(sentence)
     doubts = [(fit.loop.file, one) for fit in fits for one in (doubts_of(fit.found) if fit.found else [fit.problem])]
     if doubts:
-        raise FitDoubtfulError(_first([f"{about[file]}: {one}" for file, one in doubts]))
+        raise DoubtfulError(_first([f"{about[file]}: {one}" for file, one in doubts]))
 
 
 def _done(study: "FitStudy", fits: Sequence["Fit"], took: str) -> str:
