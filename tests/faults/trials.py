@@ -16,7 +16,7 @@ import signal
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Container
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -68,8 +68,8 @@ def ended(pid: int) -> int:
     return os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
 
 
-def signal_at(number: int, sent: signal.Signals, *, after: bool) -> None:
-    """Send this process a signal at its n-th change of a name, before it or after: SIGKILL ends it there, SIGSTOP stops it."""
+def kill_at(number: int, *, after: bool) -> None:
+    """Kill this process at its n-th change of a name, before it or after."""
     count = 0
 
     def wrap(change: Callable[..., Any]) -> Callable[..., Any]:
@@ -78,10 +78,10 @@ def signal_at(number: int, sent: signal.Signals, *, after: bool) -> None:
             count += 1
             this = count
             if this == number and not after:
-                os.kill(os.getpid(), sent)
+                os.kill(os.getpid(), signal.SIGKILL)
             result = change(*arguments, **options)
             if this == number and after:
-                os.kill(os.getpid(), sent)
+                os.kill(os.getpid(), signal.SIGKILL)
             return result
 
         return changed
@@ -121,11 +121,8 @@ class Trials:
             self.output.write_bytes(OLD)
         pid = run(self.study, self.output, *options, before=before)
         kill(pid)
-        return self.checked(ended(pid), overwrite=overwrite, codes=(0, 130, -signal.SIGKILL, -signal.SIGTERM))
-
-    def checked(self, code: int, *, overwrite: bool, codes: Container[int]) -> int:
-        """Check what a run has left, go on with it, and check what there is then; gives its exit code, one of some."""
-        assert code in codes, (code, self.told())
+        code = ended(pid)
+        assert code in (0, 130, -signal.SIGKILL, -signal.SIGTERM), (code, self.told())
         self.interrupted += code != 0
         old = self.output.read_bytes() if self.output.exists() else None
         complete = old not in (None, OLD)
@@ -155,9 +152,7 @@ class Trials:
         for number in range(1, 1000):
             for after in (False, True):
                 code = self.fault(
-                    overwrite=number % 2 == 0,
-                    before=partial(signal_at, number, signal.SIGKILL, after=after),
-                    kill=lambda _: None,
+                    overwrite=number % 2 == 0, before=partial(kill_at, number, after=after), kill=lambda _: None
                 )
                 if code == 0:
                     return number - 1
@@ -171,7 +166,7 @@ class Trials:
                 self.folder.mkdir()
                 assert ended(run(self.study, self.output, "--shard", "1/1")) == 0
                 command = ("merge", self.output)
-                kill = partial(signal_at, number, signal.SIGKILL, after=after)
+                kill = partial(kill_at, number, after=after)
                 code = ended(start(*command, folder=self.folder.parent, before=kill))
                 if self.output.exists():
                     assert status_of(self.output)["state"] == "complete"
