@@ -72,6 +72,8 @@ def _of_shards(file: Path) -> "Study | None":
 
 def _joined(files: tuple[Path, ...], output: Path, *, overwrite: bool) -> "tuple[Study, Written]":
     """Join datasets along the axes in which they differ."""
+    import numpy as np
+
     from gradhesion.cli.dataset.cautions import cautions, flagged_in
     from gradhesion.cli.dataset.joining import joined
     from gradhesion.cli.dataset.read.reader import opened
@@ -79,6 +81,7 @@ def _joined(files: tuple[Path, ...], output: Path, *, overwrite: bool) -> "tuple
     from gradhesion.cli.dataset.writer import Written
     from gradhesion.cli.disk import refuse_existing
     from gradhesion.cli.names.scenes import STEEP
+    from gradhesion.core import FAILED
 
     refuse_existing(output, overwrite=overwrite)
     with ExitStack() as stack:
@@ -87,6 +90,5 @@ def _joined(files: tuple[Path, ...], output: Path, *, overwrite: bool) -> "tuple
         study, dataset = joined(sources, history)
         write_dataset(dataset, output, overwrite=overwrite)
     status, steep = dataset["status"].values, int(dataset[STEEP].sum()) if STEEP in dataset else 0
-    written = Written(cautions=tuple(cautions(study, flagged_in(status), steep)))
-    written.count({"status": status}, reused=False)
-    return study, written
+    failed = int(np.count_nonzero(status & FAILED))
+    return study, Written(failed=failed, cautions=tuple(cautions(study, flagged_in(status), steep)))

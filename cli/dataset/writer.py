@@ -1,7 +1,7 @@
 """The dataset of a study written block by block; the blocks are kept until it is whole, and reused by the next run."""
 
 from collections import Counter
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from contextlib import ExitStack, closing, suppress
 from dataclasses import dataclass
 from functools import partial
@@ -53,12 +53,6 @@ class Written:
     complete: bool = False
     """Whether an earlier run had written it, and was killed before it could say so."""
 
-    def count(self, values: Arrays, *, reused: bool) -> None:
-        """Count a block that is done."""
-        self.failed += int(np.count_nonzero(values["status"] & FAILED))
-        self.reused += reused
-        self.computed += not reused
-
 
 def write(
     study: Study,
@@ -109,10 +103,14 @@ def write(
             parts.begin(fresh=fresh)
         first, step = (shard[0] - 1, shard[1]) if shard else (0, 1)
         numbers = range(first, len(study.tiling), step)
-        blocks = stack.enter_context(closing(_solved(parts, numbers, engine or partial(in_threads, threads=threads))))
+        solved = _solved(parts, numbers, engine or partial(in_threads, threads=threads))
+        written = Written()
+        blocks = stack.enter_context(closing(_kept(parts, solved, written, advance)))
         if shard:
-            return _keep(parts, blocks, advance)
-        written = _merge(parts, history, blocks, advance)
+            for _ in blocks:  # each is kept
+                pass
+            return written
+        written.cautions = _merge(parts, history, blocks)
         settle(parts.merged, path, overwrite=overwrite)
         clear(parts.folder)
     return written
@@ -133,6 +131,21 @@ def _solved(parts: Parts, numbers: Sequence[int], engine: Engine) -> Solved:
         yield number, values, False
 
 
+def _kept(
+    parts: Parts, solved: Solved, written: Written, advance: Advance
+) -> Generator[tuple[int, Arrays], None, None]:
+    """Give blocks by their numbers, each kept for the next run if it is one of several, and counted."""
+    for number, values, reused in solved:
+        if parts.study.has_parts and not reused:
+            with writing(parts.output):
+                parts.write(number, values)
+        written.failed += int(np.count_nonzero(values["status"] & FAILED))
+        written.reused += reused
+        written.computed += not reused
+        yield number, values
+        advance(size_of(parts.study.tiling[number]), reused=reused)
+
+
 def only_kept(output: Path) -> Engine:
     """Make an engine that solves nothing: DatasetError says which blocks the shards of an output lack."""
 
@@ -149,21 +162,9 @@ def only_kept(output: Path) -> Engine:
     return engine
 
 
-def _keep(parts: Parts, blocks: Solved, advance: Advance) -> Written:
-    """Keep the blocks of a shard."""
-    written = Written()
-    for number, values, reused in blocks:
-        if not reused:
-            with writing(parts.output):
-                parts.write(number, values)
-        written.count(values, reused=reused)
-        advance(size_of(parts.study.tiling[number]), reused=reused)
-    return written
-
-
-def _merge(parts: Parts, history: str, blocks: Solved, advance: Advance) -> Written:
-    """Write the dataset in the making, block by block, as they come."""
-    study, path, written = parts.study, parts.output, Written()
+def _merge(parts: Parts, history: str, blocks: Iterable[tuple[int, Arrays]]) -> tuple[str, ...]:
+    """Write the dataset in the making, block by block, as they come; tells what is to be known of its answers."""
+    study, path = parts.study, parts.output
     flagged = Counter[str]()
     steep = begun = 0  # scenes; items of ragged curves
     with writing(path):
@@ -171,11 +172,9 @@ def _merge(parts: Parts, history: str, blocks: Solved, advance: Advance) -> Writ
     try:
         with writing(path):
             _define(file, study, history)
-        for number, values, reused in blocks:
+        for number, values in blocks:
             block = study.tiling[number]
             with writing(path):
-                if study.has_parts and not reused:
-                    parts.write(number, values)
                 for name, part in values.items():
                     if name == STEEP:
                         steep += _mark(file, study, block, part)
@@ -183,16 +182,13 @@ def _merge(parts: Parts, history: str, blocks: Solved, advance: Advance) -> Writ
                         file[name][within(name, block, part, begun) or ...] = part
             begun += sum(int(values[one].item()) for one in RAGGED.values() if one in values)
             flagged.update(flagged_in(values["status"]))
-            written.count(values, reused=reused)
-            advance(size_of(block), reused=reused)
     except BaseException:
         with suppress(OSError, RuntimeError):  # what went wrong first counts
             file.close()
         raise
     with writing(path):
         file.close()
-    written.cautions = tuple(cautions(study, flagged, steep))
-    return written
+    return tuple(cautions(study, flagged, steep))
 
 
 def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
