@@ -99,7 +99,8 @@ def _check(dataset: xarray.Dataset, study: Study, path: Path) -> None:
             if name in study.spreads:
                 continue  # which earlier versions did not write, and nobody recomputes
             if name in study.sizes:
-                raise DatasetError(f"{path}: was reduced over {name}; give the whole, whose values are those of scenes")
+                what = f"was reduced over {name}: its values are not those of scenes"
+                raise DatasetError(f"{path}: {what}; give the whole")
             raise _apart(path, f"its study has {name}, which the dataset lacks")
         own = labels_of(name)
         whole = sizes | ({own: len(study.labels[own])} if own else {})
