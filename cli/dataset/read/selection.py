@@ -248,21 +248,21 @@ def _nearest(values: NDArray[np.float64], value: float) -> int:
     """Find the item of an axis nearest to a value, by ratio where it is log-spaced."""
     if np.isinf(value):
         return int(np.flatnonzero(values == value)[0])
-    if is_log(values):
-        with np.errstate(divide="ignore"):
-            return int(np.argmin(np.abs(np.log(values / value))))
-    return int(np.argmin(np.abs(values - value)))
+    along, place = _in_its_scale(values, value)
+    return int(np.argmin(np.abs(along - place)))
 
 
 def _between(values: NDArray[np.float64], axis: str, value: float) -> Between:
     """Find the two items of an axis that a value lies between."""
-    order: NDArray[Any] = np.argsort(values, kind="stable")
-    rising = values[order]
-    upper = min(int(np.searchsorted(rising, value)), int(np.isfinite(values).sum()) - 1)
-    low, high = rising[upper - 1], rising[upper]
-    if is_log(values):
-        low, high, place = np.log(low), np.log(high), np.log(value)
-    else:
-        place = value
+    along, place = _in_its_scale(values, value)
+    order: NDArray[Any] = np.argsort(along, kind="stable")
+    upper = min(int(np.searchsorted(along[order], place)), int(np.isfinite(along).sum()) - 1)
+    items = (int(order[upper - 1]), int(order[upper]))
+    low, high = along[[*items]]
     share = float(np.clip((place - low) / (high - low), 0.0, 1.0))
-    return Between(axis=axis, value=value, items=(int(order[upper - 1]), int(order[upper])), share=share)
+    return Between(axis=axis, value=value, items=items, share=share)
+
+
+def _in_its_scale(values: NDArray[np.float64], value: float) -> tuple[NDArray[np.float64], float]:
+    """Give an axis, and a value of it, by their logarithms if it is log-spaced."""
+    return (np.log(values), float(np.log(value))) if is_log(values) else (values, value)
