@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Final
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.fit.loop_file import LoopFile
@@ -38,7 +38,6 @@ class Fit:
 
 def fitted(study: FitStudy, loop: LoopFile) -> FittedLoop:
     """Fit a loop; StudyError where what is searched cannot be told apart, has no effect, or has no path."""
-    law: dict[str, Any] = {"rate": study.rate} if study.rate else {}
     try:
         return fit_loop(
             loop.depth,
@@ -53,9 +52,9 @@ def fitted(study: FitStudy, loop: LoopFile) -> FittedLoop:
             profile=study.profile,
             loading=study.loading,
             toughness=study.toughness,
+            rate=study.rate,
             intervals=study.intervals,
             starts=study.starts,
-            **law,
         )
     except ValueError as error:
         raise StudyError(f"{study.name if study.is_of_one else loop.file}: {error}") from None
