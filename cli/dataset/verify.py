@@ -45,14 +45,14 @@ class Scene:
 
 @dataclass(frozen=True, kw_only=True)
 class Deviation:
-    """How far a value is from what it should be; `expected` has 30 digits, both errors are absolute."""
+    """How far a value is from what it should be; `expected` has 30 digits or says what, both errors are absolute."""
 
     output: str
     scene: Mapping[str, float | str]
     value: float
     expected: str
-    deviation: float
-    stated: float
+    deviation: float = math.inf
+    stated: float = 0.0
 
     @property
     def share(self) -> float:
@@ -143,7 +143,10 @@ def _drawn(
             if status & NO_VALUE:
                 found.deviations += _without_value(dataset, scene, study.variables)
         elif missing := [name for name in PARAMETERS if math.isnan(scene.parameters[name])]:
-            found.deviations += [_unlike(scene, name, math.nan, "a value, by its status") for name in missing]
+            found.deviations += [
+                Deviation(output=name, scene=scene.place, value=math.nan, expected="a value, by its status")
+                for name in missing
+            ]
         else:
             within = True
             with suppress(ArithmeticError):  # which says so again when it is solved
@@ -185,12 +188,7 @@ def _without_value(dataset: xarray.Dataset, scene: Scene, outputs: Collection[st
     for name in outputs:
         value = float("nan") if labels_of(name) else float(dataset[name][scene.index])
         if not (math.isnan(value) or (name.endswith("_jumps") and value == -1.0)):
-            yield _unlike(scene, name, value, "none, by its status")
-
-
-def _unlike(scene: Scene, output: str, value: float, expected: str) -> Deviation:
-    """Make a deviation that has no size."""
-    return Deviation(output=output, scene=scene.place, value=value, expected=expected, deviation=math.inf, stated=0.0)
+            yield Deviation(output=name, scene=scene.place, value=value, expected="none, by its status")
 
 
 def _compared(

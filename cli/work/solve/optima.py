@@ -41,8 +41,8 @@ def solve_optima(study: Study, block: Block, threads: int | None) -> Arrays:
         reported = np.bitwise_or.reduce(np.where(reported & NO_VALUE, 0, reported), axis=-1)
         found |= {STEEP: found[STEEP].max(axis=-1)} if STEEP in found else {}
     else:
-        bits = [np.where(place == 0.0, 1, 0) + np.where(place == 1.0, 2, 0) << 2 * i for i, place in enumerate(places)]
-        found[ON_BOUND] = np.bitwise_or.reduce(bits).astype(np.int8)
+        bounds = [(1 * (place == 0.0) + 2 * (place == 1.0)) << 2 * i for i, place in enumerate(places)]  # low, high
+        found[ON_BOUND] = np.bitwise_or.reduce(bounds).astype(np.int8)
     status = np.bitwise_or.reduce([_status_of(reported, *own) for own in zip(ends, swept, strict=True)])
     known = {*study.variables, STEEP}
     shaped = {name: own.reshape((*shape, *own.shape[1:])) for name, own in found.items() if name in known}
