@@ -99,14 +99,14 @@ def attributes(study: Study, history: str) -> dict[str, Any]:
         own |= {"profile_file": study.measured.file, "profile_sha256": study.measured.sha256}
         own |= {"profile_fit": profile_table(study.profile)}
         own |= {"profile_residual_rms": fit.residual_rms, "profile_residual_max": fit.residual_max}
-    rate = {} if study.rate is None else {"rate": rate_in_words(study.rate)}
-    return origin(study, history, own | driven_in_words(study) | rate)
+    return origin(study, history, own | driven_in_words(study))
 
 
 def driven_in_words(study: Study | FitStudy) -> dict[str, Any]:
-    """Say how the punch is driven, and how its toughness varies if it does."""
+    """Say how the punch is driven; how its toughness varies, and grows with the speed of its edge, if it does."""
     toughness = {} if study.toughness is None else {"toughness": toughness_in_words(study.toughness)}
-    return {"control": study.loading.control, **toughness}
+    rate = {} if study.rate is None else {"rate": rate_in_words(study.rate)}
+    return {"control": study.loading.control, **toughness, **rate}
 
 
 def origin(study: Study | FitStudy, history: str, own: Mapping[str, Any]) -> dict[str, Any]:

@@ -103,7 +103,8 @@ def write(
             parts.begin(fresh=fresh)
         first, step = (shard[0] - 1, shard[1]) if shard else (0, 1)
         numbers = range(first, len(study.tiling), step)
-        solved = _solved(parts, numbers, engine or partial(in_threads, threads=threads))
+        engine = engine or partial(in_threads, threads=threads)
+        solved = stack.enter_context(closing(_solved(parts, numbers, engine)))
         written = Written()
         blocks = stack.enter_context(closing(_kept(parts, solved, written, advance)))
         if shard:
