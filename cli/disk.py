@@ -95,7 +95,8 @@ def settle(temporary: Path, path: Path, *, overwrite: bool) -> None:
         try:
             temporary.replace(target) if overwrite else _rename_anew(temporary, target)
         except (FileExistsError, IsADirectoryError):
-            place = next(beside for number in count(2) if not (beside := _numbered(target, number)).exists())
+            names = (f"{target.stem}-{number}{target.suffix}" for number in count(2))
+            place = next(beside for name in names if not (beside := target.with_name(name)).exists())
             _rename_anew(temporary, place)
     with suppress(OSError):  # some file systems cannot sync a folder
         to_disk(target.parent)
@@ -104,11 +105,6 @@ def settle(temporary: Path, path: Path, *, overwrite: bool) -> None:
             f"{path}: appeared during the run and is untouched; the new file is complete and kept as "
             f"{place if path.is_symlink() else path.with_name(place.name)}; move it where it belongs"
         )
-
-
-def _numbered(path: Path, number: int) -> Path:
-    """Give a name a number before its ending."""
-    return path.with_name(f"{path.stem}-{number}{path.suffix}")
 
 
 def _rename_anew(source: Path, target: Path) -> None:

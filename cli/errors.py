@@ -53,14 +53,8 @@ class DatasetError(GradhesionError, ValueError):
     exit_code = 2
 
 
-class ScenesFailedError(GradhesionError):
-    """The dataset is written, but some of its scenes have no value."""
-
-    exit_code = 3
-
-
-class FitDoubtfulError(GradhesionError):
-    """The fit is written, but it is not to be trusted, or one of several loops has none."""
+class DoubtfulError(GradhesionError):
+    """Scenes of a dataset have no value, a fit is not to be trusted, or values deviate by more than is stated."""
 
     exit_code = 3
 
@@ -71,25 +65,13 @@ class MissingExtraError(GradhesionError, ImportError):
     exit_code = 2
 
 
-class CompilerError(GradhesionError):
-    """Kernels cannot be compiled."""
+class SetupError(GradhesionError):
+    """Kernels cannot be compiled; or a cluster cannot be used: no scheduler, or a worker of another version."""
 
     exit_code = 2
-
-
-class DeviationError(GradhesionError):
-    """Values of a dataset deviate by more than is stated for them."""
-
-    exit_code = 3
 
 
 class OutputError(GradhesionError):
     """The output cannot be written."""
 
     exit_code = 4
-
-
-class ClusterError(GradhesionError):
-    """A cluster cannot be used: no scheduler answers, or a worker has another version."""
-
-    exit_code = 2

@@ -19,12 +19,8 @@ _MAGIC: Final = {
 _ENDINGS: Final = {
     ".toml": "a study (TOML)",
     ".csv": "a table (CSV)",
-    ".tsv": "a table (TSV)",
-    ".json": "a file in JSON",
     ".html": "a page (HTML)",
     ".svg": "a picture (SVG)",
-    ".py": "a program in Python",
-    ".md": "a text in Markdown",
 }
 """What files are by their names."""
 

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from gradhesion.cli.errors import CompilerError, MissingExtraError
+from gradhesion.cli.errors import MissingExtraError, SetupError
 
 
 def unmet() -> list[tuple[str, str, str]]:
@@ -76,13 +76,13 @@ def refuse_without_threads() -> None:
 
     Raises
     ------
-    CompilerError
+    SetupError
         The environment says that it may not.
     """
     number = os.environ.get("NUMBA_NUM_THREADS", "").strip()
     if not number:
         os.environ.pop("NUMBA_NUM_THREADS", None)
     elif not number.isdecimal() or int(number) < 1:
-        raise CompilerError(
+        raise SetupError(
             f"NUMBA_NUM_THREADS = {number}: the number of threads is a whole number from 1 on; change it, or unset it"
         )

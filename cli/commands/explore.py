@@ -4,25 +4,16 @@ from pathlib import Path
 
 import click
 
-from gradhesion.cli.commands.shared import (
-    A_PATH,
-    choosing,
-    ending_of,
-    example,
-    listed,
-    overwriting,
-    quietly,
-    say_written,
-)
+from gradhesion.cli.commands import shared
 
 
-@click.command(epilog=example("explore outputs/study.nc", "explore outputs/study.nc -o part.html --at A=0.02"))
-@click.argument("file", type=A_PATH)
-@click.option("-o", "--output", type=A_PATH, help="Page: .html [FILE.html].")
+@click.command(epilog=shared.example("explore outputs/study.nc", "explore outputs/study.nc -o part.html --at A=0.02"))
+@click.argument("file", type=shared.A_PATH)
+@click.option("-o", "--output", type=shared.A_PATH, help="Page: .html [FILE.html].")
 @click.option("--variable", "variables", multiple=True, metavar="NAME", help="Variable to include; repeatable [all].")
-@choosing
-@overwriting
-@quietly
+@shared.choosing
+@shared.overwriting
+@shared.quietly
 def explore(
     file: Path, output: Path | None, variables: tuple[str, ...], at: tuple[str, ...], overwrite: bool, quiet: bool
 ) -> None:
@@ -32,7 +23,7 @@ def explore(
     without a network. Values have 6 digits.
     """
     path = output or file.parent / f"{file.stem or 'dataset'}.html"
-    ending_of(path, "page", (".html", ".htm"))
+    shared.ending_of(path, "page", (".html", ".htm"))
 
     from gradhesion.cli.dataset.read.reader import opened, refuse_fit
     from gradhesion.cli.dataset.read.selection import nearest_values
@@ -41,9 +32,9 @@ def explore(
 
     with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary:
         refuse_fit(dataset, "a page", file)
-        text = page(dataset, file.name, listed(variables), at)
+        text = page(dataset, file.name, shared.listed(variables), at)
         with writing(path):
             temporary.write_text(text, encoding="utf-8")
         notes = nearest_values(dataset, at)
     if not quiet:
-        say_written(path, notes)
+        shared.say_written(path, notes)

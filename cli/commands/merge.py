@@ -4,20 +4,12 @@ import os
 import time
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from gradhesion.cli.commands import shared
 from gradhesion.cli.commands.run import finish
-from gradhesion.cli.commands.shared import (
-    A_PATH,
-    dataset_to_write,
-    example,
-    given_up,
-    history_now,
-    overwriting,
-    quietly,
-)
 from gradhesion.cli.commands.status import status_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.terminal import messages
@@ -28,21 +20,20 @@ if TYPE_CHECKING:
     from gradhesion.cli.study.study import Study
 
 
-@click.command(epilog=example("merge big.nc", "merge first.nc second.nc -o all.nc"))
-@click.argument("files", nargs=-1, required=True, type=A_PATH)
-@dataset_to_write("Dataset to write, if several are joined.")
-@overwriting
-@quietly
-@given_up("--chunk", "the size of blocks is chosen by itself")
-@given_up("--log-json", "`gradhesion status FILE --json` shows how far a run is")
+@click.command(epilog=shared.example("merge big.nc", "merge first.nc second.nc -o all.nc"))
+@click.argument("files", nargs=-1, required=True, type=shared.A_PATH)
+@shared.dataset_to_write("Dataset to write, if several are joined.")
+@shared.overwriting
+@shared.quietly
+@shared.given_up("--chunk", "the size of blocks is chosen by itself")
+@shared.given_up("--log-json", "`gradhesion status FILE --json` shows how far a run is")
 def merge(files: tuple[Path, ...], output: Path | None, overwrite: bool, quiet: bool) -> None:
     """Join the blocks of shards, or datasets.
 
     With one FILE, join the blocks left by `gradhesion run STUDY.toml --shard I/N -o FILE`. With several FILES and -o,
     join maps or optima whose studies differ along axes; the result has the values of all, and none may be missing.
     """
-    from gradhesion.cli.dataset.writer import write
-    from gradhesion.cli.work.engines import kept
+    from gradhesion.cli.dataset.writer import only_kept, write
 
     start = time.monotonic()
     if output is not None and len(files) > 1:
@@ -58,7 +49,8 @@ def merge(files: tuple[Path, ...], output: Path | None, overwrite: bool, quiet: 
         messages.say(f"{files[0]}: was complete already")
     else:
         with progress(shards.scenes, quiet=quiet) as advance:
-            written = write(shards, files[0], history=history_now(), overwrite=overwrite, engine=kept, advance=advance)
+            settings: dict[str, Any] = {"history": shared.history_now(), "overwrite": overwrite}
+            written = write(shards, files[0], **settings, engine=only_kept(files[0]), advance=advance)
         finish(files[0], shards.scenes, written, time.monotonic() - start, quiet=quiet)
 
 
@@ -80,6 +72,8 @@ def _of_shards(file: Path) -> "Study | None":
 
 def _joined(files: tuple[Path, ...], output: Path, *, overwrite: bool) -> "tuple[Study, Written]":
     """Join datasets along the axes in which they differ."""
+    import numpy as np
+
     from gradhesion.cli.dataset.cautions import cautions, flagged_in
     from gradhesion.cli.dataset.joining import joined
     from gradhesion.cli.dataset.read.reader import opened
@@ -87,14 +81,14 @@ def _joined(files: tuple[Path, ...], output: Path, *, overwrite: bool) -> "tuple
     from gradhesion.cli.dataset.writer import Written
     from gradhesion.cli.disk import refuse_existing
     from gradhesion.cli.names.scenes import STEEP
+    from gradhesion.core import FAILED
 
     refuse_existing(output, overwrite=overwrite)
     with ExitStack() as stack:
         sources = {file: stack.enter_context(opened(file)) for file in files}
-        history = "\n".join([*(str(source.attrs["history"]) for source in sources.values()), history_now()])
+        history = "\n".join([*(str(source.attrs["history"]) for source in sources.values()), shared.history_now()])
         study, dataset = joined(sources, history)
         write_dataset(dataset, output, overwrite=overwrite)
     status, steep = dataset["status"].values, int(dataset[STEEP].sum()) if STEEP in dataset else 0
-    written = Written(cautions=tuple(cautions(study, flagged_in(status), steep)))
-    written.count({"status": status}, reused=False)
-    return study, written
+    failed = int(np.count_nonzero(status & FAILED))
+    return study, Written(failed=failed, cautions=tuple(cautions(study, flagged_in(status), steep)))

@@ -2,28 +2,26 @@
 
 import json
 from collections.abc import Iterator
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from gradhesion.cli.commands.shared import A_PATH, as_json, example, given_up, overriding
+from gradhesion.cli.commands import shared
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted, duration
 from gradhesion.cli.terminal.messages import show, show_block
 
 if TYPE_CHECKING:
     from gradhesion.cli.study.fit.study import FitStudy
-    from gradhesion.cli.work.estimate import Estimate
 
 
-@click.command(epilog=example("plan study.toml"))
-@click.argument("study", type=A_PATH)
-@click.option("-o", "--output", type=A_PATH, help="Output of the run.")
-@overriding
+@click.command(epilog=shared.example("plan study.toml"))
+@click.argument("study", type=shared.A_PATH)
+@click.option("-o", "--output", type=shared.A_PATH, help="Output of the run.")
+@shared.overriding
 @click.option("--threads", type=click.IntRange(min=1), help="Threads of the run [all available to the process].")
-@as_json
-@given_up("--chunk", "the size of blocks is chosen by itself")
+@shared.as_json
+@shared.given_up("--chunk", "the size of blocks is chosen by itself")
 def plan(study: Path, output: Path | None, overrides: tuple[str, ...], threads: int | None, as_json: bool) -> None:
     """Show what a run would do and cost.
 
@@ -42,13 +40,13 @@ def plan(study: Path, output: Path | None, overrides: tuple[str, ...], threads: 
     else:
         if loaded.kind == "map":  # of which some scenes are solved
             prepare(loaded)
-        of_run = estimate(loaded, path, threads)
-        found, lines = asdict(of_run), _run_in_words(of_run)
+        found = estimate(loaded, path, threads)
+        lines = _run_in_words(found)
     if as_json:
         show_block(json.dumps(found, indent=2))
-        return
-    for line in lines:
-        show(line)
+    else:
+        for line in lines:
+            show(line)
 
 
 def _of_fit(study: "FitStudy", output: Path) -> dict[str, Any]:
@@ -73,29 +71,29 @@ def _fit_in_words(study: "FitStudy", output: Path) -> Iterator[str]:
     yield from (f"note      {note}" for note in study.notes)
 
 
-def _run_in_words(found: "Estimate") -> Iterator[str]:
+def _run_in_words(found: dict[str, Any]) -> Iterator[str]:
     """Describe the plan of a run."""
-    axes = ", ".join(f"{name} ({size:,})" for name, size in found.sizes.items()) or "none"
-    often = f", each solved about {found.solutions_of_scene:,} times" if found.solutions_of_scene > 1 else ""
-    yield f"output    {found.output} ({_state(exists=found.output_exists, running=found.running)})"
-    yield f"scenes    {found.scenes:,}{often}; axes: {axes}"
-    yield f"outputs   {', '.join(found.outputs)}"
-    if not found.blocks:
+    axes = ", ".join(f"{name} ({size:,})" for name, size in found["sizes"].items()) or "none"
+    solutions = found["solutions_of_scene"]
+    often = f", each solved about {solutions:,} times" if solutions > 1 else ""
+    yield f"output    {found['output']} ({_state(exists=found['output_exists'], running=found['running'])})"
+    yield f"scenes    {found['scenes']:,}{often}; axes: {axes}"
+    yield f"outputs   {', '.join(found['outputs'])}"
+    if not found["blocks"]:
         yield "blocks    none: curves and fronts are computed scene by scene, and written together"
         return
-    yield f"blocks    {found.blocks:,}; {found.blocks_kept:,} kept from an earlier run"
-    if found.refusal:
-        yield f"          run would refuse: {found.refusal}"
-    free = f"; {bytes_in_words(found.bytes_free)} free" if found.bytes_free is not None else ""
-    beside = ", and as much beside it until it is complete" if found.blocks > 1 else ""
-    yield f"disk      at most {bytes_in_words(found.bytes_of_values)}, less by compression{beside}{free}"
-    yield f"memory    about {bytes_in_words(found.bytes_of_memory)}"
-    if found.seconds is None or found.seconds_of_block is None:
+    yield f"blocks    {found['blocks']:,}; {found['blocks_kept']:,} kept from an earlier run"
+    if found["refusal"]:
+        yield f"          run would refuse: {found['refusal']}"
+    free = f"; {bytes_in_words(found['bytes_free'])} free" if found["bytes_free"] is not None else ""
+    beside = ", and as much beside it until it is complete" if found["blocks"] > 1 else ""
+    yield f"disk      at most {bytes_in_words(found['bytes_of_values'])}, less by compression{beside}{free}"
+    yield f"memory    about {bytes_in_words(found['bytes_of_memory'])}"
+    if found["seconds"] is None:
         yield "time      only that of writing: every block is kept"
     else:
-        timed = f"timed with {counted(found.scenes_timed, 'scene')}"
-        yield f"time      roughly {duration(found.seconds)} ({timed})"
-        yield f"engines   with --engine dask, a block takes a worker {duration(found.seconds_of_block)}"
+        yield f"time      roughly {duration(found['seconds'])} (timed with {counted(found['scenes_timed'], 'scene')})"
+        yield f"engines   with --engine dask, a block takes a worker {duration(found['seconds_of_block'])}"
 
 
 def _state(*, exists: bool, running: bool = False) -> str:

@@ -5,29 +5,18 @@ from typing import Any
 
 import click
 
-from gradhesion.cli.commands.shared import (
-    A_PATH,
-    OF_PICTURES,
-    choosing,
-    ending_of,
-    example,
-    given_up,
-    listed,
-    overwriting,
-    quietly,
-    say_written,
-)
+from gradhesion.cli.commands import shared
 
 
 @click.command(
-    epilog=example(
+    epilog=shared.example(
         "plot outputs/study.nc", "plot outputs/study.nc -o map.pdf --at A=0.02 --over k=max --width column --no-title"
     )
 )
-@click.argument("file", type=A_PATH)
-@click.option("-o", "--output", type=A_PATH, help="Picture: .png, .svg or .pdf [FILE.png].")
+@click.argument("file", type=shared.A_PATH)
+@click.option("-o", "--output", type=shared.A_PATH, help="Picture: .png, .svg or .pdf [FILE.png].")
 @click.option("--variable", "variables", multiple=True, metavar="NAME", help="Variable to draw; repeatable.")
-@choosing
+@shared.choosing
 @click.option("--interpolate", is_flag=True, help="Interpolate to the value of --at instead.")
 @click.option(
     "--over", multiple=True, metavar="AXIS=HOW", help="Reduce an axis: max, min, mean, p05, p50, p95, argmax, argmin."
@@ -51,10 +40,10 @@ from gradhesion.cli.commands.shared import (
 @click.option("--clabel", metavar="TEXT", help="Name of the bar of colours of a map.")
 @click.option("--caption/--no-caption", default=True, help="Print the fixed parameters [yes].")
 @click.option("--style", metavar="STYLE", help="Matplotlib style to add: a name or a file.")
-@click.option("--data", type=A_PATH, help="Measured points to draw on curves: a table in a file.")
-@overwriting
-@quietly
-@given_up("--inset", "draw one with `inset_axes` of matplotlib on the axes that `gr.plot` returns")
+@click.option("--data", type=shared.A_PATH, help="Measured points to draw on curves: a table in a file.")
+@shared.overwriting
+@shared.quietly
+@shared.given_up("--inset", "draw one with `inset_axes` of matplotlib on the axes that `gr.plot` returns")
 def plot(
     file: Path,
     output: Path | None,
@@ -76,7 +65,7 @@ def plot(
     Options fix an axis (--at A=0.02), reduce it (--over k=max) or place it (--x, --y), and set size, colours, labels.
     """
     path = output or file.parent / f"{file.stem or 'dataset'}.png"
-    form = ending_of(path, "picture", OF_PICTURES)
+    form = shared.ending_of(path, "picture", shared.OF_PICTURES)
 
     from gradhesion.cli.dataset.read.reader import opened
     from gradhesion.cli.disk import replacement, writing
@@ -87,8 +76,8 @@ def plot(
     chosen, notes = looks_of(**looks), list[str]()
     choices: dict[str, Any] = {"at": at, "over": over, "interpolate": interpolate, "x": x, "y": y, "data": data}
     with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary:
-        figure = picture_of(dataset, listed(variables), chosen, **choices, notes=notes.append)
+        figure = picture_of(dataset, shared.listed(variables), chosen, **choices, notes=notes.append)
         with writing(path):
             save(figure, temporary, form, chosen)
     if not quiet:
-        say_written(path, notes)
+        shared.say_written(path, notes)

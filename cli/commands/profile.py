@@ -4,17 +4,17 @@ from pathlib import Path
 
 import click
 
-from gradhesion.cli.commands.shared import A_PATH, OF_PICTURES, ending_of, example, overwriting, quietly, say_written
+from gradhesion.cli.commands import shared
 
 
-@click.command(epilog=example("profile tip.csv", 'profile tip.csv --up-to "2 um" --exponent fit > punch.toml'))
-@click.argument("file", type=A_PATH)
-@click.option("-o", "--output", type=A_PATH, help="Picture: .png, .svg or .pdf [FILE.png].")
+@click.command(epilog=shared.example("profile tip.csv", 'profile tip.csv --up-to "2 um" --exponent fit > punch.toml'))
+@click.argument("file", type=shared.A_PATH)
+@click.option("-o", "--output", type=shared.A_PATH, help="Picture: .png, .svg or .pdf [FILE.png].")
 @click.option("--terms", type=int, default=16, show_default=True, help="Harmonics to fit.")
 @click.option("--exponent", default="2.0", show_default=True, help='Power of the punch, or "fit" to fit it.')
 @click.option("--up-to", metavar="LENGTH", help='Distance from the centre up to which to fit, as "2 um" [all].')
-@overwriting
-@quietly
+@shared.overwriting
+@shared.quietly
 def profile(
     file: Path, output: Path | None, terms: int, exponent: str, up_to: str | None, overwrite: bool, quiet: bool
 ) -> None:
@@ -24,7 +24,7 @@ def profile(
     and a Fourier series, prints them as tables of a study, and draws the fit.
     """
     path = output or file.with_suffix(".png")
-    form = ending_of(path, "picture", OF_PICTURES)
+    form = shared.ending_of(path, "picture", shared.OF_PICTURES)
 
     from gradhesion.cli.disk import replacement, writing
     from gradhesion.cli.errors import StudyError
@@ -53,4 +53,4 @@ def profile(
     show_block("\n".join(tables_of(fit, file, terms, power)))
     if not quiet:
         rows = "row was" if dropped == 1 else "rows were"
-        say_written(path, [f"{file}: {dropped:,} {rows} left out, for lack of two numbers"] if dropped else [])
+        shared.say_written(path, [f"{file}: {dropped:,} {rows} left out, for lack of two numbers"] if dropped else [])

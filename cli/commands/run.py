@@ -9,17 +9,8 @@ from typing import TYPE_CHECKING, Final
 
 import click
 
-from gradhesion.cli.commands.shared import (
-    A_PATH,
-    dataset_to_write,
-    example,
-    given_up,
-    history_now,
-    overriding,
-    overwriting,
-    quietly,
-)
-from gradhesion.cli.errors import FitDoubtfulError, ScenesFailedError
+from gradhesion.cli.commands import shared
+from gradhesion.cli.errors import DoubtfulError
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.terminal.progress import progress, rate
@@ -27,8 +18,6 @@ from gradhesion.cli.terminal.progress import progress, rate
 if TYPE_CHECKING:
     from gradhesion.cli.dataset.writer import Written
     from gradhesion.cli.study.fit.study import FitStudy
-    from gradhesion.cli.study.study import Study
-    from gradhesion.cli.work.engines import Engine
     from gradhesion.cli.work.solve.fitting import Fit
 
 SAID: Final = 20
@@ -46,11 +35,11 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
     return shard
 
 
-@click.command(epilog=example("run study.toml", "run study.toml -o wavier.nc --set parameters.A=0.05"))
-@click.argument("study", type=A_PATH)
-@dataset_to_write("Dataset to write [outputs/<study name>.nc].")
-@overriding
-@overwriting
+@click.command(epilog=shared.example("run study.toml", "run study.toml -o wavier.nc --set parameters.A=0.05"))
+@click.argument("study", type=shared.A_PATH)
+@shared.dataset_to_write("Dataset to write [outputs/<study name>.nc].")
+@shared.overriding
+@shared.overwriting
 @click.option("--fresh", is_flag=True, help="Discard the finished blocks of an earlier run.")
 @click.option("--shard", metavar="I/N", callback=_shard, help="Compute every N-th block, for `merge`.")
 @click.option(
@@ -66,11 +55,11 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
     type=click.IntRange(min=1),
     help="Threads to use [all available to the process]; values do not depend on it.",
 )
-@quietly
-@given_up("--dry-run", "use `gradhesion plan`")
-@given_up("--chunk", "the size of blocks is chosen by itself")
-@given_up("--fail-fast", "run fewer scenes first, and `gradhesion info` reports which have failed, and why")
-@given_up("--log-json", "`gradhesion status FILE --json` shows how far a run is")
+@shared.quietly
+@shared.given_up("--dry-run", "use `gradhesion plan`")
+@shared.given_up("--chunk", "the size of blocks is chosen by itself")
+@shared.given_up("--fail-fast", "run fewer scenes first, and `gradhesion info` reports which have failed, and why")
+@shared.given_up("--log-json", "`gradhesion status FILE --json` shows how far a run is")
 def run(
     study: Path,
     output: Path | None,
@@ -107,13 +96,21 @@ def run(
         raise click.UsageError("--shard: the study has one block only, and needs no shards; run it without --shard")
     if scheduler is None:  # the workers of another cluster have caches of their own
         prepare(loaded)
-    solver = _engine(loaded, engine, scheduler, threads, quiet=quiet)
+    solver = None  # this process
+    if engine == "dask":
+        from gradhesion.cli.work.cluster import on_cluster, require_dask
+
+        require_dask()
+        if loaded.has_parts:
+            solver = on_cluster(scheduler, threads, quiet=quiet)
+        elif not quiet:
+            messages.say("the study has one block or consists of curves, and is solved in this process")
     start = time.monotonic()
     with progress(loaded.scenes // (shard[1] if shard else 1), quiet=quiet) as advance:
         done = write(
             loaded,
             path,
-            history=history_now(),
+            history=shared.history_now(),
             overwrite=overwrite,
             fresh=fresh,
             shard=shard,
@@ -131,7 +128,7 @@ def run(
 
 
 def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet: bool) -> None:
-    """Say what was written, how much of it an earlier run had done, and what has failed (ScenesFailedError)."""
+    """Say what was written, how much of it an earlier run had done, and what has failed (DoubtfulError)."""
     if not quiet:
         count, size = counted(scenes, "scene"), bytes_in_words(path.stat().st_size)
         reused = f"; reused {counted(written.reused, 'block')}, computed {written.computed:,}" if written.reused else ""
@@ -140,28 +137,13 @@ def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet
         for sentence in written.cautions:
             messages.say(f"{path}: {sentence}")
     if written.failed:
-        raise ScenesFailedError(
+        raise DoubtfulError(
             f"{path}: {written.failed:,} of {counted(scenes, 'scene')} failed; `gradhesion info {path}` reports why"
         )
 
 
-def _engine(study: "Study", engine: str, scheduler: str | None, threads: int | None, *, quiet: bool) -> "Engine":
-    """Choose who solves the blocks of a study."""
-    from gradhesion.cli.work.engines import in_threads
-
-    if engine == "dask":
-        from gradhesion.cli.work.cluster import on_cluster, require_dask
-
-        require_dask()
-        if study.has_parts:
-            return on_cluster(scheduler, threads, quiet=quiet)
-        if not quiet:
-            messages.say("the study has one block or consists of curves, and is solved in this process")
-    return in_threads(threads)
-
-
 def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> None:
-    """Fit the loops of a study, write what is found, and say what is doubtful (FitDoubtfulError)."""
+    """Fit the loops of a study, write what is found, and say what is doubtful (DoubtfulError)."""
     from gradhesion.cli.dataset.fits import cautions_of_fit, dataset_of, refuse_size
     from gradhesion.cli.dataset.select import write_dataset
     from gradhesion.cli.disk import refuse_existing
@@ -177,7 +159,7 @@ def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> 
     with progress(len(study.loops), quiet=quiet or len(study.loops) == 1, noun="loop") as advance:
         fits = fits_of(study, advance)
     seconds = time.monotonic() - start
-    write_dataset(dataset_of(study, fits, history_now()), path, overwrite=overwrite)
+    write_dataset(dataset_of(study, fits, shared.history_now()), path, overwrite=overwrite)
 
     about = {fit.loop.file: path if study.is_of_one else f"{path}: {fit.loop.file}" for fit in fits}
     if not quiet:
@@ -188,7 +170,7 @@ def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> 
             messages.say(sentence)
     doubts = [(fit.loop.file, one) for fit in fits for one in (doubts_of(fit.found) if fit.found else [fit.problem])]
     if doubts:
-        raise FitDoubtfulError(_first([f"{about[file]}: {one}" for file, one in doubts]))
+        raise DoubtfulError(_first([f"{about[file]}: {one}" for file, one in doubts]))
 
 
 def _done(study: "FitStudy", fits: Sequence["Fit"], took: str) -> str:

@@ -4,28 +4,19 @@ from pathlib import Path
 
 import click
 
-from gradhesion.cli.commands.shared import (
-    A_PATH,
-    choosing,
-    dataset_to_write,
-    example,
-    history_now,
-    overwriting,
-    quietly,
-    say_written,
-)
+from gradhesion.cli.commands import shared
 
 EXAMPLE = "select outputs/study.nc --at k=0.3 --at A=0.01:0.05 --over a_max_over_R=max -o small.nc"
 HOW = "Reduce an axis: max, min, mean, sum, p05, median, p95; repeatable."
 
 
-@click.command(epilog=example(EXAMPLE))
-@click.argument("file", type=A_PATH)
-@choosing
+@click.command(epilog=shared.example(EXAMPLE))
+@click.argument("file", type=shared.A_PATH)
+@shared.choosing
 @click.option("--over", multiple=True, metavar="AXIS=HOW", help=HOW)
-@dataset_to_write(required=True)
-@overwriting
-@quietly
+@shared.dataset_to_write(required=True)
+@shared.overwriting
+@shared.quietly
 def select(file: Path, at: tuple[str, ...], over: tuple[str, ...], output: Path, overwrite: bool, quiet: bool) -> None:
     """Write a part of a dataset.
 
@@ -41,7 +32,7 @@ def select(file: Path, at: tuple[str, ...], over: tuple[str, ...], output: Path,
     with opened(file) as dataset:
         part = selected(dataset, at, over)
         notes = [] if is_fit(dataset) else nearest_values(dataset, at)
-        part = part.assign_attrs(history=f"{part.attrs.get('history', '')}\n{history_now()}".strip())
+        part = part.assign_attrs(history=f"{part.attrs.get('history', '')}\n{shared.history_now()}".strip())
         write_dataset(part, output, overwrite=overwrite)
     if not quiet:
-        say_written(output, notes)
+        shared.say_written(output, notes)

@@ -21,13 +21,14 @@ def warmup(everything: bool, workers: int | None, quiet: bool) -> None:  # noqa:
     wave need is compiled. It is kept in the user's cache, or in the folder NUMBA_CACHE_DIR, for all runs of this
     version.
     """
-    from gradhesion.cli.work.compiling import SECONDS, alone, refuse_without_compiler, say_why
+    from gradhesion.cli.work.compiling import SECONDS, alone, refuse_without_compiler
     from gradhesion.core import place
 
     refuse_without_compiler()
     from gradhesion.core import warm_up  # it imports kernels, which need the compiler
 
-    say_why()
+    if place().why:
+        messages.say(place().why)
 
     def report(kind: str, seconds: float) -> None:
         if not quiet:

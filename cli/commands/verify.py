@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from gradhesion.cli.commands.shared import A_PATH, example, given_up
-from gradhesion.cli.errors import DeviationError
+from gradhesion.cli.errors import DoubtfulError
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.messages import show
 from gradhesion.cli.terminal.progress import progress
@@ -35,7 +35,7 @@ def verify(file: Path, sample: int, seed: int | None) -> None:
     for line in in_words(found, title, file):
         show(line)
     if found.exceeding:
-        raise DeviationError(
+        raise DoubtfulError(
             f"{file}: {found.exceeding:,} of {counted(len(found.deviations), 'value')} deviate by more than their "
             "stated errors; write it again with `gradhesion run`, and report it if they still do"
         )

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+import pandas as pd
 import xarray
-from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.describe import variables
 from gradhesion.cli.dataset.read.reader import study_text
@@ -99,9 +99,8 @@ def _check(dataset: xarray.Dataset, study: Study, path: Path) -> None:
             if name in study.spreads:
                 continue  # which earlier versions did not write, and nobody recomputes
             if name in study.sizes:
-                raise DatasetError(
-                    f"{path}: was reduced over {name}: its values are not those of scenes; give the whole"
-                )
+                what = f"was reduced over {name}: its values are not those of scenes"
+                raise DatasetError(f"{path}: {what}; give the whole")
             raise _apart(path, f"its study has {name}, which the dataset lacks")
         own = labels_of(name)
         whole = sizes | ({own: len(study.labels[own])} if own else {})
@@ -111,7 +110,11 @@ def _check(dataset: xarray.Dataset, study: Study, path: Path) -> None:
             raise _apart(path, f"the axes of {name} are not those of its study")
         if name in study.parameters:
             here, given = np.ravel(dataset[name].values), np.ravel(study.parameters[name])
-            nearest = given if here.size == given.size else _nearest(given, here)
+            nearest = given
+            if here.size != given.size:
+                rising = pd.Index(np.unique(given))
+                with np.errstate(invalid="ignore"):  # of inf
+                    nearest = rising[rising.get_indexer(here, method="nearest")].to_numpy()
             wrong = np.flatnonzero(~np.isclose(here, nearest, rtol=CLOSE, atol=0.0))
             if wrong.size:
                 at = f"[{wrong[0]}]" if dataset[name].ndim else ""
@@ -121,22 +124,8 @@ def _check(dataset: xarray.Dataset, study: Study, path: Path) -> None:
         raise _apart(path, "its solvers are not those of its study")
 
 
-def _nearest(given: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Find for each of some values the nearest of those that a study gives.
-
-    >>> _nearest(np.array([np.inf, 1.0, 2.0]), np.array([1.9, np.inf]))
-    array([ 2., inf])
-    """
-    ordered = np.sort(given)
-    after = np.clip(np.searchsorted(ordered, values), 0, ordered.size - 1)
-    before = np.maximum(after - 1, 0)
-    with np.errstate(invalid="ignore"):
-        closer = np.abs(ordered[before] - values) < np.abs(ordered[after] - values)
-    found: NDArray[np.float64] = np.where(closer, ordered[before], ordered[after])
-    return found
-
-
 def _apart(path: Path, what: str) -> DatasetError:
+    """Make the error of a dataset that is not that of the study in it."""
     return DatasetError(
         f"{path}: {what}, so that its study and its values do not belong together; write it again with `gradhesion run`"
     )

@@ -41,11 +41,7 @@ _SAID: Final = {
     ),
     "linear_deviation_off": (
         "the linear standard deviation is off in {share}: a kink lies within the spread of the inputs, or the value "
-        "bends; draw samples there, with samples = 1024 under [uncertainty]"
-    ),
-    "samples_differ": (
-        "the linear and the sampled standard deviation differ by more than a tenth in {share}: a kink lies within the "
-        "spread of the inputs, or the value bends; use the samples"
+        "bends; use that of samples, with samples = 1024 under [uncertainty]"
     ),
 }
 """What is said of a share of the scenes, most of it by the flag."""
@@ -65,8 +61,6 @@ def cautions(study: Study, flagged: Mapping[str, int], steep: int = 0) -> Iterat
     counts = {"steep": steep, "waves": _steep_waves(study), **flagged}
     if counts.get(_NOT_ONE_DISC, 0) < _MANY * study.scenes:
         counts[_NOT_ONE_DISC] = 0
-    if study.uncertainty.samples:
-        counts["samples_differ"] = counts.pop("linear_deviation_off", 0)
     for name, sentence in _SAID.items():
         if count := counts.get(name):
             share = f"{count:,} of {counted(study.scenes, 'scene')} ({percent(count, study.scenes)})"

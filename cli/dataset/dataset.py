@@ -18,8 +18,9 @@ from gradhesion.cli.study.shape_words import profile_table, rate_in_words, shape
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.work.compiling import prepare
-from gradhesion.cli.work.solve.blocks import Part, solved, within
+from gradhesion.cli.work.solve.blocks import in_threads, within
 from gradhesion.cli.work.solve.curves import blank_of
+from gradhesion.cli.work.solve.scenes import Arrays
 
 if TYPE_CHECKING:
     import xarray
@@ -44,17 +45,18 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
     The first study of a version compiles the solver, which a line on stderr reports.
     """
     prepare(study)
-    found = _joined(study, solved(study, threads))
+    found = _joined(study, in_threads(study, range(len(study.tiling)), threads))
     for sentence in cautions(study, flagged_in(found["status"]), int(np.count_nonzero(found.get(STEEP, 0)))):
         messages.say(f"{study.name}: {sentence}")
     return assembled(study, found, "computed in memory")
 
 
-def _joined(study: Study, parts: Iterable[Part]) -> dict[str, NDArray[Any]]:
-    """Join parts, padded to the longest where their lengths differ: those of curves, and of fronts."""
+def _joined(study: Study, parts: Iterable[tuple[int, Arrays]]) -> Arrays:
+    """Join blocks, padded to the longest where their lengths differ: those of curves, and of fronts."""
     parts = parts if study.in_blocks else list(parts)  # of maps one at a time is in memory
-    whole: dict[str, NDArray[Any]] = {}
-    for block, values in parts:
+    whole: Arrays = {}
+    for number, values in parts:
+        block = study.tiling[number]
         for name, part in values.items():
             if is_ragged(name):
                 continue
@@ -97,14 +99,14 @@ def attributes(study: Study, history: str) -> dict[str, Any]:
         own |= {"profile_file": study.measured.file, "profile_sha256": study.measured.sha256}
         own |= {"profile_fit": profile_table(study.profile)}
         own |= {"profile_residual_rms": fit.residual_rms, "profile_residual_max": fit.residual_max}
-    rate = {} if study.rate is None else {"rate": rate_in_words(study.rate)}
-    return origin(study, history, own | driven_in_words(study) | rate)
+    return origin(study, history, own | driven_in_words(study))
 
 
 def driven_in_words(study: Study | FitStudy) -> dict[str, Any]:
-    """Say how the punch is driven, and how its toughness varies if it does."""
+    """Say how the punch is driven; how its toughness varies, and grows with the speed of its edge, if it does."""
     toughness = {} if study.toughness is None else {"toughness": toughness_in_words(study.toughness)}
-    return {"control": study.loading.control, **toughness}
+    rate = {} if study.rate is None else {"rate": rate_in_words(study.rate)}
+    return {"control": study.loading.control, **toughness, **rate}
 
 
 def origin(study: Study | FitStudy, history: str, own: Mapping[str, Any]) -> dict[str, Any]:

@@ -25,12 +25,13 @@ from gradhesion.cli.names.outputs import PARAMETER
 from gradhesion.cli.names.scenes import STEEP, STEEP_CONTACT
 from gradhesion.cli.study.fit.loop_file import fingerprint
 from gradhesion.cli.study.fit.study import FitStudy, unit_of_parameter
-from gradhesion.cli.study.shape_words import rate_in_words, shape_in_words
+from gradhesion.cli.study.shape_words import shape_in_words
 from gradhesion.cli.terminal.amounts import bytes_in_words
 from gradhesion.cli.work.compiling import prepare
 from gradhesion.cli.work.solve.fitting import Fit, fits_of, range_words, tabor_of
 from gradhesion.core.closed.reach import SMALL, is_steep, slopes_of
 from gradhesion.core.loops.fitted import FittedLoop
+from gradhesion.core.loops.paths.model import EXPONENT
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.status import FLAGS, NO_VALUE, OF_FITS
@@ -114,11 +115,12 @@ def _attributes(study: FitStudy, fits: Sequence[Fit]) -> dict[str, Any]:
     """List the attributes that fits alone have."""
     found = [fit.found for fit in fits if fit.found is not None]
     methods = {one.contact.method for one in found if one.contact is not None}
-    exponent = ", with a fitted exponent" if "exponent" in study.free else ""
+    driven = driven_in_words(study)
+    if EXPONENT in study.free:
+        driven["rate"] += ", with a fitted exponent"
     return {
         "profile": shape_in_words(study.profile),
-        **driven_in_words(study),
-        **({} if study.rate is None else {"rate": f"{rate_in_words(study.rate)}{exponent}"}),
+        **driven,
         "data_file": study.file,
         "data_sha256": fingerprint(study.loops),
         "data_rows_left_out": np.int64(sum(loop.dropped for loop in study.loops)),

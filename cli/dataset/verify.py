@@ -3,7 +3,7 @@
 import math
 import random
 from collections.abc import Callable, Collection, Iterator, Mapping
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
@@ -45,14 +45,14 @@ class Scene:
 
 @dataclass(frozen=True, kw_only=True)
 class Deviation:
-    """How far a value is from what it should be; `expected` has 30 digits, both errors are absolute."""
+    """How far a value is from what it should be; `expected` has 30 digits or says what, both errors are absolute."""
 
     output: str
     scene: Mapping[str, float | str]
     value: float
     expected: str
-    deviation: float
-    stated: float
+    deviation: float = math.inf
+    stated: float = 0.0
 
     @property
     def share(self) -> float:
@@ -97,20 +97,17 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
     solvers = [str(solver) for solver in np.ravel(dataset[SOLVER].values if SOLVER in dataset else study.method.solver)]
     known = tuple(solver for solver in solvers if solver in stated.SOLVERS)
     if not known or study.rate is not None:
-        what = f"the solver {' and '.join(solvers)}" if not known else "edges with a speed"
         raise DatasetError(
-            f"{path}: of {what}, without an independent twin; `gradhesion verify` accepts the solvers "
+            f"{path}: has no independent twin; `gradhesion verify` accepts the solvers "
             f"{' and '.join(stated.SOLVERS)}, and edges at rest"
         )
     outputs = [name for name in study.outputs if name in stated.KNOWN]
+    unknown = [name for name in study.outputs if name not in outputs]
     found = Recomputed(
         seed=random.SystemRandom().randrange(10**6) if seed is None else seed,
         total=dataset["status"].size // len(solvers) * len(known),
         solvers=known,
-        unknown=(
-            *(name for name in study.outputs if name not in outputs and not name.endswith("_error")),
-            *(f"all of the solver {solver}" for solver in solvers if solver not in known),
-        ),
+        unknown=(*unknown, *(f"all of the solver {solver}" for solver in solvers if solver not in known)),
     )
     scenes = _drawn(dataset, study, outputs, sample, found)
     scenes.sort(key=lambda scene: scene.parameters["k"])  # scenes of one exponent share what is known of it
@@ -146,19 +143,17 @@ def _drawn(
             if status & NO_VALUE:
                 found.deviations += _without_value(dataset, scene, study.variables)
         elif missing := [name for name in PARAMETERS if math.isnan(scene.parameters[name])]:
-            found.deviations += [_unlike(scene, name, math.nan, "a value, by its status") for name in missing]
-        elif _is_within_reach(scene, outputs):
-            scenes.append(scene)
+            found.deviations += [
+                Deviation(output=name, scene=scene.place, value=math.nan, expected="a value, by its status")
+                for name in missing
+            ]
         else:
-            found.beyond += 1
+            within = True
+            with suppress(ArithmeticError):  # which says so again when it is solved
+                within = stated.within_reach(scene.parameters, outputs, scene.solver, scene.shape)
+            scenes += [scene] if within else []
+            found.beyond += not within
     return scenes
-
-
-def _is_within_reach(scene: Scene, outputs: Collection[str]) -> bool:
-    try:
-        return stated.within_reach(scene.parameters, outputs, scene.solver, scene.shape)
-    except ArithmeticError:  # which says so again when it is solved
-        return True
 
 
 def _scene(dataset: xarray.Dataset, study: Study, cells: xarray.Dataset, number: int, solver: str) -> Scene:
@@ -193,12 +188,7 @@ def _without_value(dataset: xarray.Dataset, scene: Scene, outputs: Collection[st
     for name in outputs:
         value = float("nan") if labels_of(name) else float(dataset[name][scene.index])
         if not (math.isnan(value) or (name.endswith("_jumps") and value == -1.0)):
-            yield _unlike(scene, name, value, "none, by its status")
-
-
-def _unlike(scene: Scene, output: str, value: float, expected: str) -> Deviation:
-    """Make a deviation that has no size."""
-    return Deviation(output=output, scene=scene.place, value=value, expected=expected, deviation=math.inf, stated=0.0)
+            yield Deviation(output=name, scene=scene.place, value=value, expected="none, by its status")
 
 
 def _compared(

@@ -1,9 +1,10 @@
 """The dataset of a study written block by block; the blocks are kept until it is whole, and reused by the next run."""
 
 from collections import Counter
-from collections.abc import Generator, Mapping
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from contextlib import ExitStack, closing, suppress
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
@@ -15,14 +16,16 @@ from gradhesion.cli.dataset.cautions import cautions, flagged_in
 from gradhesion.cli.dataset.dataset import attributes
 from gradhesion.cli.dataset.describe import Variable, steep_contact, variables
 from gradhesion.cli.disk import refuse_existing, settle, writing
+from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.curves import RAGGED, STATE, is_ragged
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, size_of
+from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.progress import Advance
-from gradhesion.cli.work.engines import Engine, in_threads
 from gradhesion.cli.work.folder import Parts, claimed, clear, is_written, mark_of
-from gradhesion.cli.work.solve.blocks import solved, within
+from gradhesion.cli.work.solve.blocks import Engine, in_threads, within
+from gradhesion.cli.work.solve.scenes import Arrays
 from gradhesion.core import FAILED
 
 CACHE: Final = 2**22
@@ -32,7 +35,8 @@ library's own choice took more memory than all else that a run has."""
 POINTS: Final = 1024
 """Points of a curve in a chunk: most curves have fewer, and unwritten chunks take no room."""
 
-Solved = Generator[tuple[int, Block, Mapping[str, NDArray[Any]], bool], None, None]
+Solved = Generator[tuple[int, Arrays, bool], None, None]
+"""Blocks by their numbers, each with its values, and whether these were kept by an earlier run."""
 
 
 @dataclass(kw_only=True)
@@ -48,12 +52,6 @@ class Written:
     """What is to be known of its answers."""
     complete: bool = False
     """Whether an earlier run had written it, and was killed before it could say so."""
-
-    def count(self, values: Mapping[str, NDArray[Any]], *, reused: bool) -> None:
-        """Count a block that is done."""
-        self.failed += int(np.count_nonzero(values["status"] & FAILED))
-        self.reused += reused
-        self.computed += not reused
 
 
 def write(
@@ -79,7 +77,7 @@ def write(
     shard
         (i, N): solve the i-th of each N blocks, to be kept, beside others that do the rest; no dataset is written.
     engine
-        Who has the blocks of a map: `threads` of this process if not given; curves are drawn here.
+        Who solves blocks: `threads` of this process if not given.
 
     Raises
     ------
@@ -104,41 +102,70 @@ def write(
         with writing(path):
             parts.begin(fresh=fresh)
         first, step = (shard[0] - 1, shard[1]) if shard else (0, 1)
-        blocks = stack.enter_context(closing(_solved(parts, first, step, threads, engine or in_threads(threads))))
+        numbers = range(first, len(study.tiling), step)
+        engine = engine or partial(in_threads, threads=threads)
+        solved = stack.enter_context(closing(_solved(parts, numbers, engine)))
+        written = Written()
+        blocks = stack.enter_context(closing(_kept(parts, solved, written, advance)))
         if shard:
-            return _keep(parts, blocks, advance)
-        written = _merge(parts, history, blocks, advance)
+            for _ in blocks:  # each is kept
+                pass
+            return written
+        written.cautions = _merge(parts, history, blocks)
         settle(parts.merged, path, overwrite=overwrite)
         clear(parts.folder)
     return written
 
 
-def _solved(parts: Parts, first: int, step: int, threads: int | None, engine: Engine) -> Solved:
-    """Give the blocks of a study with their numbers, their values, and whether they exist already."""
-    study = parts.study
-    if study.in_blocks:
-        for number, values, reused in engine(parts, range(first, len(study.tiling), step)):
-            yield number, study.tiling[number], values, reused
-    else:  # of curves each scene is one
-        for number, (block, values) in enumerate(solved(study, threads)):
-            yield number, block, values, False
+def _solved(parts: Parts, numbers: Sequence[int], engine: Engine) -> Solved:
+    """Give blocks with their numbers, their values, and whether they were kept: those that are not are solved."""
+    is_kept = {number: parts.study.has_parts and parts.part(number).exists() for number in numbers}
+    for number, values in engine(parts.study, [number for number in numbers if not is_kept[number]]):
+        yield number, values, False
+    damaged = []
+    for number in (number for number in numbers if is_kept[number]):
+        if (found := parts.read(number)) is not None:
+            yield number, found, True
+        else:
+            damaged.append(number)
+    for number, values in engine(parts.study, damaged):
+        yield number, values, False
 
 
-def _keep(parts: Parts, blocks: Solved, advance: Advance) -> Written:
-    """Keep the blocks of a shard."""
-    written = Written()
-    for number, block, values, reused in blocks:
-        if not reused:
+def _kept(
+    parts: Parts, solved: Solved, written: Written, advance: Advance
+) -> Generator[tuple[int, Arrays], None, None]:
+    """Give blocks by their numbers, each kept for the next run if it is one of several, and counted."""
+    for number, values, reused in solved:
+        if parts.study.has_parts and not reused:
             with writing(parts.output):
                 parts.write(number, values)
-        written.count(values, reused=reused)
-        advance(size_of(block), reused=reused)
-    return written
+        written.failed += int(np.count_nonzero(values["status"] & FAILED))
+        written.reused += reused
+        written.computed += not reused
+        yield number, values
+        advance(size_of(parts.study.tiling[number]), reused=reused)
 
 
-def _merge(parts: Parts, history: str, blocks: Solved, advance: Advance) -> Written:
-    """Write the dataset in the making, block by block, as they come."""
-    study, path, written = parts.study, parts.output, Written()
+def only_kept(output: Path) -> Engine:
+    """Make an engine that solves nothing: DatasetError says which blocks the shards of an output lack."""
+
+    def engine(study: Study, numbers: Sequence[int]) -> Iterator[tuple[int, Arrays]]:
+        if numbers:
+            shown = ", ".join(str(number + 1) for number in numbers[:8]) + (", ..." if len(numbers) > 8 else "")
+            of_all = f"{len(numbers):,} of {counted(len(study.tiling), 'block')}"
+            raise DatasetError(
+                f"{output}: {of_all} are missing or damaged ({shown}); run the shards that have them, or "
+                "`gradhesion run`, which computes the rest"
+            )
+        yield from ()
+
+    return engine
+
+
+def _merge(parts: Parts, history: str, blocks: Iterable[tuple[int, Arrays]]) -> tuple[str, ...]:
+    """Write the dataset in the making, block by block, as they come; tells what is to be known of its answers."""
+    study, path = parts.study, parts.output
     flagged = Counter[str]()
     steep = begun = 0  # scenes; items of ragged curves
     with writing(path):
@@ -146,10 +173,9 @@ def _merge(parts: Parts, history: str, blocks: Solved, advance: Advance) -> Writ
     try:
         with writing(path):
             _define(file, study, history)
-        for number, block, values, reused in blocks:
+        for number, values in blocks:
+            block = study.tiling[number]
             with writing(path):
-                if study.has_parts and not reused:
-                    parts.write(number, values)
                 for name, part in values.items():
                     if name == STEEP:
                         steep += _mark(file, study, block, part)
@@ -157,16 +183,13 @@ def _merge(parts: Parts, history: str, blocks: Solved, advance: Advance) -> Writ
                         file[name][within(name, block, part, begun) or ...] = part
             begun += sum(int(values[one].item()) for one in RAGGED.values() if one in values)
             flagged.update(flagged_in(values["status"]))
-            written.count(values, reused=reused)
-            advance(size_of(block), reused=reused)
     except BaseException:
         with suppress(OSError, RuntimeError):  # what went wrong first counts
             file.close()
         raise
     with writing(path):
         file.close()
-    written.cautions = tuple(cautions(study, flagged, steep))
-    return written
+    return tuple(cautions(study, flagged, steep))
 
 
 def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:

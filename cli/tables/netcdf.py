@@ -40,13 +40,8 @@ def of_netcdf(content: bytes, sha256: str, wanted: Wanted) -> Columns:
         sizes = ", ".join(f"{name} {column.size:,}" for name, column in list(found.items())[:8])
         raise ColumnsError(f"the columns differ in length ({sizes}); leave one dimension in the file")
     values = {name: _values(name, column, wanted) for name, column in found.items()}
-    return Columns(
-        values=values,
-        units={name: unit for name, unit in units.items() if unit},
-        sha256=sha256,
-        place=_place,
-        others=others,
-    )
+    units = {name: unit for name, unit in units.items() if unit}
+    return Columns(values=values, units=units, sha256=sha256, place=_place, others=others)
 
 
 def _place(row: int) -> str:

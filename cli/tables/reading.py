@@ -44,20 +44,17 @@ def read_columns(
     """
     wanted = Wanted(only=only, words=words or {}, whole=whole)
     try:
-        size = path.stat().st_size
-        if path.is_file() and size > MOST_BYTES:
-            raise ColumnsError(f"the file is larger than {MOST_BYTES >> 20} MiB; split it")
-        content = read_at_most(path, MOST_BYTES)
+        is_large = path.is_file() and path.stat().st_size > MOST_BYTES
+        content = b"" if is_large else read_at_most(path, MOST_BYTES)
     except (OSError, ValueError) as error:
-        if isinstance(error, ColumnsError):
-            raise
         kind = kind_of(path)
         reason = f"it is {kind}" if kind in ("a directory", "no regular file") else getattr(error, "strerror", None)
         what = reason or str(error)
         raise ColumnsError(f"the file cannot be read ({what}); name a table of numbers in CSV or NetCDF") from None
+    if is_large:
+        raise ColumnsError(f"the file is larger than {MOST_BYTES >> 20} MiB; split it")
     if not content.strip():
-        what = f"has {size:,} bytes of white space" if content else "has 0 bytes"
-        raise ColumnsError(f"the file {what}; name a table with a header and a row of numbers")
+        raise ColumnsError("the file is empty; name a table with a header and a row of numbers")
     sha256 = hashlib.sha256(content).hexdigest()
     if content.startswith(MAGIC):
         return of_netcdf(content, sha256, wanted)

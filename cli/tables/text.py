@@ -17,8 +17,6 @@ from gradhesion.cli.tables.columns import Columns, ColumnsError, Wanted, tidy
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.wording import shown
 
-MOST_COLUMNS: Final = 1_000
-"""More of them are hardly meant as a table."""
 LONGEST: Final = 2**15
 """Characters of a header: above any that is meant as one."""
 
@@ -53,8 +51,6 @@ class Header:
     """What is between two cells; None for white space."""
     read: tuple[int, ...]
     """The columns that are read, counted from 0."""
-    number: int
-    """The line of the names."""
     last: int
     """The last line above the rows."""
 
@@ -129,8 +125,6 @@ def _header_of(text: str, wanted: Wanted) -> Header:
     if all(is_number(cell) for cell in cells if cell):
         place, cells = _names_in_a_comment(text, place, len(cells), separator)
         last = place
-    if len(cells) > MOST_COLUMNS:
-        raise ColumnsError(f"line {place} has {len(cells):,} columns, and {MOST_COLUMNS:,} are read; leave some out")
     heads = [_HEAD.fullmatch(cell) for cell in cells]
     names = wanted.named([head[1] if head else cell for head, cell in zip(heads, cells, strict=True)], cells)
     units = {name: tidy(head[2] or "") for name, head in zip(names, heads, strict=True) if head}
@@ -141,16 +135,15 @@ def _header_of(text: str, wanted: Wanted) -> Header:
     if len(rows) > 1 and not any(units.values()):
         below = _units_below(_cells_of(*rows[0], separator), names, read, wanted)
         units, last = (below, rows[0][0]) if below else (units, last)
-    found = Header(
-        names=names,
-        units={name: unit for name, unit in units.items() if unit},
-        separator=separator,
-        read=read,
-        number=place,
-        last=last,
-    )
-    _check_names(found)
-    return found
+    line = f"the header on line {place}"
+    for i in read:
+        if not names[i]:
+            raise ColumnsError(f"column {i + 1} of {line} has no name; name it or remove it")
+        if (first := names.index(names[i])) < i:
+            words = f"columns {first + 1} and {i + 1} of {line} have one name, {shown(names[i])}"
+            raise ColumnsError(f"{words}; rename one")
+    units = {name: unit for name, unit in units.items() if unit}
+    return Header(names=names, units=units, separator=separator, read=read, last=last)
 
 
 def _heads_of(place: int, line: str, separator: str | None) -> tuple[list[str], str | None]:
@@ -177,18 +170,6 @@ def _names_in_a_comment(text: str, before: int, columns: int, separator: str | N
     raise ColumnsError(f"{words}; add a header line above it")
 
 
-def _check_names(header: Header) -> None:
-    """Check that each column that is read has a name of its own."""
-    line = f"the header on line {header.number}"
-    for i in header.read:
-        if not header.names[i]:
-            raise ColumnsError(f"column {i + 1} of {line} has no name; name it or remove it")
-        first = header.names.index(header.names[i])
-        if first < i:
-            words = f"columns {first + 1} and {i + 1} of {line} have one name, {shown(header.names[i])}"
-            raise ColumnsError(f"{words}; rename one")
-
-
 def _units_below(cells: list[str], names: tuple[str, ...], read: tuple[int, ...], wanted: Wanted) -> dict[str, str]:
     """Read a row of units below the names; nothing if it is none."""
     while len(cells) > len(names) and not cells[-1]:
@@ -198,8 +179,7 @@ def _units_below(cells: list[str], names: tuple[str, ...], read: tuple[int, ...]
     if any(cells[i].lower() in words for i in read if (words := wanted.words.get(names[i], {}))):
         return {}
     own = {names[i]: cells[i] for i in read if cells[i] and names[i] not in (*wanted.words, *wanted.whole)}
-    found = {name: _UNIT.fullmatch(cell) for name, cell in own.items()}
-    units = {name: tidy(unit[1]) for name, unit in found.items() if unit}
+    units = {name: tidy(unit[1]) for name, cell in own.items() if (unit := _UNIT.fullmatch(cell))}
     return units if len(units) == len(own) else {}
 
 

@@ -15,13 +15,13 @@ from itertools import islice
 from pathlib import Path
 from typing import Any, Final
 
-from gradhesion.cli.errors import ClusterError, GradhesionError, MissingExtraError, OutputError
+from gradhesion.cli.errors import GradhesionError, MissingExtraError, OutputError, SetupError
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import interrupts, messages
 from gradhesion.cli.work.compiling import prepare
-from gradhesion.cli.work.engines import Engine, Solved
-from gradhesion.cli.work.folder import Parts, Results, versions
-from gradhesion.cli.work.solve.blocks import solve_block
+from gradhesion.cli.work.folder import versions
+from gradhesion.cli.work.solve.blocks import Engine, solve_block
+from gradhesion.cli.work.solve.scenes import Arrays
 
 AHEAD: Final = 3
 """Blocks with the scheduler for each thread of the workers, so that none waits for this process."""
@@ -41,25 +41,18 @@ def require_dask() -> None:
 def on_cluster(scheduler: str | None = None, workers: int | None = None, *, quiet: bool = False) -> Engine:
     """Have blocks solved by the workers of a scheduler (its address or its file), or by processes of this machine.
 
-    The engine raises ClusterError where no scheduler answers or a worker has another version, and OutputError where the
+    The engine raises SetupError where no scheduler answers or a worker has another version, and OutputError where the
     cluster is lost.
     """
 
-    def engine(parts: Parts, numbers: Sequence[int]) -> Solved:
-        left = []
-        for number in numbers:
-            values = parts.read(number)
-            if values is None:
-                left.append(number)
-            else:
-                yield number, values, True
-        if not left:
+    def engine(study: Study, numbers: Sequence[int]) -> Iterator[tuple[int, Arrays]]:
+        if not numbers:
             return
-        with _silent(), _client(scheduler, workers, len(left)) as client:
+        with _silent(), _client(scheduler, workers, len(numbers)) as client:
             if not quiet and not client.nthreads():
                 messages.say("--engine dask: the scheduler has no workers yet; waiting for them")
             try:
-                yield from _solved(client, parts.study, left)
+                yield from _solved(client, study, numbers)
             except GradhesionError:
                 raise
             except Exception as error:
@@ -73,7 +66,7 @@ def on_cluster(scheduler: str | None = None, workers: int | None = None, *, quie
     return engine
 
 
-def _solved(client: Any, study: Study, numbers: Sequence[int]) -> Solved:
+def _solved(client: Any, study: Study, numbers: Sequence[int]) -> Iterator[tuple[int, Arrays]]:
     """Give the values of blocks as they come, of which a bounded number is with the scheduler."""
     from distributed import as_completed  # noqa: PLC0415
 
@@ -93,14 +86,14 @@ def _solved(client: Any, study: Study, numbers: Sequence[int]) -> Solved:
         future.release()
         most = max(LEAST, AHEAD * sum(client.nthreads().values()))
         running.update(submitted(max(0, most - running.count())))
-        yield number, values, False
+        yield number, values
 
 
-def solve_there(study: Study, number: int, needed: dict[str, Any]) -> tuple[int, Results]:
-    """Solve a block, as a worker does, on one thread; ClusterError where its versions may round another way."""
+def solve_there(study: Study, number: int, needed: dict[str, Any]) -> tuple[int, Arrays]:
+    """Solve a block, as a worker does, on one thread; SetupError where its versions may round another way."""
     if (own := versions()) != needed:
         differing = ", ".join(name for name in own if own[name] != needed.get(name))
-        raise ClusterError(
+        raise SetupError(
             f"--engine dask: a worker has another version ({differing}); start workers in the environment of this "
             "command"
         )
@@ -110,7 +103,7 @@ def solve_there(study: Study, number: int, needed: dict[str, Any]) -> tuple[int,
 
 @contextmanager
 def _client(scheduler: str | None, workers: int | None, most: int) -> Iterator[Any]:
-    """Make a client of a scheduler, or of `most` processes of one thread on this machine; ClusterError if that fails.
+    """Make a client of a scheduler, or of `most` processes of one thread on this machine; SetupError if that fails.
 
     These listen on the loopback interface alone, and to those alone who have a certificate that is made here: on a
     machine with several users the others cannot run code as this one.
@@ -137,7 +130,7 @@ def _client(scheduler: str | None, workers: int | None, most: int) -> Iterator[A
                 address = scheduler if "://" in scheduler else json.loads(Path(scheduler).read_bytes())["address"]
             client = stack.enter_context(Client(address, set_as_default=False))
         except (OSError, RuntimeError, ValueError, TypeError, KeyError) as error:
-            raise ClusterError(
+            raise SetupError(
                 f"--engine dask: no cluster at {scheduler or 'this machine'} ({error}); start a scheduler with `dask "
                 "scheduler --scheduler-file FILE` and name FILE, or use --engine threads"
             ) from error

@@ -12,7 +12,7 @@ from typing import Final
 import numba
 from filelock import FileLock
 
-from gradhesion.cli.errors import CompilerError
+from gradhesion.cli.errors import SetupError
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.work.solve.blocks import solve_block
@@ -51,30 +51,20 @@ def prepare(study: Study | None = None) -> None:
     folder, need = place().folder, need_of(study)
     if (folder, need) in _begun or (folder and (folder / need).exists()):
         return
-    if not _begun:
-        say_why()
+    if not _begun and place().why:
+        messages.say(place().why)
     messages.say(f"compiling the solver for {need}, about {SECONDS[need]} s of a free processor, once per version")
     with alone(need):
         if study is not None and study.kind == "map":  # the first and the last of its scenes
-            first, last = study.tiling[0], study.tiling[len(study.tiling) - 1]
-            for scene in (
-                tuple(slice(part.start, part.start + 1) for part in first),
-                tuple(slice(part.stop - 1, part.stop) for part in last),
-            ):
+            for places in ([0] * len(study.shape), [size - 1 for size in study.shape]):
                 with suppress(Exception):  # it is raised again, and reported, when the block is solved for its values
-                    solve_block(study, scene, 1)
+                    solve_block(study, tuple(slice(place, place + 1) for place in places), 1)
 
 
 def refuse_without_compiler() -> None:
-    """Make sure that kernels are compiled: as plain Python they take hours (CompilerError)."""
+    """Make sure that kernels are compiled: as plain Python they take hours (SetupError)."""
     if numba.config.DISABLE_JIT:
-        raise CompilerError("NUMBA_DISABLE_JIT is set, but the solver needs the compiler; unset it")
-
-
-def say_why() -> None:
-    """Report why compiled kernels are not kept in the usual folder, if they are not."""
-    if place().why:
-        messages.say(place().why)
+        raise SetupError("NUMBA_DISABLE_JIT is set, but the solver needs the compiler; unset it")
 
 
 @contextmanager

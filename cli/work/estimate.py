@@ -4,9 +4,8 @@ import math
 import shutil
 import time
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, shape_of, size_of
@@ -27,37 +26,16 @@ CELLS: Final = 4096
 SECONDS_OF_PIECE: Final = 0.05
 
 
-@dataclass(frozen=True, kw_only=True)
-class Estimate:
-    """What a run would do and cost; None is not known."""
+def estimate(study: Study, output: Path, threads: int | None = None) -> dict[str, Any]:
+    """Find out what a run would do and cost; writes nothing.
 
-    output: str
-    output_exists: bool
-    running: bool
-    """Whether a run is at work on this output."""
-    refusal: str
-    """Why a run would not go on with what is kept; "" if it would."""
-    kind: str
-    scenes: int
-    solutions_of_scene: int
-    """How often a scene is solved with other inputs: its samples."""
-    sizes: dict[str, int]
-    outputs: tuple[str, ...]
-    blocks: int
-    """0: computed scene by scene."""
-    blocks_kept: int
-    bytes_of_values: int
-    """In the file they are compressed; before it is whole, those of several blocks are kept beside it as they are."""
-    bytes_free: int | None
-    bytes_of_memory: int
-    seconds: float | None
-    seconds_of_block: float | None
-    """Of one core: what a worker of a cluster needs at a time."""
-    scenes_timed: int
-
-
-def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate:
-    """Find out what a run would do and cost; writes nothing."""
+    Returns
+    -------
+    What `gradhesion plan --json` prints; None is not known. `refusal` says why a run would not go on with the blocks
+    that are kept ("" if it would), `solutions_of_scene` how often a scene is solved with other inputs. Without `blocks`
+    scenes are computed one by one. In the file `bytes_of_values` are compressed; before it is whole, those of several
+    blocks are kept beside it as they are. `seconds_of_block` is of one core: what a worker of a cluster needs.
+    """
     parts = Parts(output, study)
     refusal = parts.refusal()
     numbers = range(len(study.tiling)) if study.in_blocks else range(0)
@@ -71,25 +49,25 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate
     for folder in reversed(output.absolute().parents):  # the nearest that is there
         with suppress(OSError):
             free = shutil.disk_usage(folder).free
-    return Estimate(
-        output=str(output),
-        output_exists=output.exists(),
-        running=is_running(parts.folder),
-        refusal=refusal,
-        kind=study.kind,
-        scenes=study.scenes,
-        solutions_of_scene=study.solutions,
-        sizes=study.sizes,
-        outputs=study.outputs or study.variables,
-        blocks=len(numbers),
-        blocks_kept=len(numbers) - len(left),
-        bytes_of_values=values * study.scenes,
-        bytes_free=free,
-        bytes_of_memory=round(BASE + COPIES * values * largest),
-        seconds=of_scene * scenes_left / (threads or processors()) if of_scene else None,
-        seconds_of_block=of_scene * largest if of_scene else None,
-        scenes_timed=timed,
-    )
+    return {
+        "output": str(output),
+        "output_exists": output.exists(),
+        "running": is_running(parts.folder),
+        "refusal": refusal,
+        "kind": study.kind,
+        "scenes": study.scenes,
+        "solutions_of_scene": study.solutions,
+        "sizes": study.sizes,
+        "outputs": study.outputs or study.variables,
+        "blocks": len(numbers),
+        "blocks_kept": len(numbers) - len(left),
+        "bytes_of_values": values * study.scenes,
+        "bytes_free": free,
+        "bytes_of_memory": round(BASE + COPIES * values * largest),
+        "seconds": of_scene * scenes_left / (threads or processors()) if of_scene else None,
+        "seconds_of_block": of_scene * largest if of_scene else None,
+        "scenes_timed": timed,
+    }
 
 
 def timed_scenes(study: Study, numbers: list[int]) -> tuple[int, float]:

@@ -1,5 +1,6 @@
 """What tests of commands share: the small study and others as datasets, wrong studies, and a full disk."""
 
+import math
 import shutil
 import signal
 import subprocess
@@ -8,6 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
+import numpy as np
 import pytest
 import xarray
 from click.testing import Result
@@ -102,6 +104,12 @@ def ran(gradhesion: Call, write_study: Made, tmp_path: Path) -> Run:
             return Ran(result.stderr, dataset.load(), path)
 
     return run
+
+
+def jkr(a: np.ndarray, R: float, E_star: float, work: float) -> tuple[np.ndarray, np.ndarray]:
+    """Depth and load of a smooth ball by its contact radius, by Johnson, Kendall & Roberts (1971)."""
+    load = 4.0 * E_star * a**3 / (3.0 * R) - np.sqrt(8.0 * math.pi * work * E_star * a**3)
+    return a**2 / R - np.sqrt(2.0 * math.pi * a * work / E_star), load
 
 
 def mistakes_of(path: Path, *overrides: str) -> list[str]:

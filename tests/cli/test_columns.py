@@ -88,14 +88,13 @@ def test_every_number_comes_back_and_quotes_change_none(table: np.ndarray) -> No
 
 
 MISTAKES = {
-    "": "has 0 bytes",
-    " \n\t\n": "4 bytes of white space",
+    "": "is empty",
+    " \n\t\n": "is empty",
     "# only\n": "comments only",
     "A,,k\n1,2,3\n": "column 2 of the header on line 1 has no name",
     "A\n1\n2 mm\n": "line 3 has 2 values under 1 name;",
     b"\x89HDF\r\n\x1a\nbroken": "cannot be read as NetCDF",
     "A," + 2**15 * "[" + "\n1,2\n": "line 1 is too long for a header, 32,771 characters",
-    ",".join(f"c{i}" for i in range(2000)) + "\n1\n": "2,000 columns",
 }
 """Besides those of test_wrong_tables.py."""
 

@@ -11,7 +11,7 @@ import xarray
 
 import gradhesion as gr
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
-from tests.cli.conftest import Call, Patch
+from tests.cli.conftest import Call, Patch, jkr
 
 CONFIGS = Path(__file__).parents[2] / "configs"
 TRUE = {"E_star": 1e7, "work_of_adhesion": 0.03, "wavelength": 0.5e-6, "A": 0.012, "indentation_offset": 2e-9, "load_offset": 1e-8}  # fmt: skip
@@ -170,12 +170,12 @@ def test_retract_only_is_fitted(folder: Path) -> None:
 
 
 def test_the_displacement_of_a_machine_is_fitted_with_its_spring(folder: Path) -> None:
-    """Points of a smooth ball pushed through a spring, by the closed forms of Johnson, Kendall & Roberts (1971)."""
+    """Points of a smooth ball pushed through a spring."""
     R, E_star, work, S = 5e-6, 1e7, 0.03, 20.0
 
     def at(a: np.ndarray) -> np.ndarray:
-        load = 4.0 * E_star * a**3 / (3.0 * R) - np.sqrt(8.0 * math.pi * work * E_star * a**3)
-        return np.array([a**2 / R - np.sqrt(2.0 * math.pi * a * work / E_star) + load / S, load])
+        depth, load = jkr(a, R, E_star, work)
+        return np.array([depth + load / S, load])
 
     fine = np.linspace(1e-7, 1.4e-6, 20_001)
     moved = at(fine)[0]

@@ -14,7 +14,7 @@ import gradhesion as gr
 from gradhesion.cli.dataset import fits as of_fits
 from gradhesion.cli.picture.fits import drawn_fits
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, NO_VALUE, POOR_FIT
-from tests.cli.conftest import BALL, WORK, Call, Patch
+from tests.cli.conftest import BALL, WORK, Call, Patch, jkr
 
 R = 5e-6
 TRUE = {"0": (1.0e7, 0.030, 40), "1": (1.2e7, 0.035, 30), "2": (0.9e7, 0.040, 35)}
@@ -34,17 +34,13 @@ noise = {{ indentation = "0.3 nm", load = "5 nN" }}
 
 
 def write_loop(path: Path, E_star: float, work: float, seed: int, count: int) -> None:
-    """A smooth ball by the closed forms of Johnson, Kendall & Roberts (1971), with noise and zeros of its own."""
-
-    def at(a: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        pull = np.sqrt(8.0 * math.pi * work * E_star * a**3)
-        return a**2 / R - np.sqrt(2.0 * math.pi * a * work / E_star), 4.0 * E_star * a**3 / (3.0 * R) - pull
-
+    """A smooth ball, with noise and zeros of its own."""
     fine = np.linspace(1e-9, 1e-6, 20_001)
-    depth, _ = at(fine)
+    depth, _ = jkr(fine, R, E_star, work)
     last = int(np.argmin(depth))
     first = fine[last:][depth[last:] >= 0.0][0]
-    up, down = at(np.linspace(first, 1e-6, count)), at(np.linspace(1e-6, fine[last], count + 9))
+    radii = np.linspace(first, 1e-6, count), np.linspace(1e-6, fine[last], count + 9)
+    up, down = (jkr(a, R, E_star, work) for a in radii)
     out, home = np.linspace(-2e-7, -1e-9, count // 2), np.linspace(depth[last] - 1e-9, -2e-7, count // 2)
     depths = np.concatenate([out, up[0], down[0], home])
     loads = np.concatenate([0.0 * out, up[1], down[1], 0.0 * home])

@@ -163,15 +163,11 @@ def in_own_units(dataset: "xarray.Dataset") -> "xarray.Dataset":
     """
     changed = {}
     for name, variable in dataset.variables.items():
-        own = unit_of(str(name))
-        written = variable.attrs.get("units")
+        own, written = unit_of(str(name)), variable.attrs.get("units")
         numbers, unit = (variable, str(written)) if written is not None else apart(dataset[name])
-        factor = factor_between(unit, own) if unit and written != own else None
-        if not factor:
-            continue
-        values = None if factor == 1 and written is not None else filled(numbers)
-        values = values if values is None or factor == 1 else scaled(values, factor)
-        plain = variable.copy(deep=False, data=values)
-        plain.attrs = variable.attrs | {"units": own}
-        changed[name] = plain
+        if unit and written != own and (factor := factor_between(unit, own)):
+            values = None if factor == 1 and written is not None else filled(numbers)
+            values = values if values is None or factor == 1 else scaled(values, factor)
+            changed[name] = variable.copy(deep=False, data=values)
+            changed[name].attrs = variable.attrs | {"units": own}
     return dataset.assign(changed) if changed else dataset

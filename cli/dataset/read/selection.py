@@ -45,23 +45,15 @@ class Selection:
         An axis that is fixed becomes a coordinate without dimension that has the value really used. One that is
         fixed between two items keeps these two, and one that is to be reduced stays: that takes values, see `taken`.
         """
-        narrow = self._cut(dataset)
-        counts = {RAGGED[curve]: EXTENTS[curve] for curve in RAGGED if RAGGED[curve] in dataset}
-        for count, extent in counts.items():  # items of all scenes that follow one another
-            if extent in dataset.dims:
-                counted = dataset[[count]].assign(
-                    end=dataset[count].copy(data=np.cumsum(dataset[count].values).reshape(dataset[count].shape))
-                )
-                left = self._cut(counted)
-                ends, lengths = left["end"].values.ravel(), left[count].values.ravel()
-                items = [np.arange(end - length, end) for end, length in zip(ends, lengths, strict=True)]
-                narrow = narrow.isel({extent: np.concatenate(items).astype(np.intp)})
-        return narrow
-
-    def _cut(self, dataset: xarray.Dataset) -> xarray.Dataset:
-        """Fix axes of what has a value a scene."""
         items = {**self.fixed, **self.parts, **{one.axis: [*one.items] for one in self.between}}
-        return dataset.isel({axis: one for axis, one in items.items() if axis in dataset.dims})
+        narrow = dataset.isel(items, missing_dims="ignore")
+        for curve, count in RAGGED.items():
+            if count in dataset and EXTENTS[curve] in dataset.dims:  # the items of all scenes, one after the other
+                scenes = dataset[count].copy(data=np.arange(dataset[count].size).reshape(dataset[count].shape))
+                owners = np.repeat(scenes.values.ravel(), dataset[count].values.ravel())
+                left = np.isin(owners, scenes.isel(items, missing_dims="ignore"))
+                narrow = narrow.isel({EXTENTS[curve]: np.flatnonzero(left)})
+        return narrow
 
     def taken(self, values: xarray.DataArray, status: xarray.DataArray) -> Taken:
         """Interpolate and reduce a variable of a narrowed dataset, with its status; scenes without a value are NaN."""
@@ -100,7 +92,7 @@ def selection_of(
     DatasetError
         A wish cannot be read or met; the message says which, and what to write instead.
     """
-    points = SCENE in dataset["status"].dims
+    dims = dataset["status"].dims
     fixed: dict[str, int] = {}
     parts: dict[str, NDArray[np.intp]] = {}
     between: list[Between] = []
@@ -110,16 +102,19 @@ def selection_of(
             fixed[axis] = _solver(dataset, option, text)
             continue
         values = np.asarray(dataset[axis].values, dtype=float)
-        value = np.nan if ":" in text else _checked(option, values, axis, _number(option, axis, text))
-        nearest = 0 if ":" in text else _nearest(values, value)
-        left = _within(option, values, axis, text) if ":" in text else np.flatnonzero(values == values[nearest])
-        if points and axis not in dataset["status"].dims:
+        if ":" in text:
+            left = _within(option, values, axis, text)
+        else:
+            value = _checked(option, values, axis, _number(option, axis, text))
+            nearest = _nearest(values, value)
+            left = np.flatnonzero(values == values[nearest])
+        if axis not in dims:  # of points, which have it along their scenes
             if interpolate:
                 raise DatasetError(f"{option}: points cannot be interpolated; leave --interpolate out")
             parts[SCENE] = np.intersect1d(parts.get(SCENE, left), left)
         elif ":" in text:
             parts[axis] = left
-        elif interpolate and not np.isinf(value) and abs(values[nearest] - value) > SAME * abs(value):
+        elif interpolate and not _is_same(value, values[nearest]):
             between.append(_between(values, axis, value))
         else:
             fixed[axis] = nearest
@@ -129,9 +124,8 @@ def selection_of(
         raise DatasetError("--interpolate: there is nothing to interpolate; add --at AXIS=VALUE")
     reductions: dict[str, str] = {}
     for option, axis, how in _wishes(dataset, "--over", over, named):
-        if axis == SOLVER or (points and axis not in dataset["status"].dims):
-            what = "solvers" if axis == SOLVER else "points"
-            raise DatasetError(f"{option}: {what} cannot be reduced; choose some of them with --at")
+        if axis == SOLVER or axis not in dims:
+            raise DatasetError(f"{option}: solvers and points cannot be reduced; choose some of them with --at")
         if how not in REDUCTIONS:
             raise DatasetError(f"{option}: not a reduction; {did_you_mean(how, list(REDUCTIONS))}")
         if how.startswith("arg") and any(other.startswith("arg") for other in reductions.values()):
@@ -144,13 +138,17 @@ def nearest_values(dataset: xarray.Dataset, at: Sequence[str]) -> list[str]:
     """Say which wishes of `--at` are met by another value, the nearest of the axis."""
     notes = []
     for option, axis, text in _wishes(dataset, "--at", at, set()):
-        if axis == SOLVER or ":" in text:
-            continue
-        values, value = np.asarray(dataset[axis].values, dtype=float), _number(option, axis, text)
-        near = float(values[_nearest(values, value)])
-        if not np.isinf(value) and abs(near - value) > SAME * abs(value):
-            notes.append(f"{option}: shows {axis} = {near:.10g}{_unit(axis)}, its nearest value")
+        if axis != SOLVER and ":" not in text:
+            values, value = np.asarray(dataset[axis].values, dtype=float), _number(option, axis, text)
+            near = float(values[_nearest(values, value)])
+            if not _is_same(value, near):
+                notes.append(f"{option}: shows {axis} = {near:.10g}{_unit(axis)}, its nearest value")
     return notes
+
+
+def _is_same(value: float, near: float) -> bool:
+    """Report whether a value that is wished is that of an axis, but for rounding."""
+    return bool(np.isinf(value) or abs(near - value) <= SAME * abs(value))
 
 
 def is_log(values: NDArray[np.float64]) -> bool:
@@ -211,15 +209,13 @@ def _solver(dataset: xarray.Dataset, option: str, name: str) -> int:
 
 def _number(option: str, axis: str, text: str) -> float:
     """Read a value of an axis, in SI or with its unit."""
-    value = np.nan
     try:
         value = float(text)
     except ValueError:
-        if axis in PHYSICAL:
-            try:
-                value = si_value(text, axis)
-            except ValueError as error:
-                raise DatasetError(f"{option}: {error}") from None
+        try:
+            value = si_value(text, axis) if axis in PHYSICAL else np.nan
+        except ValueError as error:
+            raise DatasetError(f"{option}: {error}") from None
     if np.isnan(value):
         raise DatasetError(f"{option}: {text} is not a number; write for example --at {axis}=0.1")
     return value
@@ -228,15 +224,10 @@ def _number(option: str, axis: str, text: str) -> float:
 def _checked(option: str, values: NDArray[np.float64], axis: str, value: float) -> float:
     """Refuse a value outside the range of an axis."""
     finite = values[np.isfinite(values)]
-    inside = bool((values == value).any())
-    if finite.size and not np.isinf(value):
-        least, greatest = float(finite.min()), float(finite.max())
-        inside = least - SLACK * abs(least) <= value <= greatest + SLACK * abs(greatest)
-    if not inside:
-        written = [f"{finite.min():g} to {finite.max():g}"] if finite.size else []
-        written += ["inf"] if np.isinf(values).any() else []
-        known = " and ".join(written)
-        raise DatasetError(f"{option}: outside the axis, which has values of {known}{_unit(axis)}; choose one within")
+    inside = finite.size and finite.min() <= value <= finite.max()
+    if not (inside or np.isclose(value, values, rtol=SLACK, atol=0.0).any()):
+        written = f"{values.min():g} to {values.max():g}{_unit(axis)}"
+        raise DatasetError(f"{option}: outside the axis, which has values of {written}; choose one within")
     return value
 
 
@@ -257,21 +248,21 @@ def _nearest(values: NDArray[np.float64], value: float) -> int:
     """Find the item of an axis nearest to a value, by ratio where it is log-spaced."""
     if np.isinf(value):
         return int(np.flatnonzero(values == value)[0])
-    if is_log(values):
-        with np.errstate(divide="ignore"):
-            return int(np.argmin(np.abs(np.log(values / value))))
-    return int(np.argmin(np.abs(values - value)))
+    along, place = _in_its_scale(values, value)
+    return int(np.argmin(np.abs(along - place)))
 
 
 def _between(values: NDArray[np.float64], axis: str, value: float) -> Between:
     """Find the two items of an axis that a value lies between."""
-    order: NDArray[Any] = np.argsort(values, kind="stable")
-    rising = values[order]
-    upper = min(int(np.searchsorted(rising, value)), int(np.isfinite(values).sum()) - 1)
-    low, high = rising[upper - 1], rising[upper]
-    if is_log(values):
-        low, high, place = np.log(low), np.log(high), np.log(value)
-    else:
-        place = value
+    along, place = _in_its_scale(values, value)
+    order: NDArray[Any] = np.argsort(along, kind="stable")
+    upper = min(int(np.searchsorted(along[order], place)), int(np.isfinite(along).sum()) - 1)
+    items = (int(order[upper - 1]), int(order[upper]))
+    low, high = along[[*items]]
     share = float(np.clip((place - low) / (high - low), 0.0, 1.0))
-    return Between(axis=axis, value=value, items=(int(order[upper - 1]), int(order[upper])), share=share)
+    return Between(axis=axis, value=value, items=items, share=share)
+
+
+def _in_its_scale(values: NDArray[np.float64], value: float) -> tuple[NDArray[np.float64], float]:
+    """Give an axis, and a value of it, by their logarithms if it is log-spaced."""
+    return (np.log(values), float(np.log(value))) if is_log(values) else (values, value)

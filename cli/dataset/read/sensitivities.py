@@ -46,22 +46,17 @@ def spread(dataset: xarray.Dataset) -> xarray.Dataset:
     if not names:
         return dataset
     made: dict[str, xarray.DataArray] = {}
-    for name, variable in dataset.data_vars.items():
-        made |= _spread(dataset, str(name)) if name in names else {str(name): variable}
+    for name, variable in ((str(name), one) for name, one in dataset.data_vars.items()):
+        if name not in names:
+            made[name] = variable
+            continue
+        own = parts_of(dataset, name)
+        place = strongest(variable.values, [*own.values()])
+        first = variable.isel({labels_of(name): 0}, drop=True)
+        made[name] = first.copy(data=np.where(place < 0, np.nan, place)).assign_attrs(parameters=" ".join(own.values()))
+        made |= {part: variable.isel({labels_of(name): i}, drop=True) for i, part in enumerate(own)}
     dimensions = {labels_of(name) for name in names}
     return dataset.drop_vars([*names, *dimensions]).assign(made)[list(made)]
-
-
-def _spread(dataset: xarray.Dataset, name: str) -> dict[str, xarray.DataArray]:
-    """Spread one sensitivity."""
-    dimension = labels_of(name)
-    labels = [str(label) for label in dataset[dimension].values]
-    own = {part: dataset[name].isel({dimension: i}, drop=True) for i, part in enumerate(parts_of(dataset, name))}
-    first = next(iter(own.values()))
-    place = strongest(dataset[name].values, labels)
-    numbered = first.copy(data=np.where(place < 0, np.nan, place))
-    numbered.attrs = first.attrs | {"parameters": " ".join(labels)}
-    return {name: numbered, **own}
 
 
 def parameters_of(variable: xarray.DataArray) -> list[str]:

@@ -1,7 +1,7 @@
 """The blocks of a study solved, some ahead of whoever takes them."""
 
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from functools import partial
 from typing import Any, TypeVar
@@ -16,12 +16,16 @@ from gradhesion.cli.work.solve.scenes import Arrays, solve_given
 from gradhesion.core.processors import processors
 
 _T = TypeVar("_T")
-Part = tuple[Block, Arrays]
-"""A block of scenes with the values of its variables and `status`."""
+Engine = Callable[[Study, Sequence[int]], Iterator[tuple[int, Arrays]]]
+"""Solves blocks of a study by their numbers: gives each once, in any order, with its values."""
 
 
 def solve_block(study: Study, block: Block, threads: int | None) -> Arrays:
     """Solve a block of a study: the values of its variables and `status`."""
+    if study.kind == "curve":
+        from gradhesion.cli.work.solve.curves import draw  # noqa: PLC0415 (maps do without)
+
+        return draw(study, block)
     if study.search:
         from gradhesion.cli.work.solve.optima import solve_optima  # noqa: PLC0415 (SciPy's optimisers)
 
@@ -34,16 +38,17 @@ def solve_block(study: Study, block: Block, threads: int | None) -> Arrays:
     return solve_given(study, study.parameters_of(axes), block, threads, watch=study.watches_slope)
 
 
-def solved(study: Study, threads: int | None = None) -> Iterator[Part]:
-    """Solve a study block by block, in their order; the curves of several scenes are drawn at a time."""
-    solve, workers, ahead = partial(solve_block, study, threads=threads), 1, 1
-    if study.kind == "curve":
-        from gradhesion.cli.work.solve.curves import draw  # noqa: PLC0415 (maps do without)
+def in_threads(study: Study, numbers: Sequence[int], threads: int | None = None) -> Iterator[tuple[int, Arrays]]:
+    """Solve blocks in this process, in their order, one ahead of whoever takes them.
 
+    A block is solved on so many threads, or as many as the process may use; of curves several are drawn at a time.
+    """
+    workers, ahead = 1, 1
+    if study.kind == "curve":
         workers = min(threads or processors(), study.scenes)
-        solve, ahead = partial(draw, study), 2 * workers
-    values = in_order((partial(solve, block) for block in study.tiling), workers, ahead)
-    yield from zip(study.tiling, values, strict=True)
+        ahead = 2 * workers
+    tasks = (partial(solve_block, study, study.tiling[number], threads) for number in numbers)
+    yield from zip(numbers, in_order(tasks, workers, ahead), strict=True)
 
 
 def in_order(tasks: Iterable[Callable[[], _T]], workers: int = 1, ahead: int = 1) -> Iterator[_T]:

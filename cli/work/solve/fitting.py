@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Final
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.fit.loop_file import LoopFile
@@ -18,8 +18,13 @@ from gradhesion.core.problem.status import POOR_FIT
 
 USUAL_RANGE: Final = 3e-10
 """The range of the attraction in m where a study has none: about the distance of atoms."""
-_ABSURD: Final = 30.0
-"""A reduced chi square of data that are of another kind."""
+_AT_AN_END: Final = {
+    **dict.fromkeys(OFFSETS, "widen it with offsets under [fit], or look at the base line of the data"),
+    **dict.fromkeys(AMPLITUDES, "widen the range; at its lower end the loop shows no waves: leave them out"),
+    "k": "widen the range; at 0 the loop shows no gradient of the modulus: write k = 0",
+    CLOSING: f"widen the range; at 1 the loop shows one work of adhesion: leave {CLOSING} out",
+}
+"""What to do about a value at an end of its range."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -33,7 +38,6 @@ class Fit:
 
 def fitted(study: FitStudy, loop: LoopFile) -> FittedLoop:
     """Fit a loop; StudyError where what is searched cannot be told apart, has no effect, or has no path."""
-    law: dict[str, Any] = {"rate": study.rate} if study.rate else {}
     try:
         return fit_loop(
             loop.depth,
@@ -48,9 +52,9 @@ def fitted(study: FitStudy, loop: LoopFile) -> FittedLoop:
             profile=study.profile,
             loading=study.loading,
             toughness=study.toughness,
+            rate=study.rate,
             intervals=study.intervals,
             starts=study.starts,
-            **law,
         )
     except ValueError as error:
         raise StudyError(f"{study.name if study.is_of_one else loop.file}: {error}") from None
@@ -86,19 +90,16 @@ def tabor_of(study: FitStudy, found: FittedLoop) -> float:
     model = Model(study.fixed, found.names, study.profile, study.loading, study.toughness)
     given = model.given({name: value for name, value in found.values.items() if name != EXPONENT})
     made = parameters_from(given)
-    scene = {name: float(made[name]) for name in PARAMETERS} | {RANGE: range_of(study) / given["R"]}
+    scene = {name: float(made[name]) for name in PARAMETERS} | {
+        RANGE: (study.adhesion_range or USUAL_RANGE) / given["R"]
+    }
     return float(validity(scene, ["tabor_parameter"], study.profile)["tabor_parameter"])
-
-
-def range_of(study: FitStudy) -> float:
-    """Give the range of the attraction in m, a usual one where the study has none."""
-    return study.adhesion_range or USUAL_RANGE
 
 
 def range_words(study: FitStudy) -> str:
     """Say which range of the attraction that is."""
     source = "assumed, as adhesion_range is not given" if study.adhesion_range is None else "given"
-    return f"with a range of the attraction of {1e9 * range_of(study):.3g} nm, {source}"
+    return f"with a range of the attraction of {1e9 * (study.adhesion_range or USUAL_RANGE):.3g} nm, {source}"
 
 
 def doubts_of(found: FittedLoop) -> Iterator[str]:
@@ -109,8 +110,7 @@ def doubts_of(found: FittedLoop) -> Iterator[str]:
         yield (
             f"a poor fit: reduced chi square {found.reduced_chi_square:.3g}, where "
             f"{poor_from(found.degrees_of_freedom):.3g} is the most that noise explains; try another model, wider "
-            "ranges, or the noise as it is (fit.noise)"
-            + (", and check the signs of depth and load" if found.reduced_chi_square > _ABSURD else "")
+            "ranges, or the noise as it is (fit.noise), and check the signs of depth and load"
         )
     for other in found.others:
         both = (found.values, other.values)
@@ -121,13 +121,5 @@ def doubts_of(found: FittedLoop) -> Iterator[str]:
         )
     for name in found.on_bound:
         low, high = found.ranges[name]
-        remedy = "widen the range, or give it as a number; or the data do not show it"
-        if name in OFFSETS:
-            remedy = "widen it with offsets under [fit], or look at the base line of the data"
-        elif name == "k" and low == 0.0 and found.values[name] < 0.5 * high:
-            remedy = "the loop shows no gradient of the modulus: write k = 0"
-        elif name in AMPLITUDES and 2.0 * found.values[name] < low + high:
-            remedy = "the loop shows no waves: leave them out"
-        elif name == CLOSING and 2.0 * found.values[name] > 1.0 + low:
-            remedy = f"the loop shows one work of adhesion for closing and opening: leave {CLOSING} out"
+        remedy = _AT_AN_END.get(name, "widen the range, or give it as a number; or the data do not show it")
         yield f"{name} is at an end of its range ({found.values[name]:.4g} of {low:.4g} to {high:.4g}); {remedy}"

@@ -41,7 +41,8 @@ def solve_optima(study: Study, block: Block, threads: int | None) -> Arrays:
         reported = np.bitwise_or.reduce(np.where(reported & NO_VALUE, 0, reported), axis=-1)
         found |= {STEEP: found[STEEP].max(axis=-1)} if STEEP in found else {}
     else:
-        found[ON_BOUND] = _bounds_met(places)
+        bounds = [(1 * (place == 0.0) + 2 * (place == 1.0)) << 2 * i for i, place in enumerate(places)]  # low, high
+        found[ON_BOUND] = np.bitwise_or.reduce(bounds).astype(np.int8)
     status = np.bitwise_or.reduce([_status_of(reported, *own) for own in zip(ends, swept, strict=True)])
     known = {*study.variables, STEEP}
     shaped = {name: own.reshape((*shape, *own.shape[1:])) for name, own in found.items() if name in known}
@@ -133,15 +134,6 @@ def _fronts(cells: _Cells, swept: Floats, ends: Sequence[Optima]) -> Floats:
     for cell, places in enumerate(fronts):
         padded[:, cell, : places.shape[1]] = places
     return padded
-
-
-def _bounds_met(places: Floats) -> NDArray[np.int8]:
-    """Give the flags of the bounds that an optimum is at: two for each input."""
-    flags = np.zeros(places.shape[1:], np.int8)
-    for number, place in enumerate(places):
-        flags |= np.where(place == 0.0, 1 << 2 * number, 0).astype(np.int8)
-        flags |= np.where(place == 1.0, 2 << 2 * number, 0).astype(np.int8)
-    return flags
 
 
 def _reported(cells: _Cells, places: Floats, numbers: Integers) -> Arrays:

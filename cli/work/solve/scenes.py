@@ -88,24 +88,21 @@ def solve(
     known = [name for name in outputs if name in VALIDITY]
     requested = [name for name in outputs if name not in known]
     more = [CONTACT_SLOPE] if watch and CONTACT_SLOPE not in requested else []
-    solved = core.solve(scenes, [*requested, *more], profile=profile, **settings)
+    found: Arrays = core.solve(scenes, [*requested, *more], profile=profile, **settings)
     if watch:
-        solved[STEEP] = is_steep(solved[CONTACT_SLOPE]).astype(np.int8)
-    if more:
-        del solved[CONTACT_SLOPE]
-    if not known:
-        return solved
-    from gradhesion.core.closed.applicability import validity  # noqa: PLC0415 (300 ms for SciPy)
+        found[STEEP] = is_steep(found[CONTACT_SLOPE]).astype(np.int8)
+    if known:
+        from gradhesion.core.closed.applicability import validity  # noqa: PLC0415 (300 ms for SciPy)
 
-    found: Arrays = {**validity(scenes, known, profile)}
-    shape = np.broadcast_shapes(solved["status"].shape, *(values.shape for values in found.values()))
-    whole = {
-        name: np.broadcast_to(values, (*shape, *values.shape[len(shape) :]) if name in SENSITIVITIES else shape)
-        for name, values in (solved | found).items()
-    }
-    failed = (whole["status"] & NO_VALUE) != 0
-    whole |= {name: np.where(failed, np.nan, whole[name]) for name in known}
-    return {name: whole[name] for name in (*outputs, *((STEEP,) if watch else ()), "status")}
+        beside = validity(scenes, known, profile)
+        shape = np.broadcast_shapes(found["status"].shape, *(values.shape for values in beside.values()))
+        found = {
+            name: np.broadcast_to(values, (*shape, *values.shape[len(shape) :]) if name in SENSITIVITIES else shape)
+            for name, values in (found | beside).items()
+        }
+        failed = (found["status"] & NO_VALUE) != 0
+        found |= {name: np.where(failed, np.nan, found[name]) for name in known}
+    return {name: found[name] for name in (*outputs, *((STEEP,) if watch else ()), "status")}
 
 
 def scenes_from(given: Arrays) -> Arrays:
@@ -119,8 +116,7 @@ def scenes_from(given: Arrays) -> Arrays:
 
 def driven_by(study: Study) -> dict[str, Any]:
     """Give the arguments of the core that say how the punch is driven, and what its edge meets."""
-    more = {"toughness": study.toughness, "rate": study.rate}
-    return {"loading": study.loading} | {name: one for name, one in more.items() if one is not None}
+    return {"loading": study.loading, "toughness": study.toughness, "rate": study.rate}
 
 
 def scales_of(study: Study, given: Mapping[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:

@@ -79,11 +79,7 @@ def solve_uncertain(study: Study, block: Block, threads: int | None) -> Arrays:
 
 
 def _named(name: str, way: str) -> str:
-    """Name the variable of a spread.
-
-    >>> _named("pull_off_force_si", "std")
-    'pull_off_force_std_si'
-    """
+    """Name the variable of a spread: `pull_off_force_std_si` of `pull_off_force_si`."""
     return f"{name.removesuffix(SI)}_{way}" + (SI if name.endswith(SI) else "")
 
 
@@ -92,10 +88,10 @@ def _linear(centre: _Centre, name: str, found: Arrays) -> dict[str, Arrays]:
     given = {key: centre.aligned(values) for key, values in centre.given.items()}
     sensitivity = f"{name}_sensitivity"
     labels = replace(centre.study, outputs=(sensitivity,)).labels[PARAMETER]
-    ways: dict[str, dict[str, float]] = {name: {}} | ({name + SI: POWERS[sensitivity]} if name + SI in found else {})
     return {
         own: slopes_to_keys(given, [*centre.spreads], labels, found[own], found[sensitivity], powers)
-        for own, powers in ways.items()
+        for own, powers in {name: {}, name + SI: POWERS[sensitivity]}.items()
+        if own in found
     }
 
 

@@ -137,7 +137,7 @@ def test_shards_in_any_order_make_the_dataset(gradhesion: Call, study_file: Path
         assert f"reused 0 blocks, computed {computed}; `gradhesion merge {output}`" in result.stderr
     early = gradhesion("merge", output)
     assert early.exit_code == 2
-    assert f"{output}: 2 of 6 blocks are missing (2, 6)" in early.stderr
+    assert f"{output}: 2 of 6 blocks are missing or damaged (2, 6)" in early.stderr
     assert gradhesion("run", study_file, "-o", output, "--shard", "2/4", "--quiet").exit_code == 0
     assert "reused 2 blocks, computed 0" in gradhesion("run", study_file, "-o", output, "--shard", "2/4").stderr
     assert "`gradhesion merge`" in gradhesion("status", output).stdout, "it tells what to do"
@@ -164,7 +164,7 @@ def test_a_damaged_part_is_not_merged(gradhesion: Call, study_file: Path, tmp_pa
     part.write_bytes(part.read_bytes()[:-8])
     result = gradhesion("merge", output)
     assert result.exit_code == 2
-    assert f"{output}: block 5 of 6 blocks is damaged" in result.stderr
+    assert f"{output}: 1 of 6 blocks are missing or damaged (5)" in result.stderr
     assert not output.exists()
     assert gradhesion("run", study_file, "-o", output, "--shard", "5/6").exit_code == 0
     assert gradhesion("merge", output).exit_code == 0

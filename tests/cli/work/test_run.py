@@ -154,7 +154,7 @@ def test_failed_scenes_are_written(gradhesion: Call, study_file: Path, tmp_path:
         assert int(dataset["pull_off_force"].isnull().sum()) == 1
 
 
-@pytest.mark.parametrize("limit", [3_000, 60_000])
+@pytest.mark.parametrize("limit", [300, 3_000, 20_000, 60_000])
 def test_a_failed_write_loses_nothing(
     limit: int, study_file: Path, tmp_path: Path, on_a_full_disk: Callable[..., Any]
 ) -> None:
