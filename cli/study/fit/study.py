@@ -120,7 +120,7 @@ def loops_of(folder: Path, asked: Asked) -> tuple[tuple[LoopFile, ...], list[Mis
     through_machine = control_of(form) == "machine"
     loops, error = read_loops(folder, table, fitted, average=form.fit.average, through_machine=through_machine)
     if error:
-        return loops, [Mistake(("data", error.key), asked.at(("data", error.key)), str(error))]
+        return loops, [Mistake(("data", error.key), asked.at(f"data.{error.key}"), str(error))]
     sha256 = fingerprint(loops)
     if table.sha256 in ("", sha256):
         return loops, []

@@ -1,7 +1,7 @@
 """What the keys of a study of scenes have to do with each other: where a rule is broken, and what to write instead."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
@@ -34,10 +34,6 @@ def broken(asked: Asked) -> Found:
 
 def _axes(asked: Asked) -> Found:
     """Check the axes of a grid, or the lists of points: no value twice, one length; no material without stiffness."""
-    for name, own in INPUTS.items():
-        entry = asked.at((own.table, name))
-        if isinstance(entry, Mapping) and "num" not in entry and name not in asked.over:
-            yield f"{home(name)}.num", required(own.table, name, "num")
     k, nu = (np.atleast_1d(asked.axes.get(name, 0.5)) for name in ("k", "nu"))
     soft = bool(np.any(k == 1.0) and np.any(nu != 0.5))
     if asked.points and soft:  # in one scene, unless the lists differ in length, as is said below
@@ -82,8 +78,9 @@ def _outputs(asked: Asked) -> Found:
         elif curve in listed and curve != name:
             yield at, f'a variable of "{curve}", which is listed as a whole; remove one of the two'
         yield from ((at, words) for words in _unknown_of(name, asked))
-    goals = asked.form.optimum.goals if asked.form.optimum else []
-    yield from ((f"optimum.{way}", words) for way, name in goals for words in _unknown_of(name, asked))
+    for way in ("maximise", "minimise"):
+        for name in getattr(asked.form.optimum, way, ()):
+            yield from ((f"optimum.{way}", words) for words in _unknown_of(name, asked))
 
 
 def _unknown_of(name: str, asked: Asked) -> Iterator[str]:

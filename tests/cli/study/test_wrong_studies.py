@@ -79,7 +79,7 @@ STUDIES: dict[str, tuple[dict[str, Any], str]] = {
     "a step": ({"parameters": PUNCH | {"k": {"start": 0.0, "stop": 1.0, "step": 0.1}}}, "num"),
     "a scale": ({"parameters": PUNCH | {"k": {"start": 0.0, "stop": 1.0, "num": 3, "scale": "log"}}}, '"spacing"'),
     "an uncertain ratio": (of_units(None, amplitude="1 nm") | {"uncertainty": {"A": 0.01}}, '"amplitude"'),
-    "an uncertain number": (of_units(None, amplitude="1 nm") | {"uncertainty": {"amplitude": 0.1}}, 'amplitude = "5 %"'),
+    "an uncertain number": (of_units(None, amplitude="1 nm") | {"uncertainty": {"amplitude": 0.1}}, 'amplitude = "0.5 um"'),
     "a decimal comma": (of_units(wavelength="300,5 nm"), "300.5"),
     "a comma of either kind": (of_units(wavelength="1,000 nm"), "1.000 or 1000"),
     "thousands": (of_units(wavelength="1,234,567.5 nm"), "1234567.5"),
