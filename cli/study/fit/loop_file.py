@@ -21,6 +21,12 @@ from gradhesion.core.loops.measured.plausible import fault_of
 MOST_FILES: Final = 10_000
 """Files of one study: each is a fit."""
 _NONE: Final = np.zeros(0)
+_SIGNS: Final = {
+    "depth": ("depth", "the load rises towards the shallowest points, but depth grows into the half-space"),
+    "load": ("load", "the load falls towards the deepest points, but positive loads press"),
+    "both": ("load", "the load falls towards the shallowest points: both its sign and that of the depth are wrong"),
+}
+"""The key that is wrong, and why, by the fault of the points."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -181,27 +187,14 @@ def _loop(raw: Raw, file: str, table: DataTable, fitted: list[str], *, average: 
 def _refuse_faults(loop: LoopFile, table: DataTable) -> None:
     """Refuse points without contact, and with a sign that is wrong."""
     fault = fault_of(loop.depth, loop.load, loop.noise[1] / np.sqrt(loop.counts), loop.unloading)
-    depth = table.depths or "indentation"
     if fault == "straight":
         raise LoopFileError("load", "the data show no contact, but a linear load; name another file or column")
-    if fault == "depth":
-        words = "the load rises towards the shallowest points, but depth grows into the half-space: its sign is wrong"
-        raise LoopFileError(depth, f"{words}; write {_turned(depth, table)}")
     if fault:
-        where, keys = ("deepest", ("load",)) if fault == "load" else ("shallowest", ("load", depth))
-        words = f"the load falls towards the {where} points, but positive loads press: its sign is wrong"
-        more = ", as is that of the depth" if len(keys) > 1 else ""
-        raise LoopFileError("load", f"{words}{more}; write {' and '.join(_turned(key, table) for key in keys)}")
-
-
-def _turned(key: str, table: DataTable) -> str:
-    """Write a column with the other sign."""
-    column = getattr(table, key)
-    if column is None:
-        return f'{key} = {{ column = "...", sign = -1 }}'
-    unit = f', unit = "{column.unit}"' if column.unit else ""
-    sign = "" if column.sign == -1 else ", sign = -1"
-    return f'{key} = {{ column = "{column.column}"{unit}{sign} }}'
+        key, words = _SIGNS[fault]
+        key = (table.depths or "indentation") if key == "depth" else key
+        name = getattr(table, key).column if getattr(table, key) else "..."
+        remedy = f'{key} = {{ column = "{name}", sign = -1 }} with its unit'
+        raise LoopFileError(key, f"{words}; write {remedy}, or without sign where it is -1")
 
 
 def _refuse_few(loop: LoopFile, fitted: list[str]) -> None:

@@ -1,6 +1,9 @@
 """What the keys of a fit have to do with each other: for each rule where it is broken, and what to write instead."""
 
+import math
 from typing import Any, Final
+
+import numpy as np
 
 from gradhesion.cli.study.fit.columns import is_force_file
 from gradhesion.cli.study.rules.asked import Asked, Found, home
@@ -115,6 +118,11 @@ def _searched(asked: Asked) -> Found:
         yield "physical", 'nothing is fitted; write for example E_star = { start = "0.1 GPa", stop = "10 GPa" }'
     for name in [name for name in free if name in ONE_NUMBER][1:]:
         yield home(name), "a loop depends on E_star, c0 and nu through one number; give all but one of them as numbers"
+    sizes = ["R", next((name for name in free if name in ONE_NUMBER), "E_star"), "work_of_adhesion"]
+    endless = np.all(np.isinf(asked.values.get("a_max", math.inf)))
+    if {*sizes} <= {*free} and endless and not (asked.waved or asked.form.toughness or asked.form.rate):
+        words = "the loop of a smooth punch, which has no length of its own, does not tell"
+        yield home("R"), f"{words} {sizes[0]}, {sizes[1]} and {sizes[2]} apart; give one of them as a number"
     if {*_SPEEDS} <= {*free}:
         yield home(_SPEEDS[1]), "a loop depends on the ratio of the two speeds alone; give one of them as a number"
     k = given.get("k")

@@ -67,16 +67,6 @@ class FitStudy:
         """Whether there is one loop, named without a pattern."""
         return len(self.loops) == 1 and self.file == self.loop.file
 
-    @property
-    def noise_is_given(self) -> bool:
-        """Whether the study has the noise."""
-        return self.given_noise is not None
-
-    @property
-    def noise(self) -> tuple[float, float]:
-        """The noise of the first loop."""
-        return self.noise_of(self.loop)
-
     def noise_of(self, loop: LoopFile) -> tuple[float, float]:
         """Give the standard deviations of depth and load of one of its loops, in SI units."""
         return self.given_noise or loop.noise
@@ -104,7 +94,7 @@ class FitStudy:
         sentences = []
         for loop in self.loops:
             sentences += loop.notes
-            if not self.noise_is_given and not loop.problem:
+            if self.given_noise is None and not loop.problem:
                 depth, load = (1e9 * one for one in loop.noise)
                 words = f"{loop.file}: noise estimated from differences of neighbours: {depth:.3g} nm, {load:.3g} nN"
                 sentences.append(f"{words}; give it under [fit] where it is known")

@@ -1,6 +1,5 @@
 """The text of a study: read, parsed, overridden, and where each of its keys comes from."""
 
-import json
 import os
 import re
 import tomllib
@@ -24,8 +23,7 @@ _DEEPEST: Final = 32
 DEEP: Final = f"nested more than {_DEEPEST} deep; remove some levels"
 _DOTS: Final = re.compile(r"(?:[\w\"'-]+\s*\.\s*){100}")
 """A key far too deep: the parser takes a time that grows with the square of its length."""
-_COMMA: Final = re.compile(r"=\s*([+-]?\d+),(\d+)")
-_AT: Final = re.compile(r" ?\(at (?:line (\d+), column (\d+)|end of document)\)")
+_AT: Final = re.compile(r" ?\(at (?:line (\d+), column \d+|end of document)\)")
 """Where the parser has found a mistake."""
 _Lines = Callable[[], Mapping[Key, str]]
 """Finds the file and the line of each key."""
@@ -122,10 +120,8 @@ def included(
 def _text(path: Path, most: int) -> str:
     """Read the text of a study file."""
     try:
-        content = bytearray()
-        with path.open("rb") as file:  # bit by bit: memory for the most that it may be is not always there
-            while len(content) <= most and (piece := file.read(2**20)):
-                content += piece
+        with path.open("rb") as file:
+            content = file.read(most + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise StudyError(f"{path}: cannot be read ({reason}); name a study in TOML") from None
@@ -152,16 +148,11 @@ def _syntax_sentence(path: Path, text: str, problem: str) -> str:
     at = _AT.search(problem)
     if not at:  # Python's own limit on integers
         return f"{path}: not valid TOML, a number of more than 4,300 digits; write it with an exponent, as 1e6"
-    lines, what = text.rstrip().split("\n"), problem[: at.start()]
+    lines = text.rstrip().split("\n")
     number = min(int(at[1] or len(lines)), len(lines))
-    line = lines[number - 1].strip() if path.suffix == ".toml" else ""
-    remedy = "fix this line"
-    if comma := _COMMA.search(line):
-        remedy = f"write a decimal point, {comma[1]}.{comma[2]}"
-    if what.startswith(("Cannot overwrite", "Cannot declare")):
-        remedy = "it is given twice, join the two or remove one"
-    column, within = f" (column {at[2]})" if at[2] else "", f" in {shown(line)}" if line else ""
-    return f"{path}:{number}: not valid TOML, {what[0].lower()}{what[1:]}{column}{within}; {remedy}"
+    line = f" in {shown(lines[number - 1].strip())}" if path.suffix == ".toml" else ""
+    remedy = "fix this line: strings are in quotes, decimals have a point, and each key and table stands once"
+    return f"{path}:{number}: not valid TOML, {problem[: at.start()]}{line}; {remedy}"
 
 
 def _set(data: dict[str, Any], override: str) -> Key:
@@ -172,9 +163,10 @@ def _set(data: dict[str, Any], override: str) -> Key:
         raise ValueError("not of the form KEY=VALUE; write for example --set parameters.A=0.02")
     if steps[0] == "include":
         raise ValueError("a study is included by its file alone; write this at its top")
-    parsed = (
-        _fitted_value(Path(value), steps[-1]) if value.endswith(".nc") and '"' not in value else _parsed(key, value)
-    )
+    if value.endswith(".nc") and '"' not in value:
+        parsed = _fitted(Path(value), steps[-1], "standard_deviation" if steps[0] == "uncertainty" else "value")
+    else:
+        parsed = _parsed(value)
     if len(steps) > _DEEPEST or is_deep(parsed):
         raise ValueError(DEEP)
     table: Any = data
@@ -187,23 +179,22 @@ def _set(data: dict[str, Any], override: str) -> Key:
     return steps
 
 
-def _parsed(key: str, value: str) -> Any:
+def _parsed(value: str) -> Any:
     """Parse the value of an override; ValueError where it is no TOML."""
-    for text, right in ((value, ""), (f"[{value}]", "write several values in brackets")):
-        try:
-            found = tomllib.loads(f"value = {text}")
-        except (ValueError, RecursionError):
-            continue
-        if right and found.keys() == {"value"}:
-            raise ValueError(f"the value is not TOML; {right}, as in --set '{key}={text}'")
-        if found.keys() == {"value"}:
-            return found["value"]
-    quoted = json.dumps(value, ensure_ascii=False)
-    raise ValueError(f"the value is not TOML; quote strings, as in --set '{key}={quoted}'")
+    try:
+        found = tomllib.loads(f"value = {value}")
+    except (ValueError, RecursionError):
+        found = {}
+    if found.keys() != {"value"}:
+        remedy = "put strings in quotes and several values in brackets"
+        raise ValueError(
+            f"""the value is not TOML; {remedy}, as in --set 'title="A map"' --set 'parameters.k=[0, 0.5]'"""
+        )
+    return found["value"]
 
 
-def _fitted_value(path: Path, key: str) -> float | str:
-    """Give the value of a key as a study writes it: in its unit if it has one.
+def _fitted(path: Path, key: str, variable: str) -> float | str:
+    """Give the value of a fitted key, or its standard deviation, as a study writes it: in its unit if it has one.
 
     ValueError where the file is no fit of one loop, or the fit has no such key, or is flagged.
     """
@@ -217,7 +208,11 @@ def _fitted_value(path: Path, key: str) -> float | str:
                 one = f"`gradhesion select {path} --at loop=0 -o one.nc`"
                 raise ValueError(f"fits of several loops; take one with {one}")
             names, units = (list(map(str, file[name][:])) for name in ("parameter", "parameter_units"))
-            values, status, converged = file["value"][:].tolist(), int(file["status"][...]), int(file["converged"][...])
+            values, status, converged = (
+                file[variable][:].tolist(),
+                int(file["status"][...]),
+                int(file["converged"][...]),
+            )
     except OSError as error:
         what = kind_of(path) or error.strerror or "it cannot be read"
         raise ValueError(f"not the dataset of a fit ({what}); name one, or give a value") from None

@@ -58,7 +58,7 @@ LINES = {  # what is replaced, by what, the key of the mistake and its line
     "too many scenes": ("nu = 0.3", "nu = { start = 0, stop = 0.4, num = 1000000000 }", "parameters.nu.num", 8),
     "behind a list over lines": ("k = [0.0, 0.5]\nnu = 0.3", "k = [\n 0.0, # ]\n 0.5,\n]\nnu = 0.7", "parameters.nu", 11),
 }  # fmt: skip
-OVERRIDES = {"": ("parameters.k", "=3", "parameters..k=3", "layout=points", "parameters.k=", "parameters.k=0.1\nA=3",
+OVERRIDES = {"": ("parameters.k", "=3", "parameters..k=3", "layout=points", "parameters.k=", "parameters.k=0,0.1", "parameters.k=0.1\nA=3",
                   "title.x=3", 'include="base.toml"'),
              "parameters.kk": ("parameters.kk=0.1",), "parameters.k": ("parameters.k=2",), "nothing": ("nothing.at.all=1",),
              "parameters.lambda_over_R.num": ("parameters.lambda_over_R={start=1, stop=2, num=0}", "parameters.lambda_over_R.num=0")}  # fmt: skip
@@ -142,14 +142,6 @@ def test_a_dataset_is_no_study(gradhesion: Call, dataset_file: Path) -> None:
     assert (result.exit_code, result.stderr.count("\n")) == (2, 1)
     assert f"{dataset_file}: " in result.stderr
     assert "a dataset (NetCDF or HDF5)" in result.stderr
-
-
-def test_several_values_of_an_option_stand_in_brackets(refused: Callable[..., list[str]]) -> None:
-    for override, answer in (
-        ("parameters.k=0,0.1", "--set 'parameters.k=[0,0.1]'"),
-        ("title=a, b", """--set 'title="a, b"'"""),
-    ):
-        assert answer in refused(GOOD, "--set", override)[0]
 
 
 def test_an_endless_file_is_not_read_for_ever() -> None:
