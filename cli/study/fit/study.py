@@ -1,7 +1,6 @@
 """A study of kind "fit": parameters from measured loops. It has no scenes."""
 
-import hashlib
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 from gradhesion.cli.study.fit.loop_file import LoopFile, fingerprint, read_loops
@@ -11,6 +10,7 @@ from gradhesion.cli.study.rules.form import Form
 from gradhesion.cli.study.rules.inputs import shape_of
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import Mistake
+from gradhesion.cli.study.study import AnyStudy
 from gradhesion.cli.study.text.source import Source
 from gradhesion.cli.study.text.written import toml_of, with_fingerprint
 from gradhesion.cli.tables.columns import changed
@@ -19,18 +19,12 @@ from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.loops.paths.offsets import Offsets
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.inputs import INPUTS
-from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.toughness import Rate, Toughness
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class FitStudy:
-    """A valid study of a fit."""
+class FitStudy(AnyStudy):
+    """A valid study of a fit; the power of its law of speed is searched where `free` has it."""
 
-    name: str
-    title: str
-    text: str
-    """The study as TOML: reading it again gives the same study."""
     file: str
     """The file of the loop, or the pattern of several, as the study names them."""
     loops: tuple[LoopFile, ...]
@@ -46,15 +40,8 @@ class FitStudy:
     """Standard deviations of depth and load, in SI units, where the study has them."""
     intervals: str
     starts: int
-    profile: Profile = field(default_factory=Profile)
-    loading: Loading = field(default_factory=Loading)
-    toughness: Toughness | None = None
-    rate: Rate | None = None
-    """The law of a moving edge; its power is searched where `free` has it."""
     adhesion_range: float | None = None
     """The range of the attraction in m, for the Tabor number, where the study has it."""
-    folder: Path = Path()
-    """Where the files are."""
     kind: str = "fit"
 
     @property
@@ -82,11 +69,6 @@ class FitStudy:
     def parameters(self) -> tuple[str, ...]:
         """What is fitted, in the order of the dataset."""
         return (*self.free, *self.offsets.names)
-
-    @property
-    def sha256(self) -> str:
-        """The fingerprint of its text."""
-        return hashlib.sha256(self.text.encode()).hexdigest()
 
     @property
     def notes(self) -> tuple[str, ...]:

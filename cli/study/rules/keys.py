@@ -116,7 +116,7 @@ def tagged(**forms: Any) -> Any:
     """Make the type of a value of several forms (plain, list, table), told apart before any is tried."""
 
     def form_of(value: object) -> str:
-        return "table" if isinstance(value, Mapping | Table) else "list" if isinstance(value, list) else "plain"
+        return "table" if isinstance(value, Mapping) else "list" if isinstance(value, list) else "plain"
 
     own: Any = Union[tuple(Annotated[form, Tag(name)] for name, form in forms.items())]  # noqa: UP007 (at run time)
     return Annotated[own, Discriminator(form_of)]
@@ -173,8 +173,6 @@ def deviation_of(value: object, name: str) -> Deviation:
     >>> nu.uniform, nu.low, nu.high
     (True, 0.28, 0.32)
     """
-    if isinstance(value, Deviation):
-        return value
     own = INPUTS[name]
     forms = f'write for example {name} = "5 %", a standard deviation in its unit, or {{ low = .., high = .. }}'
 

@@ -87,19 +87,10 @@ def _expected(name: str) -> str:
     return f"{WORDS[key.unit]} is expected; write for example {key.example}{instead}"
 
 
-def in_si(numbers: NDArray[Any], written: str, name: str) -> NDArray[np.float64]:
-    """Give numbers in some unit in that of a key, of which a ratio has none; their range is not checked.
-
-    >>> in_si(np.array([1.0, 25.0]), "um", "R"), in_si(np.array([5.0]), "percent", "A")
-    (array([1.0e-06, 2.5e-05]), array([0.05]))
-    """
-    same = written == QUANTITIES[name].unit  # without asking pint
-    return np.asarray(numbers, dtype=np.float64) + 0.0 if same else scaled(numbers, factor_of(written, name))
-
-
 def factor_of(written: str, name: str) -> Decimal:
     """Report how many of the unit of a key another unit is; ValueError where it is unknown or of another dimension."""
-    factor = factor_between(written, QUANTITIES[name].unit)
+    unit = QUANTITIES[name].unit
+    factor = Decimal(1) if written == unit else factor_between(written, unit)  # without asking pint
     if not factor:
         problem = "is not a known unit" if factor is None else "is not a unit of this quantity"
         raise ValueError(f'"{written}" {problem}; {_expected(name)}')
@@ -130,8 +121,13 @@ def scaled(numbers: NDArray[Any], factor: Decimal) -> NDArray[np.float64]:
     """Multiply numbers, as the shortest decimals that they are, by a factor; each product is rounded once.
 
     So that 25 um is 2.5e-05 m, which the product of 25.0 and 1e-06 is not.
+
+    >>> scaled(np.array([1.0, 25.0]), Decimal("1e-6"))
+    array([1.0e-06, 2.5e-05])
     """
     given = np.asarray(numbers, dtype=np.float64)
+    if factor == 1:
+        return given + 0.0
     products = [float(Decimal(repr(value)) * factor) for value in given.ravel().tolist()]
     return np.reshape(products, given.shape) + 0.0  # no negative zeros
 

@@ -16,7 +16,7 @@ from gradhesion.cli.study.text.written import lines_of
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, FAILED, POOR_FIT
 
-MOST_BYTES: Final = 2**28
+MOST_BYTES: Final = 2**26
 """The longest study that is read: far above any that is meant as one."""
 _DEEPEST: Final = 32
 """Levels of tables and lists: a study has four."""
@@ -45,9 +45,9 @@ class Source:
     """The folder of the files that it names."""
 
 
-def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) -> Source:
-    """Read a study file of at most so many bytes, and set what is overridden; StudyError where it is no TOML."""
-    data, lines, text = _read(path, most, ())
+def read_source(path: Path, overrides: Iterable[str]) -> Source:
+    """Read a study file, and set what is overridden; StudyError where it is no TOML."""
+    data, lines, text = _read(path, ())
     sources: dict[Key, str] = {}
     mistakes = []
     for override in overrides:
@@ -74,9 +74,9 @@ def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) ->
     )
 
 
-def _read(path: Path, most: int, above: tuple[Path, ...]) -> tuple[dict[str, Any], _Lines, str]:
+def _read(path: Path, above: tuple[Path, ...]) -> tuple[dict[str, Any], _Lines, str]:
     """Read the keys of a file and of what it includes, their places, and a text of just these keys if there is one."""
-    text = _text(path, most)
+    text = _text(path)
     try:
         data = None if _DOTS.search(text) else tomllib.loads(text)
     except RecursionError:
@@ -90,12 +90,12 @@ def _read(path: Path, most: int, above: tuple[Path, ...]) -> tuple[dict[str, Any
     if "include" not in data:
         return data, lines, text
     where = f"{lines().get(('include',), path)}: include = {shown(data['include'])}"
-    merged, below = included(data, path.parent, where, (*above, path), most)
+    merged, below = included(data, path.parent, where, (*above, path))
     return merged, cache(lambda: {**below(), **lines()}), ""
 
 
 def included(
-    data: Mapping[str, Any], folder: Path, where: str, above: tuple[Path, ...] = (), most: int = MOST_BYTES
+    data: Mapping[str, Any], folder: Path, where: str, above: tuple[Path, ...] = ()
 ) -> tuple[dict[str, Any], _Lines]:
     """Give the keys of a study with those of the one that it includes, and the places of these.
 
@@ -111,22 +111,22 @@ def included(
         raise StudyError(f"{where}: {base} includes {above[-1]} in turn; remove one of the two")
     if not base.is_file():
         raise StudyError(f"{where}: there is no file {base}; name a study that is there, from the folder of this one")
-    found, lines, _ = _read(base, most, above)
+    found, lines, _ = _read(base, above)
     own = {key: value for key, value in data.items() if key != "include"}
     tables = {key for key in own if isinstance(own[key], Mapping) and isinstance(found.get(key), Mapping)}
     return found | own | {key: {**found[key], **own[key]} for key in tables}, lines
 
 
-def _text(path: Path, most: int) -> str:
+def _text(path: Path) -> str:
     """Read the text of a study file."""
     try:
         with path.open("rb") as file:
-            content = file.read(most + 1)
+            content = file.read(MOST_BYTES + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise StudyError(f"{path}: cannot be read ({reason}); name a study in TOML") from None
-    if len(content) > most:
-        raise StudyError(f"{path}: larger than {most >> 20} MiB, too large for a study; name a study in TOML")
+    if len(content) > MOST_BYTES:
+        raise StudyError(f"{path}: larger than {MOST_BYTES >> 20} MiB, too large for a study; name a study in TOML")
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:

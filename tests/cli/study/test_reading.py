@@ -11,7 +11,6 @@ import pytest
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.study.rules.form import Form
-from gradhesion.cli.study.text.source import read_source
 from gradhesion.cli.terminal.messages import printable_line
 from gradhesion.core.problem.inputs import INPUTS
 from tests.cli.conftest import Call, Made
@@ -137,16 +136,9 @@ def test_a_file_that_is_no_study(content: bytes | str | None, place: str, gradhe
     assert result.stderr.count("\n") == 1
 
 
-def test_a_dataset_is_no_study(gradhesion: Call, dataset_file: Path) -> None:
-    result = gradhesion("validate", dataset_file)
-    assert (result.exit_code, result.stderr.count("\n")) == (2, 1)
-    assert f"{dataset_file}: " in result.stderr
-    assert "a dataset (NetCDF or HDF5)" in result.stderr
-
-
 def test_an_endless_file_is_not_read_for_ever() -> None:
-    with pytest.raises(StudyError, match="larger than 1 MiB"):
-        read_source(Path("/dev/zero"), (), most=2**20)
+    with pytest.raises(StudyError, match="larger than 64 MiB"):
+        load_study("/dev/zero")
 
 
 def test_a_study_made_in_python_is_checked_alike() -> None:
