@@ -145,17 +145,17 @@ def _of_table(path: Path, table: DataTable) -> Raw:
     if bool(depth.back) != bool(load.back) or (depth.back and (table.branch or table.cycle)):
         sentence = "back names the columns of unloading, of depths and of loads, and then there is no branch or cycle"
         raise LoopFileError("load" if depth.back else table.depths, f"{sentence}; write all of them so")
-    wanted = [(table.depths, depth.column), ("load", load.column), ("branch", table.branch), ("cycle", table.cycle)]
-    wanted += [(table.depths, depth.back), ("load", load.back)]
+    wanted = {depth.column: table.depths, load.column: "load", depth.back: table.depths, load.back: "load"}
+    wanted |= {name: key for name, key in ((table.branch, "branch"), (table.cycle, "cycle")) if name}
+    wanted.pop("", None)  # where nothing stands back
     pauses = dict.fromkeys((*PAUSES, *(word.strip().lower() for word in table.leave_out)), PAUSE)
     words = {table.branch: BRANCHES | pauses} if table.branch else {}
     try:
-        named = [name for _, name in wanted if name]
-        found = read_columns(path, only=named, words=words, whole=[table.cycle] if table.cycle else [])
+        found = read_columns(path, only=[*wanted], words=words, whole=[table.cycle] if table.cycle else [])
     except ColumnsError as error:
         raise LoopFileError("file", str(error)) from None
-    for key, name in wanted:
-        if name and name not in found.values:
+    for name, key in wanted.items():
+        if name not in found.values:
             there = (*found.values, *found.others)
             raise LoopFileError(key, f"the file has no column {shown(name)}; {did_you_mean(name, there)}")
     columns = ((table.depths, depth), ("load", load))

@@ -8,7 +8,7 @@ import numpy as np
 from gradhesion.cli.study.fit.columns import is_force_file
 from gradhesion.cli.study.rules.asked import Asked, Found, home
 from gradhesion.cli.study.rules.form import Form
-from gradhesion.cli.study.rules.inputs import SOFT, inputs, rate, together, toughness, waves, works
+from gradhesion.cli.study.rules.inputs import inputs, rate, together, toughness, waves, works
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import line_of, required
 from gradhesion.core.problem.inputs import INPUTS
@@ -45,8 +45,7 @@ def broken(asked: Asked) -> Found:
             yield table, required(table)
     if not asked.right("kind") or "physical" not in asked.data:
         return
-    yield from together(asked, "physical", "toughness")
-    for rule in (inputs, waves, _profile, _columns, _machine, works, toughness, rate, _searched):
+    for rule in (together, inputs, waves, _profile, _columns, _machine, works, toughness, rate, _searched):
         yield from rule(asked)
 
 
@@ -125,6 +124,3 @@ def _searched(asked: Asked) -> Found:
         yield home("R"), f"{words} {sizes[0]}, {sizes[1]} and {sizes[2]} apart; give one of them as a number"
     if {*_SPEEDS} <= {*free}:
         yield home(_SPEEDS[1]), "a loop depends on the ratio of the two speeds alone; give one of them as a number"
-    k = given.get("k")
-    if (k.stop if isinstance(k, Range) else k) == 1.0 and given.get("nu") != 0.5:
-        yield "parameters.k", SOFT

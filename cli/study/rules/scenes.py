@@ -11,7 +11,7 @@ from gradhesion.cli.names.outputs import SI
 from gradhesion.cli.study.rules.asked import Asked, Found, home
 from gradhesion.cli.study.rules.axes import repeated
 from gradhesion.cli.study.rules.form import OUTPUTS_OF
-from gradhesion.cli.study.rules.inputs import SOFT, inputs, rate, shape_of, together, toughness, waves, works
+from gradhesion.cli.study.rules.inputs import inputs, rate, shape_of, together, toughness, waves, works
 from gradhesion.cli.study.rules.mistakes import required
 from gradhesion.cli.study.rules.search import search, uncertain
 from gradhesion.cli.terminal.wording import did_you_mean, shown
@@ -26,20 +26,13 @@ MOST_SCENES: Final = {"map": 2**31, "curve": 1_000, "optimum": 2**31, "pareto": 
 
 def broken(asked: Asked) -> Found:
     """List what is wrong between the keys of a study of scenes."""
-    yield from together(asked, "profile", "physical", "toughness")
-    for rule in (_outputs, _method, _axes, search, inputs, waves, _punch, _machine, works, toughness, rate, _states,
-                 _range, uncertain, _size):  # fmt: skip
+    for rule in (together, _outputs, _method, _axes, search, inputs, waves, _punch, _machine, works, toughness, rate,
+                 _states, _range, uncertain, _size):  # fmt: skip
         yield from rule(asked)
 
 
 def _axes(asked: Asked) -> Found:
-    """Check the axes of a grid, or the lists of points: no value twice, one length; no material without stiffness."""
-    k, nu = (np.atleast_1d(asked.axes.get(name, 0.5)) for name in ("k", "nu"))
-    soft = bool(np.any(k == 1.0) and np.any(nu != 0.5))
-    if asked.points and soft:  # in one scene, unless the lists differ in length, as is said below
-        soft = (1 in (k.size, nu.size) or k.size == nu.size) and bool(np.any((k == 1.0) & (nu != 0.5)))
-    if soft:
-        yield "parameters.k", SOFT
+    """Check the axes of a grid, or the lists of points: no value twice, or one length."""
     if not asked.points:
         for name, values in asked.values.items():
             yield from repeated(name, values)
