@@ -17,7 +17,7 @@ from gradhesion.cli.study.rules.keys import File
 from gradhesion.cli.study.rules.mistakes import Mistake, line_of
 from gradhesion.cli.study.text.quantities import factor_of_column, scaled, si_value
 from gradhesion.cli.study.text.written import Path as Key
-from gradhesion.cli.study.text.written import value_of, with_fingerprint
+from gradhesion.cli.study.text.written import value_of
 from gradhesion.cli.tables.columns import Columns, ColumnsError, changed
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.wording import did_you_mean, shown
@@ -75,10 +75,6 @@ class FromFile:
             if isinstance(table, Mapping):
                 whole[own.table] = {name: written, **table}
         return whole
-
-    def stored(self, data: Mapping[str, Any], text: str) -> tuple[dict[str, Any], str]:
-        """Give the keys and the text of a study with the fingerprint of the file; no text where it is to be made."""
-        return with_fingerprint(data, text, self.key, self.sha256) if self.file else (dict(data), text)
 
 
 def points_of(
@@ -150,7 +146,9 @@ def measured_in(data: Mapping[str, Any], folder: Path) -> FromFile:
     terms, exponent, expected = table.get("terms", TERMS), table.get("exponent", 2.0), table.get("sha256", "")
     up_to, mistakes = _up_to(data, table), [*_mistakes_beside(data, table)]
     numbers = isinstance(terms, int) and (exponent == "fit" or isinstance(exponent, int | float))
-    gives = ("R", "wavelength", "amplitude") if united else ("lambda_over_R", "A")
+    told = {INPUTS[str(one.path[-1])].gives for one in mistakes if one.path[-1] in INPUTS} - {"modulus"}
+    names = ("R", "wavelength", "amplitude") if united else ("lambda_over_R", "A")
+    gives = tuple(name for name in names if INPUTS[name].gives not in told)
     fit: FittedProfile | None = None
     try:
         if up_to is not None and numbers and isinstance(expected, str):  # else refused by its form, or missing

@@ -22,7 +22,7 @@ from gradhesion.cli.study.rules.scenes import broken
 from gradhesion.cli.study.study import Method, Study
 from gradhesion.cli.study.text.foreign import as_written
 from gradhesion.cli.study.text.source import DEEP, Source, included, is_deep, read_source
-from gradhesion.cli.study.text.written import dotted, steps_of, toml_of
+from gradhesion.cli.study.text.written import dotted, steps_of, with_fingerprints
 from gradhesion.cli.terminal.wording import shown
 from gradhesion.core.answers.spectrum import random_profile
 from gradhesion.core.problem.control import Loading
@@ -84,7 +84,8 @@ def any_from(data: Mapping[str, Any], name: str = "study", *, folder: str | Path
 
 def text_of(data: Mapping[str, Any], study: Study) -> str:
     """Write keys as TOML that are known to be those of a valid study, one with the files of this one."""
-    return toml_of(study.measured.stored(as_written(data), "")[0])
+    files = {study.measured.key: study.measured.sha256} if study.measured.file else {}
+    return with_fingerprints(as_written(data), "", files)
 
 
 def _source(data: Mapping[str, Any], name: str, folder: str | Path) -> Source:
@@ -135,7 +136,7 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
     solver = tuple(form.method.solver) if asked.lists_solvers else form.method.solver[0]
     spectrum = form.profile.spectrum.made() if form.profile.spectrum else None
     profile = random_profile(spectrum, 0, float(form.profile.exponent)) if spectrum else shape_of(form.profile)
-    data, text = measured.stored(*points.stored(source.data, source.text))
+    fingerprints = {one.key: one.sha256 for one in (points, measured) if one.file}
     return Study(
         name=source.name,
         title=form.title or source.name,
@@ -153,7 +154,7 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
         search=form.optimum or Optimum(),
         searched={name: own for name in asked.over if isinstance(own := form.entries[name], Range)},
         uncertainty=form.uncertainty or Uncertainty(),
-        text=text or toml_of(data),
+        text=with_fingerprints(source.data, source.text, fingerprints),
         left_out=frozenset(absent.keys() - {"a_max", "a_max_over_R"}),
         folder=source.folder,
         points=points,

@@ -12,7 +12,7 @@ from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import Mistake
 from gradhesion.cli.study.study import AnyStudy
 from gradhesion.cli.study.text.source import Source
-from gradhesion.cli.study.text.written import toml_of, with_fingerprint
+from gradhesion.cli.study.text.written import with_fingerprints
 from gradhesion.cli.tables.columns import changed
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
@@ -107,12 +107,11 @@ def fit_of(source: Source, form: Form, loops: tuple[LoopFile, ...]) -> FitStudy:
     free = {name: (entry.start, entry.stop) for name, entry in given.items() if isinstance(entry, Range)}
     fixed = {name: float(entry) for name, entry in given.items() if isinstance(entry, int | float)}
     exponent = fixed.pop("exponent", 0.0) or sum(free.get("exponent", ())) / 2.0
-    data, text = with_fingerprint(source.data, source.text, ("data",), fingerprint(loops))
     return FitStudy(
         name=source.name,
         title=form.title or source.name,
-        text=text or toml_of(data),
-        file=data["data"]["file"],
+        text=with_fingerprints(source.data, source.text, {("data",): fingerprint(loops)}),
+        file=source.data["data"]["file"],
         loops=loops,
         fixed={name: value for name, value in fixed.items() if name not in NUMBER_ALONE},
         free=free,

@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import ValidationError
 
 from gradhesion.cli.study.rules.axes import Values, expanded, range_mistakes
-from gradhesion.cli.study.rules.form import KINDS, Form
+from gradhesion.cli.study.rules.form import KINDS, Entry, Form
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import Mistake, mistakes_of, required
 from gradhesion.cli.study.text.written import Path, dotted, steps_of
@@ -47,7 +47,7 @@ class Asked:
     """What is wrong with each key for itself."""
     wrong: Collection[Path]
     """The keys that are wrong or missing: the key itself, where an item of its value is."""
-    values: Mapping[str, Values]
+    values: dict[str, Values]
     """Of the inputs that are right; the two ends of those that are searched."""
 
     @cached_property
@@ -58,7 +58,7 @@ class Asked:
     @cached_property
     def over(self) -> tuple[str, ...]:
         """The inputs that are searched for an optimum: those with two ends alone."""
-        return tuple(_without_num(self.data)) if self.kind == "optimum" else ()
+        return tuple(str(name) for _, name, _ in _without_num(self.data)) if self.kind == "optimum" else ()
 
     @property
     def points(self) -> bool:
@@ -135,10 +135,8 @@ def checked(data: Mapping[str, Any], columns: Mapping[str, Values] | None = None
     words = f'a study of kind "{kind}" does not have this; remove it, or write kind = '
     mistakes = [Mistake((key,), data[key], f'{words}"{other}"') for key, other in foreign.items() if key in data]
     own, form = {key: value for key, value in data.items() if key not in foreign}, None
-    open_ranges = (
-        [] if kind in ("fit", "optimum") else [(INPUTS[name].table, name, "num") for name in _without_num(own)]
-    )
-    found = [Mistake(path, None, required(*path)) for path in open_ranges]
+    lacking = _without_num(own) if kind in ("map", "curve") else ()
+    found = [Mistake(path, None, required(*path)) for path in lacking]
     try:
         form = Form.model_validate(own)
     except ValidationError as error:
@@ -151,25 +149,29 @@ def checked(data: Mapping[str, Any], columns: Mapping[str, Values] | None = None
     except ValidationError as error:  # tables that lack what is wrong
         wrong |= {(str(one["loc"][0]),) for one in error.errors()}
         form = Form.model_validate(_without(own, wrong))
-    values: dict[str, Values] = {}
+    asked = Asked(form=form, data=own, mistakes=mistakes, wrong=wrong, values={})
     for name, entry in form.entries.items():
-        if {(INPUTS[name].table,), (INPUTS[name].table, name)} & wrong or entry == "data":
-            continue
-        amiss = [] if kind == "fit" else [*range_mistakes(name, entry)]
-        mistakes += [Mistake(steps_of(key), value_at(own, steps_of(key)), sentence) for key, sentence in amiss]
-        if not amiss:
-            if kind == "fit" and isinstance(entry, Range):
-                entry = Range(start=entry.start, stop=entry.stop)  # whatever else it has is refused
-            values[name] = (columns or {}).get(name, expanded(entry))
-    return Asked(form=form, data=own, mistakes=mistakes, wrong=wrong, values=values)
+        if entry != "data" and not {(INPUTS[name].table,), (INPUTS[name].table, name)} & wrong:
+            _expand(asked, name, entry, columns or {})
+    return asked
 
 
-def _without_num(data: Mapping[str, Any]) -> Iterator[str]:
-    """Name the inputs that have a range without the number of its values."""
+def _expand(asked: Asked, name: str, entry: Entry, columns: Mapping[str, Values]) -> None:
+    """Expand an input whose form is right, or say what is wrong with it as a whole."""
+    if asked.kind == "fit" and isinstance(entry, Range):  # searched, whatever else it has is refused
+        asked.values[name] = np.array(entry.ends)
+    elif amiss := [*range_mistakes(name, entry)]:
+        asked.mistakes.extend(Mistake(steps_of(key), asked.at(key), sentence) for key, sentence in amiss)
+    else:
+        asked.values[name] = columns.get(name, expanded(entry))
+
+
+def _without_num(data: Mapping[str, Any]) -> Iterator[Path]:
+    """Give the keys of the numbers of values that ranges lack."""
     for name, own in INPUTS.items():
         entry = value_at(data, (own.table, name))
         if isinstance(entry, Mapping) and "num" not in entry:
-            yield name
+            yield (own.table, name, "num")
 
 
 def value_at(data: Mapping[str, Any], path: Path) -> Any:
