@@ -136,6 +136,8 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
     solver = tuple(form.method.solver) if asked.lists_solvers else form.method.solver[0]
     spectrum = form.profile.spectrum.made() if form.profile.spectrum else None
     profile = random_profile(spectrum, 0, float(form.profile.exponent)) if spectrum else shape_of(form.profile)
+    ranges = {name: form.entries[name] for name in asked.over}
+    searched = {name: Range(**dict(one)) for name, one in ranges.items() if isinstance(one, Range)}
     fingerprints = {one.key: one.sha256 for one in (points, measured) if one.file}
     return Study(
         name=source.name,
@@ -152,7 +154,7 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
         rate=form.rate.made() if form.rate else None,
         states=tuple(form.states.contact_radius_over_R or ()),
         search=form.optimum or Optimum(),
-        searched={name: own for name in asked.over if isinstance(own := form.entries[name], Range)},
+        searched=searched,
         uncertainty=form.uncertainty or Uncertainty(),
         text=with_fingerprints(source.data, source.text, fingerprints),
         left_out=frozenset(absent.keys() - {"a_max", "a_max_over_R"}),

@@ -54,8 +54,6 @@ def _profile(asked: Asked) -> Found:
     for name in ("file", "spectrum", "sha256", "terms", "up_to"):
         if asked.has(f"profile.{name}"):
             yield f"profile.{name}", "a loop has one punch; give the harmonics that `gradhesion profile` prints"
-    if asked.form.profile.exponent == "fit":
-        yield "profile.exponent", "there is no file to fit it to; write a number"
 
 
 def _columns(asked: Asked) -> Found:

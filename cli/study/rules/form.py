@@ -176,7 +176,7 @@ class Optimum(Table):
     @property
     def signs(self) -> list[int]:
         """1 where a goal is to be as large as possible, -1 where as small."""
-        return [1 for _ in self.maximise] + [-1 for _ in self.minimise]
+        return [1] * len(self.maximise) + [-1] * len(self.minimise)
 
     @property
     def is_front(self) -> bool:

@@ -44,6 +44,8 @@ def together(asked: Asked) -> Found:
         beside = next(filter(asked.has, others), "")
         if beside and asked.has(key):
             yield key, f"this cannot be combined with {beside}; remove one of the two"
+    if asked.form.profile.exponent == "fit" and not asked.has("profile.file"):
+        yield "profile.exponent", "there is no file to fit it to; write a number, for example exponent = 2.0"
     k, nu = (np.atleast_1d(asked.axes.get(name, 0.5)) for name in ("k", "nu"))
     soft = bool(np.any(k == 1.0) and np.any(nu != 0.5))
     if asked.points and soft:  # in one scene, unless the lists differ in length

@@ -138,8 +138,6 @@ def _method(asked: Asked) -> Found:
 def _punch(asked: Asked) -> Found:
     """Check what goes with each source of the waves of a profile."""
     table = asked.form.profile
-    if table.exponent == "fit" and not asked.has("profile.file"):
-        yield "profile.exponent", "there is no file to fit it to; add file, or write for example exponent = 2.0"
     if (spectrum := table.spectrum) is not None:
         if not 0 <= spectrum.last - spectrum.first < MOST_HARMONICS:
             words = f"a series has 1 to {MOST_HARMONICS} waves, from first on; use another last, or another first"
