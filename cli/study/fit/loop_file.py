@@ -80,8 +80,8 @@ class LoopFile:
 
 def read_loops(
     folder: Path, table: DataTable, fitted: list[str], *, average: bool, through_machine: bool
-) -> tuple[tuple[LoopFile, ...], LoopFileError | None]:
-    """Read all loops of a study, sorted by the names of their files; and say why none of them can be fitted.
+) -> tuple[LoopFile, ...]:
+    """Read all loops of a study, sorted by the names of their files; LoopFileError where none of them can be fitted.
 
     There must be points enough for what is `fitted`; one of several loops that cannot be is kept with its problem. Many
     points are averaged if `average`; depths are displacements of a machine if `through_machine`.
@@ -89,7 +89,7 @@ def read_loops(
     names = _names_of(folder, table.file)
     if not names or len(names) > MOST_FILES:
         what = f"{len(names):,} files are more than {MOST_FILES:,}" if names else "no file matches this pattern"
-        return (), LoopFileError("file", f'{what}; write the path from the folder of the study, as "curves/*.csv"')
+        raise LoopFileError("file", f'{what}; write the path from the folder of the study, as "curves/*.csv"')
     loops: list[LoopFile] = []
     errors: list[LoopFileError] = []
     for name in names:
@@ -102,8 +102,8 @@ def read_loops(
     if errors and all(loop.problem for loop in loops):
         several = f" (and so with each of the {counted(len(loops), 'loop')})"
         words = str(errors[0]) if len(loops) == 1 else f"{loops[0].file}: {errors[0]}{several}"
-        return tuple(loops), LoopFileError(errors[0].key, words)
-    return tuple(loops), None
+        raise LoopFileError(errors[0].key, words)
+    return tuple(loops)
 
 
 def _names_of(folder: Path, file: str) -> list[str]:

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from gradhesion.cli.study.fit.columns import LoopFileError
 from gradhesion.cli.study.fit.loop_file import LoopFile, fingerprint, read_loops
 from gradhesion.cli.study.fit.rules import NUMBER_ALONE, control_of, given_in
 from gradhesion.cli.study.rules.asked import Asked
@@ -90,9 +91,10 @@ def loops_of(folder: Path, asked: Asked) -> tuple[tuple[LoopFile, ...], list[Mis
     fitted = [name for name, entry in given_in(form).items() if isinstance(entry, Range)]
     fitted += Offsets(**dict(form.fit.offsets)).names
     through_machine = control_of(form) == "machine"
-    loops, error = read_loops(folder, table, fitted, average=form.fit.average, through_machine=through_machine)
-    if error:
-        return loops, [Mistake(("data", error.key), asked.at(f"data.{error.key}"), str(error))]
+    try:
+        loops = read_loops(folder, table, fitted, average=form.fit.average, through_machine=through_machine)
+    except LoopFileError as error:
+        return (), [Mistake(("data", error.key), asked.at(f"data.{error.key}"), str(error))]
     sha256 = fingerprint(loops)
     if table.sha256 in ("", sha256):
         return loops, []
