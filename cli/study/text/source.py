@@ -25,8 +25,6 @@ _DOTS: Final = re.compile(r"(?:[\w\"'-]+\s*\.\s*){100}")
 """A key far too deep: the parser takes a time that grows with the square of its length."""
 _AT: Final = re.compile(r" ?\(at (?:line (\d+), column \d+|end of document)\)")
 """Where the parser has found a mistake."""
-_Lines = Callable[[], Mapping[Key, str]]
-"""Finds the file and the line of each key."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,7 +45,7 @@ class Source:
 
 def read_source(path: Path, overrides: Iterable[str]) -> Source:
     """Read a study file, and set what is overridden; StudyError where it is no TOML."""
-    data, lines, text = _read(path, ())
+    data, texts = _read(path, ())
     sources: dict[Key, str] = {}
     mistakes = []
     for override in overrides:
@@ -55,6 +53,10 @@ def read_source(path: Path, overrides: Iterable[str]) -> Source:
             sources[_set(data, override)] = override
         except ValueError as error:
             mistakes.append(f"--set {override}: {error}")
+
+    @cache
+    def lines() -> dict[Key, str]:
+        return {key: f"{file}:{line}" for file, text in texts.items() for key, line in lines_of(text).items()}
 
     def place(key: Key) -> str:
         above = [key[:depth] for depth in range(len(key), 0, -1)]
@@ -67,15 +69,15 @@ def read_source(path: Path, overrides: Iterable[str]) -> Source:
     return Source(
         name=os.fsencode(path.stem).decode("utf-8", "replace"),
         data=data,
-        text="" if sources else text,
+        text="" if sources or len(texts) > 1 else texts[path],
         place=place,
         mistakes=tuple(mistakes),
         folder=path.absolute().parent,
     )
 
 
-def _read(path: Path, above: tuple[Path, ...]) -> tuple[dict[str, Any], _Lines, str]:
-    """Read the keys of a file and of what it includes, their places, and a text of just these keys if there is one."""
+def _read(path: Path, above: tuple[Path, ...]) -> tuple[dict[str, Any], dict[Path, str]]:
+    """Read the keys of a file and of what it includes, and the texts of both, its own last."""
     text = _text(path)
     try:
         data = None if _DOTS.search(text) else tomllib.loads(text)
@@ -86,18 +88,17 @@ def _read(path: Path, above: tuple[Path, ...]) -> tuple[dict[str, Any], _Lines, 
         raise StudyError(_syntax_sentence(path, text, str(error))) from None
     if data is None or is_deep(data):
         raise StudyError(f"{path}: not a study, tables or lists are {DEEP}")
-    lines = cache(lambda: {key: f"{path}:{line}" for key, line in lines_of(text).items()})
     if "include" not in data:
-        return data, lines, text
-    where = f"{lines().get(('include',), path)}: include = {shown(data['include'])}"
-    merged, below = included(data, path.parent, where, (*above, path))
-    return merged, cache(lambda: {**below(), **lines()}), ""
+        return data, {path: text}
+    where = f"{path}:{lines_of(text).get(('include',), 1)}: include = {shown(data['include'])}"
+    merged, texts = included(data, path.parent, where, (*above, path))
+    return merged, {**texts, path: text}
 
 
 def included(
     data: Mapping[str, Any], folder: Path, where: str, above: tuple[Path, ...] = ()
-) -> tuple[dict[str, Any], _Lines]:
-    """Give the keys of a study with those of the one that it includes, and the places of these.
+) -> tuple[dict[str, Any], dict[Path, str]]:
+    """Give the keys of a study with those of the one that it includes, and the texts of these.
 
     The keys of the study win; tables at the top are merged key by key, and all other values replaced. A message begins
     with `where`, the place of `include`; `above` are the files that include this one.
@@ -111,10 +112,10 @@ def included(
         raise StudyError(f"{where}: {base} includes {above[-1]} in turn; remove one of the two")
     if not base.is_file():
         raise StudyError(f"{where}: there is no file {base}; name a study that is there, from the folder of this one")
-    found, lines, _ = _read(base, above)
+    found, texts = _read(base, above)
     own = {key: value for key, value in data.items() if key != "include"}
     tables = {key for key in own if isinstance(own[key], Mapping) and isinstance(found.get(key), Mapping)}
-    return found | own | {key: {**found[key], **own[key]} for key in tables}, lines
+    return found | own | {key: {**found[key], **own[key]} for key in tables}, texts
 
 
 def _text(path: Path) -> str:
