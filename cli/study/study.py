@@ -43,30 +43,7 @@ class Method:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class AnyStudy:
-    """What every valid study has, one of scenes or of a fit."""
-
-    name: str
-    title: str
-    text: str
-    """The study as TOML: reading it again gives the same study."""
-    folder: Path = Path()
-    """The folder of the files that it names."""
-    profile: Profile = field(default_factory=Profile)
-    loading: Loading = field(default_factory=Loading)
-    toughness: Toughness | None = None
-    """How its toughness varies with the radius, if it does."""
-    rate: Rate | None = None
-    """How the work of its edge grows with the speed, if it does."""
-
-    @property
-    def sha256(self) -> str:
-        """The fingerprint of its text."""
-        return hashlib.sha256(self.text.encode()).hexdigest()
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Study(AnyStudy):
+class Study:
     """A valid study, its parameters expanded: a float is fixed, an array is an axis (or, in points, a list).
 
     >>> from gradhesion.cli.study import study_from
@@ -79,6 +56,10 @@ class Study(AnyStudy):
     {'k': 2, 'A': 3}
     """
 
+    name: str
+    title: str
+    text: str
+    """The study as TOML: reading it again gives the same study."""
     kind: str
     layout: str
     outputs: tuple[str, ...]
@@ -86,6 +67,12 @@ class Study(AnyStudy):
     parameters: Mapping[str, Values]
     """A value for each parameter, under the key that gives it, in the order of the dataset's dimensions."""
     method: Method
+    profile: Profile = field(default_factory=Profile)
+    loading: Loading = field(default_factory=Loading)
+    toughness: Toughness | None = None
+    """How its toughness varies with the radius, if it does."""
+    rate: Rate | None = None
+    """How the work of its edge grows with the speed, if it does."""
     search: Optimum = field(default_factory=Optimum)
     """What is sought in the place of values."""
     searched: Mapping[str, Range] = field(default_factory=dict)
@@ -98,6 +85,8 @@ class Study(AnyStudy):
     """The parameters that it does not give since they have no effect; they have a value all the same."""
     chunk: int = field(default_factory=cells_of_chunk)
     """Cells of a chunk of the dataset of a map, at most; a block that is computed at a time has two."""
+    folder: Path = Path()
+    """The folder of the files that it names."""
     points: FromFile = field(default_factory=FromFile)
     """The file with its scenes, and the parameters that are columns of it."""
     measured: FromFile = field(default_factory=FromFile)
@@ -269,6 +258,11 @@ class Study(AnyStudy):
         if self.search:
             return int((2 * self.search.resolution - 1) ** len(self.searched))
         return 1 + (self.uncertainty.samples or FEW_SAMPLES) if self.uncertainty else 1
+
+    @property
+    def sha256(self) -> str:
+        """The fingerprint of its text."""
+        return hashlib.sha256(self.text.encode()).hexdigest()
 
     def shape_of(self, name: str, scenes: tuple[int, ...]) -> tuple[int, ...]:
         """Give the lengths of a variable of a map for scenes of a shape: sensitivities have one dimension more."""

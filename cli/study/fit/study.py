@@ -1,6 +1,7 @@
 """A study of kind "fit": parameters from measured loops. It has no scenes."""
 
-from dataclasses import dataclass
+import hashlib
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from gradhesion.cli.study.fit.columns import LoopFileError
@@ -11,7 +12,6 @@ from gradhesion.cli.study.rules.form import Form
 from gradhesion.cli.study.rules.inputs import shape_of
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import Mistake
-from gradhesion.cli.study.study import AnyStudy
 from gradhesion.cli.study.text.source import Source
 from gradhesion.cli.study.text.written import with_fingerprints
 from gradhesion.cli.tables.columns import changed
@@ -20,12 +20,18 @@ from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.loops.paths.offsets import Offsets
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.inputs import INPUTS
+from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.toughness import Rate, Toughness
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class FitStudy(AnyStudy):
+class FitStudy:
     """A valid study of a fit; the power of its law of speed is searched where `free` has it."""
 
+    name: str
+    title: str
+    text: str
+    """The study as TOML: reading it again gives the same study."""
     file: str
     """The file of the loop, or the pattern of several, as the study names them."""
     loops: tuple[LoopFile, ...]
@@ -43,7 +49,18 @@ class FitStudy(AnyStudy):
     starts: int
     adhesion_range: float | None = None
     """The range of the attraction in m, for the Tabor number, where the study has it."""
+    profile: Profile = field(default_factory=Profile)
+    loading: Loading = field(default_factory=Loading)
+    toughness: Toughness | None = None
+    rate: Rate | None = None
+    folder: Path = Path()
+    """Where the files are."""
     kind: str = "fit"
+
+    @property
+    def sha256(self) -> str:
+        """The fingerprint of its text."""
+        return hashlib.sha256(self.text.encode()).hexdigest()
 
     @property
     def loop(self) -> LoopFile:
