@@ -129,5 +129,5 @@ def _unknown_key(path: Path, absent: Collection[str]) -> tuple[Path, str]:
     if place == table:
         return (*table, near or ""), f"unknown key; {did_you_mean(key, known)}"
     where = f"under [{dotted(place)}]" if place else "at the top, before the first [table]"
-    words = f"this key belongs {where}; move it there" if near == key else f'did you mean "{near}", {where}?'
-    return (*place, str(near)), words
+    words = f'unknown key; did you mean "{near}", {where}?'
+    return (*place, str(near)), f"this key belongs {where}; move it there" if near == key else words
