@@ -7,7 +7,7 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli.study.text.foreign import apart, as_written, filled
-from gradhesion.cli.study.text.quantities import in_si, si_value
+from gradhesion.cli.study.text.quantities import factor_of, scaled, si_value
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
 
 
@@ -82,4 +82,4 @@ def numbers_of(name: str, array: xarray.DataArray) -> NDArray[np.float64] | None
     unit = str(array.attrs.get("units", ""))
     if unit in ("", INPUTS[name].unit):
         return np.asarray(values, dtype=np.float64) + 0.0  # no negative zeros
-    return in_si(values, unit, name)
+    return scaled(values, factor_of(unit, name))

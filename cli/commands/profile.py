@@ -30,27 +30,28 @@ def profile(
     from gradhesion.cli.errors import StudyError
     from gradhesion.cli.picture.fits import drawn_profile
     from gradhesion.cli.picture.pictured import save
-    from gradhesion.cli.study.files import exponent_of, fitted, read_profile
+    from gradhesion.cli.study.files import read_profile
     from gradhesion.cli.study.text.quantities import si_value
     from gradhesion.cli.terminal.messages import show_block
     from gradhesion.cli.words.profile_words import tables_of
+    from gradhesion.core.answers.profile_fit import fit_profile
 
     option = f"--up-to {up_to}"
     try:
         reach = None if up_to is None else si_value(up_to, "up_to")
         option = f"--exponent {exponent}"
-        power = exponent_of(exponent)
+        power = None if exponent == "fit" else float(exponent)
     except ValueError as error:
         raise click.UsageError(f"{option}: {error}") from None
     with replacement(path, overwrite=overwrite) as temporary:
         try:
             r, heights, _, dropped = read_profile(file)
-            fit = fitted(r, heights, up_to=reach, terms=terms, exponent=power)
+            fit = fit_profile(r, heights, up_to=reach, terms=terms, exponent=power)
         except ValueError as error:
             raise StudyError(f"{file}: {error}") from None
         with writing(path):
             save(drawn_profile(fit, file.name), temporary, form)
-    show_block("\n".join(tables_of(fit, file, terms, power)))
+    show_block("\n".join(tables_of(fit, file, terms, power or "fit")))
     if not quiet:
         rows = "row was" if dropped == 1 else "rows were"
         shared.say_written(path, [f"{file}: {dropped:,} {rows} left out, for lack of two numbers"] if dropped else [])

@@ -31,7 +31,7 @@ from gradhesion.cli.work.solve.scenes import scenes_from
 from gradhesion.core import FLAGS
 from gradhesion.core.answers.flags import FLAGS as ALL_FLAGS
 from gradhesion.core.problem.inputs import INPUTS, REDUCED
-from gradhesion.core.problem.names import CONTACT_SLOPE
+from gradhesion.core.problem.names import CONTACT_SLOPE, TURNS
 from gradhesion.core.problem.outputs import without_scale
 from gradhesion.core.problem.status import OF_EVERY_MAP, TOO_MANY_WAVES
 
@@ -63,7 +63,7 @@ def variables(study: Study) -> dict[str, Variable]:
     apart = (*study.sizes, *study.labels, STATE)
     beside = " ".join(name for name in found if name not in apart)
     outputs = {name: _output(study, name) for name in study.variables}
-    own = ALL_FLAGS if study.has_answers else FLAGS if study.turns_at_a_depth else OF_EVERY_MAP
+    own = ALL_FLAGS if study.has_answers else FLAGS if study.turn == TURNS[0] else OF_EVERY_MAP
     flags = {name: bit for name, bit in own.items() if bit != TOO_MANY_WAVES}
     flags |= {name: bit for name, bit in FLAGS.items() if bit == TOO_MANY_WAVES and study.follows_waves}
     attributes = {"units": "1", "long_name": STATUS} | flags_of(flags, study.status_type)
@@ -145,7 +145,7 @@ def _made(study: Study, name: str, own: tuple[str, ...], block: Block) -> NDArra
     """Compute a block, of its own axes, of a parameter that is made from others."""
     cuts = dict(zip(own, block, strict=True))
     whole = tuple(cuts.get(axis, slice(0, 1)) for axis in study.axes)
-    given = study.parameters_of(whole) | {one.name: np.asarray(one.low) for one in study.search.inputs}
+    given = study.parameters_of(whole) | {one: np.asarray(its.ends[0]) for one, its in study.searched.items()}
     return np.broadcast_to(scenes_from(given)[name], shape_of(whole)).reshape(shape_of(block))
 
 
@@ -155,7 +155,7 @@ def _output(study: Study, name: str) -> Variable:
     if study.kind == "curve":
         found = _of_curve(study, plain)
     elif plain == ON_BOUND:
-        ends = [f"{one.name}_at_its_{end}_bound" for one in study.search.inputs for end in ("lower", "upper")]
+        ends = [f"{one}_at_its_{end}_bound" for one in study.searched for end in ("lower", "upper")]
         attributes: dict[str, Any] = {"units": "1", "long_name": "bounds at which the optimum lies (0: none)"}
         attributes |= flags_of({end: 1 << i for i, end in enumerate(ends)}, "i1")
         found = Variable(tuple(study.sizes), "i1", attributes)

@@ -125,7 +125,7 @@ def _attributes(study: FitStudy, fits: Sequence[Fit]) -> dict[str, Any]:
         "data_sha256": fingerprint(study.loops),
         "data_rows_left_out": np.int64(sum(loop.dropped for loop in study.loops)),
         "data_rows_of_pauses": np.int64(sum(loop.paused for loop in study.loops)),
-        "noise_is": "given" if study.noise_is_given else "estimated from differences of neighbours",
+        "noise_is": "given" if study.given_noise else "estimated from differences of neighbours",
         "intervals": "profile likelihoods" if study.intervals == "profile" else "linear",
         **({"contact_point": "; ".join(sorted(methods))} if methods else {}),
         **({"alike": "; ".join(found[0].alike)} if study.is_of_one and found[0].alike else {}),

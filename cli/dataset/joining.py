@@ -21,6 +21,7 @@ WANTED: Final = "only maps and optima on a grid can be joined"
 SHARED: Final = (
     "kind",
     "search",
+    "searched",
     "outputs",
     "method",
     "profile",

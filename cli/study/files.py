@@ -2,21 +2,22 @@
 
 import math
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import ValidationError
 
 from gradhesion.cli.names.outputs import OUTPUTS, SI
-from gradhesion.cli.study.rules.asked import REQUIRED
+from gradhesion.cli.study.rules.asked import REQUIRED, value_at
 from gradhesion.cli.study.rules.axes import MOST_VALUES, Values
+from gradhesion.cli.study.rules.keys import File
 from gradhesion.cli.study.rules.mistakes import Mistake, line_of
 from gradhesion.cli.study.text.quantities import factor_of_column, scaled, si_value
 from gradhesion.cli.study.text.written import Path as Key
-from gradhesion.cli.study.text.written import value_of, with_fingerprint
+from gradhesion.cli.study.text.written import value_of
 from gradhesion.cli.tables.columns import Columns, ColumnsError, changed
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.wording import did_you_mean, shown
@@ -75,32 +76,26 @@ class FromFile:
                 whole[own.table] = {name: written, **table}
         return whole
 
-    def stored(self, data: Mapping[str, Any], text: str) -> tuple[dict[str, Any], str]:
-        """Give the keys and the text of a study with the fingerprint of the file; no text where it is to be made."""
-        return with_fingerprint(data, text, self.key, self.sha256) if self.file else (dict(data), text)
-
 
 def points_of(
     data: Mapping[str, Any], folder: Path, columns: Mapping[str, NDArray[np.float64]] | None = None
 ) -> FromFile:
     """Read the points of a study from a file in a folder, unless the columns of that are given."""
-    key, table = ("parameters", "points"), data.get("parameters")
-    written = table.get("points") if isinstance(table, Mapping) else None
-    named = {"file": written} if isinstance(written, str) else written
-    if not isinstance(named, Mapping) or not named.get("file") or not {*named} <= {"file", "sha256"}:
-        return FromFile()  # their form is refused
-    file, expected = named["file"], named.get("sha256", "")
-    if not isinstance(file, str) or not isinstance(expected, str):
-        return FromFile()
-    if columns is not None:
-        return FromFile(key=key, file=file, sha256=expected, inputs=columns)
+    key = ("parameters", "points")
+    written = value_at(data, key)
     try:
-        found = read_columns(folder / file)
+        named = File.model_validate({"file": written} if isinstance(written, str) else written)
+    except ValidationError:
+        return FromFile()  # its form is refused
+    if columns is not None:
+        return FromFile(key=key, file=named.file, sha256=named.sha256, inputs=columns)
+    try:
+        found = read_columns(folder / named.file)
     except ColumnsError as error:
         return FromFile(key=key, mistakes=(Mistake(key, written, str(error)),))
-    if expected and expected != found.sha256:
-        sentence = changed(found.sha256, expected, f"write points = {value_of(file)}")
-        return FromFile(key=key, mistakes=(Mistake(key, written, sentence),))
+    if named.sha256 not in ("", found.sha256):
+        words = changed(found.sha256, named.sha256, f"write points = {value_of(named.file)}")
+        return FromFile(key=key, mistakes=(Mistake(key, written, words),))
     sentences, own, wrong = [*_mistakes(data, found)], {}, []
     for name in (name for name in found.values if name in INPUTS):
         try:
@@ -109,7 +104,7 @@ def points_of(
             sentences.append(str(error))
             wrong.append(name)
     mistakes = tuple(Mistake(key, written, sentence) for sentence in sentences)
-    return FromFile(key=key, file=file, sha256=found.sha256, inputs=own, wrong=tuple(wrong), mistakes=mistakes)
+    return FromFile(key=key, file=named.file, sha256=found.sha256, inputs=own, wrong=tuple(wrong), mistakes=mistakes)
 
 
 def _mistakes(data: Mapping[str, Any], found: Columns) -> Iterator[str]:
@@ -150,18 +145,20 @@ def measured_in(data: Mapping[str, Any], folder: Path) -> FromFile:
     united = isinstance(data.get("physical"), Mapping)
     terms, exponent, expected = table.get("terms", TERMS), table.get("exponent", 2.0), table.get("sha256", "")
     up_to, mistakes = _up_to(data, table), [*_mistakes_beside(data, table)]
-    told = {INPUTS[str(one.path[-1])].gives for one in mistakes if one.path[-1] in INPUTS}
-    names = ("R", "wavelength", "amplitude") if united else ("lambda_over_R", "A")
-    gives = tuple(name for name in names if INPUTS[name].gives not in told - {"modulus"})
     numbers = isinstance(terms, int) and (exponent == "fit" or isinstance(exponent, int | float))
-    fit: Any = None
-    sha256, dropped = "", 0
+    told = {INPUTS[str(one.path[-1])].gives for one in mistakes if one.path[-1] in INPUTS} - {"modulus"}
+    names = ("R", "wavelength", "amplitude") if united else ("lambda_over_R", "A")
+    gives = tuple(name for name in names if INPUTS[name].gives not in told)
+    fit: FittedProfile | None = None
     try:
         if up_to is not None and numbers and isinstance(expected, str):  # else refused by its form, or missing
-            places, heights, sha256, dropped = read_profile(folder / file)
-            if expected and expected != sha256:
+            from gradhesion.core.answers.profile_fit import fit_profile  # noqa: PLC0415 (500 ms for SciPy)
+
+            r, heights, sha256, dropped = read_profile(folder / file)
+            if expected not in ("", sha256):
                 raise ColumnsError(changed(sha256, expected, "remove sha256"))
-            fit = fitted(places, heights, up_to=up_to, terms=terms, exponent=exponent)
+            power = None if exponent == "fit" else float(exponent)
+            fit = fit_profile(r, heights, up_to=up_to, terms=terms, exponent=power)
     except ValueError as error:
         mistakes.append(Mistake(("profile", "file"), file, str(error)))
     if mistakes or fit is None:
@@ -193,28 +190,6 @@ def _up_to(data: Mapping[str, Any], table: Mapping[str, Any]) -> float | None:
     except ValueError:
         return None
     return value if math.isfinite(value) else None
-
-
-def fitted(
-    r: NDArray[np.float64], heights: NDArray[np.float64], *, up_to: float | None, terms: int, exponent: float | str
-) -> "FittedProfile":
-    """Fit a profile in metres; ValueError says why it cannot be fitted, and what to do."""
-    from gradhesion.core.answers.profile_fit import fit_profile  # noqa: PLC0415 (500 ms for SciPy)
-
-    power = None if isinstance(exponent, str) else float(exponent)
-    return fit_profile(r, heights, up_to=up_to, terms=terms, exponent=power)
-
-
-def exponent_of(text: str) -> float | str:
-    """Read the power of a punch: a number above 1, or "fit"; ValueError where it is neither.
-
-    >>> exponent_of("2.5"), exponent_of("fit")
-    (2.5, 'fit')
-    """
-    with suppress(ValueError):
-        if text == "fit" or 1.0 < float(text) < math.inf:
-            return text if text == "fit" else float(text)
-    raise ValueError('a power is a finite number above 1, or "fit"')
 
 
 def read_profile(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float64], str, int]:

@@ -1,8 +1,7 @@
 """A study from a file or a mapping: checked as a whole, and expanded."""
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
@@ -14,10 +13,8 @@ from gradhesion.cli.study.files import measured_in, points_of
 from gradhesion.cli.study.fit.loop_file import LoopFile
 from gradhesion.cli.study.fit.rules import broken as broken_in_fit
 from gradhesion.cli.study.fit.study import FitStudy, fit_of, loops_of
-from gradhesion.cli.study.rules.answers import Search, Searched, Uncertainty
-from gradhesion.cli.study.rules.asked import Asked, checked, foreign_to, home, kind_of
-from gradhesion.cli.study.rules.axes import Values, expanded, range_mistakes
-from gradhesion.cli.study.rules.form import OUTPUTS_OF, Form
+from gradhesion.cli.study.rules.asked import Asked, checked, kind_of, value_at
+from gradhesion.cli.study.rules.form import OUTPUTS_OF, Optimum, Uncertainty
 from gradhesion.cli.study.rules.inputs import left_out, shape_of
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import Mistake
@@ -25,8 +22,8 @@ from gradhesion.cli.study.rules.scenes import broken
 from gradhesion.cli.study.study import Method, Study
 from gradhesion.cli.study.text.foreign import as_written
 from gradhesion.cli.study.text.source import DEEP, Source, included, is_deep, read_source
-from gradhesion.cli.study.text.written import dotted, steps_of, toml_of
-from gradhesion.cli.terminal.wording import nearest, shown
+from gradhesion.cli.study.text.written import dotted, steps_of, with_fingerprints
+from gradhesion.cli.terminal.wording import shown
 from gradhesion.core.answers.spectrum import random_profile
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.inputs import INPUTS
@@ -87,7 +84,8 @@ def any_from(data: Mapping[str, Any], name: str = "study", *, folder: str | Path
 
 def text_of(data: Mapping[str, Any], study: Study) -> str:
     """Write keys as TOML that are known to be those of a valid study, one with the files of this one."""
-    return toml_of(study.measured.stored(as_written(data), "")[0])
+    files = {study.measured.key: study.measured.sha256} if study.measured.file else {}
+    return with_fingerprints(as_written(data), "", files)
 
 
 def _source(data: Mapping[str, Any], name: str, folder: str | Path) -> Source:
@@ -107,9 +105,8 @@ def _of_any(source: Source) -> Study | FitStudy:
 
 def _of_a_fit(source: Source) -> FitStudy:
     """Check a fit as a whole and read its data."""
-    data, mistakes = _own_keys(source.data)
-    asked = _expanded(checked(data), {})
-    mistakes += _between(asked, source.data, broken_in_fit(asked))
+    asked = checked(source.data)
+    mistakes = [*asked.mistakes, *_between(asked, source.data, broken_in_fit(asked))]
     loops: tuple[LoopFile, ...] = ()
     if asked.form.data and not any("data" in (*one.path[:1], *one.meant[:1]) for one in mistakes):
         loops, more = loops_of(source.folder, asked)
@@ -122,13 +119,11 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
     """Check a study of scenes as a whole and expand it."""
     if kind_of(source.data) == "fit":
         raise StudyError(f"{source.place(('kind',))}: a fit has no scenes; `gradhesion run` and gradhesion.run fit it")
-    own, mistakes = _own_keys(source.data)
-    points, measured = points_of(own, source.folder, columns), measured_in(own, source.folder)
-    asked = _expanded(checked(measured.beside(points.beside(own))), points.inputs, _searched(own))
-    between = _between(asked, source.data, broken(asked))
-    mistakes += [*points.mistakes, *measured.mistakes]
-    mistakes += [one for one in between if not points.unread or one.value is not None]  # what a file would give
-    _refuse(source, mistakes)
+    points, measured = points_of(source.data, source.folder, columns), measured_in(source.data, source.folder)
+    asked = checked(measured.beside(points.beside(source.data)), points.inputs)
+    mistakes = [*asked.mistakes, *_between(asked, source.data, broken(asked))]
+    mistakes = [one for one in mistakes if not points.unread or one.value is not None]  # what a file would give
+    _refuse(source, [*points.mistakes, *measured.mistakes, *mistakes])
     form = asked.form
     absent = left_out(asked.values, with_units=form.physical is not None)
     given = {**asked.values, **absent}
@@ -141,7 +136,9 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
     solver = tuple(form.method.solver) if asked.lists_solvers else form.method.solver[0]
     spectrum = form.profile.spectrum.made() if form.profile.spectrum else None
     profile = random_profile(spectrum, 0, float(form.profile.exponent)) if spectrum else shape_of(form.profile)
-    data, text = measured.stored(*points.stored(source.data, source.text))
+    ranges = {name: form.entries[name] for name in asked.over}
+    searched = {name: Range(**dict(one)) for name, one in ranges.items() if isinstance(one, Range)}
+    fingerprints = {one.key: one.sha256 for one in (points, measured) if one.file}
     return Study(
         name=source.name,
         title=form.title or source.name,
@@ -156,9 +153,10 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
         toughness=form.toughness.made() if form.toughness else None,
         rate=form.rate.made() if form.rate else None,
         states=tuple(form.states.contact_radius_over_R or ()),
-        search=_search(form, asked.over),
-        uncertainty=_uncertainty(form.uncertainty),
-        text=text or toml_of(data),
+        search=form.optimum or Optimum(),
+        searched=searched,
+        uncertainty=form.uncertainty or Uncertainty(),
+        text=with_fingerprints(source.data, source.text, fingerprints),
         left_out=frozenset(absent.keys() - {"a_max", "a_max_over_R"}),
         folder=source.folder,
         points=points,
@@ -182,80 +180,14 @@ def variables_of(kind: str, requested: Iterable[str]) -> tuple[str, ...]:
     return tuple(found)
 
 
-def _own_keys(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[Mistake]]:
-    """Leave out the keys of studies of other kinds, with what is wrong about them."""
-    foreign = foreign_to(kind_of(data))
-    mistakes = [Mistake((name,), data[name], words) for name, words in foreign.items() if name in data]
-    return {name: value for name, value in data.items() if name not in foreign}, mistakes
-
-
-def _searched(data: Mapping[str, Any]) -> tuple[str, ...]:
-    """Name the inputs of an optimum that have bounds alone and are searched, also those whose names are misspelt."""
-    table = data.get("optimum")
-    over = table.get("over") if isinstance(table, Mapping) and kind_of(data) == "optimum" else None
-    tables = {
-        name: table for name in (one.table for one in INPUTS.values()) if isinstance(table := data.get(name), Mapping)
-    }
-    entries = {name: tables.get(own.table, {}).get(name) for name, own in INPUTS.items()}
-    bounded = [name for name, entry in entries.items() if isinstance(entry, Mapping) and "num" not in entry]
-    names = [name for name in over if isinstance(name, str)] if isinstance(over, list) else []
-    meant = (name if name in INPUTS else nearest(name, bounded) for name in names)
-    return tuple(dict.fromkeys(name for name in meant if name in bounded))
-
-
-def _expanded(asked: Asked, columns: Mapping[str, Values], over: tuple[str, ...] = ()) -> Asked:
-    """Expand the inputs that are right, columns of a file in their place; those of a fit to the ends of their range."""
-    values, wrong = {}, [*asked.mistakes]
-    for name, entry in asked.form.entries.items():
-        if asked.kind == "fit" and isinstance(entry, Range):
-            entry = Range(start=entry.start, stop=entry.stop)
-        own = [] if asked.kind == "fit" else list(range_mistakes(name, entry, searched=name in over))
-        wrong += [Mistake(steps_of(path), asked.at(steps_of(path)), words) for path, words in own]
-        if not own and entry != "data" and asked.right(home(name)):
-            values[name] = columns.get(name, expanded(entry))
-    return replace(asked, values=values, over=over, mistakes=tuple(wrong))
-
-
-def _between(asked: Asked, written: Mapping[str, Any], found: Iterable[tuple[str, str]]) -> list[Mistake]:
-    """List all mistakes of keys, alone and together; none is missing that is misspelt, or in a table that is wrong."""
-    told, meant = {one.path for one in asked.mistakes}, {one.meant for one in asked.mistakes}
-    whole, mistakes = replace(asked, data=written), [*asked.mistakes]
+def _between(asked: Asked, written: Mapping[str, Any], found: Iterable[tuple[str, str]]) -> Iterator[Mistake]:
+    """Give the mistakes between keys; none is missing that is misspelt, or in a table that is wrong."""
+    known = {path for one in asked.mistakes for path in (one.path, one.meant)}
     for key, words in found:
         path = steps_of(key)
-        value = whole.at(path)
-        if value is not None or not (path in told | meant or path[:1] in asked.wrong):
-            mistakes.append(Mistake(path, value, words))
-    return mistakes
-
-
-def _search(form: Form, over: tuple[str, ...]) -> Search:
-    """Read what is sought."""
-    table = form.optimum
-    if table is None:
-        return Search()
-    inputs = []
-    for name in (name for name in INPUTS if name in over):
-        entry = form.entries[name]
-        assert isinstance(entry, Range)  # noqa: S101 (what is searched is one)
-        low, high = sorted((entry.start, entry.stop))
-        inputs.append(Searched(name=name, low=low, high=high, log=entry.spacing == "log"))
-    least, most = table.require.minimum, table.require.maximum
-    return Search(
-        goals=tuple(name for _, name in table.goals),
-        signs=tuple(1 if way == "maximise" else -1 for way, _ in table.goals),
-        inputs=tuple(inputs),
-        resolution=table.resolution,
-        one_disc=table.require.one_disc,
-        limits=tuple((name, least.get(name, -np.inf), most.get(name, np.inf)) for name in {**least, **most}),
-    )
-
-
-def _uncertainty(table: Any) -> Uncertainty:
-    """Read how far inputs may be off."""
-    if table is None:
-        return Uncertainty()
-    given = tuple((name, one) for name in INPUTS if (one := getattr(table, name)) is not None)
-    return Uncertainty(deviations=given, samples=table.samples, seed=table.seed)
+        value = value_at(written, path)
+        if value is not None or not (path in known or path[:1] in asked.wrong):
+            yield Mistake(path, value, words)
 
 
 def _refuse(source: Source, mistakes: Sequence[Mistake]) -> None:

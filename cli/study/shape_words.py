@@ -4,15 +4,15 @@ from collections.abc import Iterable
 from typing import Final
 
 from gradhesion.core.answers.spectrum import Spectrum
-from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.profile import Harmonic, Profile
 from gradhesion.core.problem.toughness import Rate, Toughness, ToughnessHarmonic
 
-_CONTROLS: Final = {
+CONTROLS: Final = {
     "displacement": "displacement",
     "load": "load, so that the energy of the jump-out, which has no bound, is left out",
     "machine": "displacement through a machine of finite stiffness",
 }
+"""What is controlled."""
 
 
 def shape_in_words(profile: Profile, spectrum: Spectrum | None = None) -> str:
@@ -44,11 +44,6 @@ def profile_table(profile: Profile) -> str:
     """
     waves = "".join(f"    {{ n = {wave.n}, cos = {wave.cos!r}, sin = {wave.sin!r} }},\n" for wave in profile.harmonics)
     return f"exponent  = {profile.exponent!r}\nharmonics = [\n{waves}]"
-
-
-def control_in_words(loading: Loading) -> str:
-    """Say what is controlled."""
-    return _CONTROLS[loading.control]
 
 
 def toughness_in_words(toughness: Toughness) -> str:

@@ -16,8 +16,9 @@ from gradhesion.cli.names.outputs import PARAMETER, PHYSICAL_PARAMETER, SI, labe
 from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
 from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.files import FromFile
-from gradhesion.cli.study.rules.answers import Search, Uncertainty
 from gradhesion.cli.study.rules.axes import Values
+from gradhesion.cli.study.rules.form import Optimum, Uncertainty
+from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.tiling import Block, Tiling, cells_of_chunk
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
 from gradhesion.core.closed.reach import depends_on_contact
@@ -57,6 +58,8 @@ class Study:
 
     name: str
     title: str
+    text: str
+    """The study as TOML: reading it again gives the same study."""
     kind: str
     layout: str
     outputs: tuple[str, ...]
@@ -70,14 +73,14 @@ class Study:
     """How its toughness varies with the radius, if it does."""
     rate: Rate | None = None
     """How the work of its edge grows with the speed, if it does."""
-    search: Search = field(default_factory=Search)
-    """What is sought in the place of values; the inputs that are searched are no parameters of it."""
+    search: Optimum = field(default_factory=Optimum)
+    """What is sought in the place of values."""
+    searched: Mapping[str, Range] = field(default_factory=dict)
+    """The inputs that are searched for it, which are no parameters of the study."""
     uncertainty: Uncertainty = field(default_factory=Uncertainty)
     """How far its inputs may be off."""
     states: tuple[float, ...] = ()
     """The contact radii a/R whose pressure and surface are drawn; empty: the named states of the cycle."""
-    text: str
-    """The study as TOML: reading it again gives the same study."""
     left_out: frozenset[str] = frozenset()
     """The parameters that it does not give since they have no effect; they have a value all the same."""
     chunk: int = field(default_factory=cells_of_chunk)
@@ -118,7 +121,7 @@ class Study:
         if search := self.search:
             in_si = [name + SI for name in search.reported if name in UNITS and "R" in self.given]
             slopes = [search.slope] if self.has_slopes else []
-            whole = [*search.reported, *in_si, *(one.name for one in search.inputs), *slopes]
+            whole = [*search.reported, *in_si, *self.searched, *slopes]
             return (*(names.BEST + name for name in whole), *(() if search.is_front else (names.ON_BOUND,)))
         united = self.outputs if "R" in self.parameters else ()
         physical = [name + names.OF_PHYSICAL for name in united if name in SENSITIVITIES]
@@ -137,7 +140,7 @@ class Study:
     @property
     def given(self) -> tuple[str, ...]:
         """The names of its parameters, and of the inputs that are searched."""
-        return (*self.parameters, *(one.name for one in self.search.inputs))
+        return (*self.parameters, *self.searched)
 
     @property
     def solved(self) -> tuple[str, ...]:
@@ -152,11 +155,6 @@ class Study:
         return bool(self.uncertainty or self.search)
 
     @property
-    def turns_at_a_depth(self) -> bool:
-        """Whether its cycles turn at a depth, which may be below first contact."""
-        return self.turn == TURNS[0]
-
-    @property
     def follows_waves(self) -> bool:
         """Whether its waves are followed one by one, so that there may be too many of them."""
         return self.toughness is not None or self.rate is not None
@@ -164,7 +162,7 @@ class Study:
     @property
     def status_type(self) -> str:
         """The type of `status`: as many bits as its flags need."""
-        return "i2" if self.has_answers or self.turns_at_a_depth or self.follows_waves else "i1"
+        return "i2" if self.has_answers or self.turn == TURNS[0] or self.follows_waves else "i1"
 
     @property
     def watches_slope(self) -> bool:
@@ -181,11 +179,6 @@ class Study:
     def is_cone(self) -> bool:
         """Whether its punch is a cone, whose slope is 1 at every radius."""
         return self.profile.exponent == 1.0
-
-    @property
-    def sort(self) -> str:
-        """What its dataset is like: that of its kind, or of a front."""
-        return "pareto" if self.search.is_front else self.kind
 
     @cached_property
     def labels(self) -> dict[str, tuple[str, ...]]:
@@ -208,8 +201,8 @@ class Study:
             return made
         from gradhesion.core.closed.reduced import sources_of  # noqa: PLC0415 (300 ms for SciPy)
 
-        searched = {one.name for one in self.search.inputs}
-        return tuple(name for name in made if not searched & {*sources_of(name, dict.fromkeys(self.given))})
+        given = dict.fromkeys(self.given)
+        return tuple(name for name in made if not {*self.searched} & {*sources_of(name, given)})
 
     @property
     def turn(self) -> str:
@@ -242,7 +235,7 @@ class Study:
     @property
     def in_blocks(self) -> bool:
         """Whether it is computed in blocks, and finished ones are kept, so that a run resumes where it stopped."""
-        return self.sort in ("map", "optimum")
+        return self.kind in ("map", "optimum") and not self.search.is_front
 
     @property
     def has_parts(self) -> bool:
@@ -263,12 +256,12 @@ class Study:
     def solutions(self) -> int:
         """How often each scene is solved, about: itself, with samples of its inputs, or beside them."""
         if self.search:
-            return self.search.points
+            return int((2 * self.search.resolution - 1) ** len(self.searched))
         return 1 + (self.uncertainty.samples or FEW_SAMPLES) if self.uncertainty else 1
 
     @property
     def sha256(self) -> str:
-        """The SHA-256 of its text."""
+        """The fingerprint of its text."""
         return hashlib.sha256(self.text.encode()).hexdigest()
 
     def shape_of(self, name: str, scenes: tuple[int, ...]) -> tuple[int, ...]:

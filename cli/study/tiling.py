@@ -5,8 +5,9 @@ import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import product
 from typing import Final
+
+import numpy as np
 
 CHUNK: Final = 131_072
 """Cells of a chunk in the file: one MiB of float64."""
@@ -57,17 +58,13 @@ class Tiling:
 
     def __iter__(self) -> Iterator[Block]:
         """Give the blocks in the order of their numbers."""
-        yield from product(*([slice(at, min(at + cut.step, cut.stop)) for at in cut] for cut in self._cuts))
+        return (self[number] for number in range(len(self)))
 
     def __getitem__(self, number: int) -> Block:
         """Give a block by its number, from 0."""
-        if not 0 <= number < len(self):
-            raise IndexError(number)
-        block = []
-        for cut in reversed(self._cuts):
-            number, place = divmod(number, len(cut))
-            block.append(slice(cut[place], min(cut[place] + cut.step, cut.stop)))
-        return tuple(reversed(block))
+        places = np.unravel_index(number, [len(cut) for cut in self._cuts])
+        cuts = zip(places, self._cuts, strict=True)
+        return tuple(slice(cut[i], min(cut[i] + cut.step, cut.stop)) for i, cut in cuts)
 
 
 def tile(shape: tuple[int, ...], cells: int) -> tuple[int, ...]:

@@ -17,14 +17,13 @@ from gradhesion.cli.dataset.read.reader import has_curves, tiling_of
 from gradhesion.cli.dataset.read.sensitivities import parts_of, strongest
 from gradhesion.cli.names.outputs import ON_BOUND, PARETO_POINT, SI, labels_of
 from gradhesion.cli.names.scenes import IDLE, REALISATION, SCENE, SOLVER
-from gradhesion.cli.study.shape_words import control_in_words
+from gradhesion.cli.study.shape_words import CONTROLS
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted, percent
 from gradhesion.cli.terminal.wording import shown
 from gradhesion.cli.words.curve_words import about, curve_lines, jump_lines, number_range, told, unit_behind
 from gradhesion.cli.words.table import columns_of
 from gradhesion.core import FAILED
 from gradhesion.core.answers.flags import FLAG_WORDS
-from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.names import CONTACT_SLOPE, PULL_OFF, RESULTS
 
@@ -50,7 +49,7 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
             rms, most = (1e9 * float(attributes[f"profile_residual_{name}"]) for name in ("rms", "max"))
             source = attributes.get("profile_file", "a file")
             yield f"  fitted to {source}: residual {rms:.3g} nm rms, {most:.3g} nm at most"
-        yield f"control: {control_in_words(Loading(control=attributes.get('control', 'displacement')))}"
+        yield f"control: {CONTROLS.get(attributes.get('control', 'displacement'), '')}"
         yield from (f"{law}: {attributes[law]}" for law in ("toughness", "rate") if law in attributes)
     yield from _parameters(dataset)
     yield from _uncertain_inputs(dataset)

@@ -266,7 +266,7 @@ def test_a_fit_takes_them_in_ranges_and_noise(tmp_path: Path) -> None:
     }  # fmt: skip
     read: Any = gr.load(study)
     assert (read.fixed["R"], read.free["E_star"], read.free["work_of_adhesion"]) == (1e-6, (1e8, 1e10), (0.005, 0.2))
-    assert read.noise == (1e-10, 5e-10)
+    assert read.given_noise == (1e-10, 5e-10)
     for key in ("physical.E_star.start", "fit.noise.load", "physical.R", "parameters.A"):
         with pytest.raises(gr.StudyError, match='"kilogram" is not a unit of this quantity'):
             gr.load(study, set={key: 1 * ureg.kg})

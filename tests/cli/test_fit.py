@@ -160,7 +160,7 @@ def test_cycles_are_found_in_the_order_of_the_points(folder: Path) -> None:
 def test_noise_is_estimated_where_it_is_not_given(gradhesion: Call, folder: Path) -> None:
     lines = (folder / "fit.toml").read_text().splitlines()
     (folder / "fit.toml").write_text("\n".join(line for line in lines if not line.startswith("noise")))
-    assert gr.load("fit.toml").noise == pytest.approx((0.25e-9, 7e-9), rel=0.5)
+    assert gr.load("fit.toml").loop.noise == pytest.approx((0.25e-9, 7e-9), rel=0.5)
     assert "noise estimated" in gradhesion("validate", "fit.toml").stderr
 
 

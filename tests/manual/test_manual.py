@@ -83,7 +83,7 @@ def _check_study(block: Block) -> None:
     if "physical" in table and "parameters" not in table:
         study["parameters"] = {"k": 0.3, "nu": 0.3, "A": 0.02}
     if study.get("kind") == "fit":  # a whole one: its form is checked, its file is that of the page
-        assert checked(table).mistakes == (), block.place
+        assert not checked(table).mistakes, block.place
     else:
         assert study_from(study).scenes >= 1, block.place
 

@@ -8,7 +8,7 @@ where it is positive. The machine has moved by minus the height, and the depth i
 import hashlib
 import logging
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path, PurePath
 from typing import Any, Final
 
@@ -79,17 +79,15 @@ def read_raw(path: Path, table: DataTable, *, through_machine: bool) -> list[Raw
             found = [_of_curve(curve, table, sha256, through_machine=through_machine) for curve in curves]
     except LoopFileError:
         raise
-    except OSError as error:
-        reason = error.strerror or error
-        raise LoopFileError("file", f"the file cannot be read ({reason}); name one that is there") from None
     except (AFMFileFormatError, MissingMetaDataError, Exception) as error:  # noqa: BLE001 (the first two are none)
         reason = " ".join(str(error).split())[:200] or type(error).__name__
-        raise LoopFileError("file", f"afmformats cannot read it ({reason}); export it again, or as CSV") from None
+        remedy = "name one that is there, or export it again or as CSV"
+        raise LoopFileError("file", f"the file cannot be read ({reason}); {remedy}") from None
     finally:
         log.disabled = silent
     if not found:
         raise LoopFileError("file", "the file has no force curves; name one with approach and retraction")
-    return [Raw(**{**vars(found[0]), "of": ""})] if len(found) == 1 else found
+    return [replace(found[0], of="")] if len(found) == 1 else found
 
 
 def is_force_file(table: DataTable) -> bool:
@@ -111,18 +109,20 @@ def _of_curve(curve: Any, table: DataTable, sha256: str, *, through_machine: boo
             raise LoopFileError("file", f"the curve has no column {shown(name)}, only {there}; export it with that one")
         return np.asarray(curve[name], dtype=np.float64)
 
-    def column(key: str, requested: ColumnTable) -> NDArray[np.float64]:
-        name = requested.column
-        if name not in curve:
-            raise LoopFileError(key, f"the file has no column {shown(name)}; {did_you_mean(name, curve.columns)}")
-        units = {name: "N" if name == "force" else "m"}  # afmformats has SI units
-        return _in_si(Columns(values={name: known(name)}, units=units, sha256=sha256, place=str), key, requested)
+    def column(key: str) -> NDArray[np.float64]:
+        requested = getattr(table, key)
+        if requested.column not in curve:
+            near = did_you_mean(requested.column, curve.columns)
+            raise LoopFileError(key, f"the file has no column {shown(requested.column)}; {near}")
+        unit = "N" if requested.column == "force" else "m"  # afmformats has SI units
+        found = {requested.column: known(requested.column)}
+        return _in_si(Columns(values=found, units=dict.fromkeys(found, unit), sha256=sha256, place=str), key, requested)
 
-    load = column("load", table.load) if table.load else known("force")
+    load = column("load") if table.load else known("force")
     height = next((name for name in _HEIGHTS if name in curve), _HEIGHTS[0])
     spring = float(curve.metadata.get("spring constant", np.nan))
     if table.depths:
-        depth = column(table.depths, getattr(table, table.depths))
+        depth = column(table.depths)
     elif through_machine:
         depth = -known(height)
     elif _TIP in curve:
@@ -145,17 +145,17 @@ def _of_table(path: Path, table: DataTable) -> Raw:
     if bool(depth.back) != bool(load.back) or (depth.back and (table.branch or table.cycle)):
         sentence = "back names the columns of unloading, of depths and of loads, and then there is no branch or cycle"
         raise LoopFileError("load" if depth.back else table.depths, f"{sentence}; write all of them so")
-    wanted = [(table.depths, depth.column), ("load", load.column), ("branch", table.branch), ("cycle", table.cycle)]
-    wanted += [(table.depths, depth.back), ("load", load.back)]
+    wanted = {depth.column: table.depths, load.column: "load", depth.back: table.depths, load.back: "load"}
+    wanted |= {name: key for name, key in ((table.branch, "branch"), (table.cycle, "cycle")) if name}
+    wanted.pop("", None)  # where nothing stands back
     pauses = dict.fromkeys((*PAUSES, *(word.strip().lower() for word in table.leave_out)), PAUSE)
     words = {table.branch: BRANCHES | pauses} if table.branch else {}
     try:
-        named = [name for _, name in wanted if name]
-        found = read_columns(path, only=named, words=words, whole=[table.cycle] if table.cycle else [])
+        found = read_columns(path, only=[*wanted], words=words, whole=[table.cycle] if table.cycle else [])
     except ColumnsError as error:
         raise LoopFileError("file", str(error)) from None
-    for key, name in wanted:
-        if name and name not in found.values:
+    for name, key in wanted.items():
+        if name not in found.values:
             there = (*found.values, *found.others)
             raise LoopFileError(key, f"the file has no column {shown(name)}; {did_you_mean(name, there)}")
     columns = ((table.depths, depth), ("load", load))

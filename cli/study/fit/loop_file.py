@@ -21,6 +21,12 @@ from gradhesion.core.loops.measured.plausible import fault_of
 MOST_FILES: Final = 10_000
 """Files of one study: each is a fit."""
 _NONE: Final = np.zeros(0)
+_SIGNS: Final = {
+    "depth": ("depth", "the load rises towards the shallowest points, but depth grows into the half-space"),
+    "load": ("load", "the load falls towards the deepest points, but positive loads press"),
+    "both": ("load", "the load falls towards the shallowest points: both its sign and that of the depth are wrong"),
+}
+"""The key that is wrong, and why, by the fault of the points."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -74,8 +80,8 @@ class LoopFile:
 
 def read_loops(
     folder: Path, table: DataTable, fitted: list[str], *, average: bool, through_machine: bool
-) -> tuple[tuple[LoopFile, ...], LoopFileError | None]:
-    """Read all loops of a study, sorted by the names of their files; and say why none of them can be fitted.
+) -> tuple[LoopFile, ...]:
+    """Read all loops of a study, sorted by the names of their files; LoopFileError where none of them can be fitted.
 
     There must be points enough for what is `fitted`; one of several loops that cannot be is kept with its problem. Many
     points are averaged if `average`; depths are displacements of a machine if `through_machine`.
@@ -83,7 +89,7 @@ def read_loops(
     names = _names_of(folder, table.file)
     if not names or len(names) > MOST_FILES:
         what = f"{len(names):,} files are more than {MOST_FILES:,}" if names else "no file matches this pattern"
-        return (), LoopFileError("file", f'{what}; write the path from the folder of the study, as "curves/*.csv"')
+        raise LoopFileError("file", f'{what}; write the path from the folder of the study, as "curves/*.csv"')
     loops: list[LoopFile] = []
     errors: list[LoopFileError] = []
     for name in names:
@@ -96,8 +102,8 @@ def read_loops(
     if errors and all(loop.problem for loop in loops):
         several = f" (and so with each of the {counted(len(loops), 'loop')})"
         words = str(errors[0]) if len(loops) == 1 else f"{loops[0].file}: {errors[0]}{several}"
-        return tuple(loops), LoopFileError(errors[0].key, words)
-    return tuple(loops), None
+        raise LoopFileError(errors[0].key, words)
+    return tuple(loops)
 
 
 def _names_of(folder: Path, file: str) -> list[str]:
@@ -181,27 +187,14 @@ def _loop(raw: Raw, file: str, table: DataTable, fitted: list[str], *, average: 
 def _refuse_faults(loop: LoopFile, table: DataTable) -> None:
     """Refuse points without contact, and with a sign that is wrong."""
     fault = fault_of(loop.depth, loop.load, loop.noise[1] / np.sqrt(loop.counts), loop.unloading)
-    depth = table.depths or "indentation"
     if fault == "straight":
         raise LoopFileError("load", "the data show no contact, but a linear load; name another file or column")
-    if fault == "depth":
-        words = "the load rises towards the shallowest points, but depth grows into the half-space: its sign is wrong"
-        raise LoopFileError(depth, f"{words}; write {_turned(depth, table)}")
     if fault:
-        where, keys = ("deepest", ("load",)) if fault == "load" else ("shallowest", ("load", depth))
-        words = f"the load falls towards the {where} points, but positive loads press: its sign is wrong"
-        more = ", as is that of the depth" if len(keys) > 1 else ""
-        raise LoopFileError("load", f"{words}{more}; write {' and '.join(_turned(key, table) for key in keys)}")
-
-
-def _turned(key: str, table: DataTable) -> str:
-    """Write a column with the other sign."""
-    column = getattr(table, key)
-    if column is None:
-        return f'{key} = {{ column = "...", sign = -1 }}'
-    unit = f', unit = "{column.unit}"' if column.unit else ""
-    sign = "" if column.sign == -1 else ", sign = -1"
-    return f'{key} = {{ column = "{column.column}"{unit}{sign} }}'
+        key, words = _SIGNS[fault]
+        key = (table.depths or "indentation") if key == "depth" else key
+        name = getattr(table, key).column if getattr(table, key) else "..."
+        remedy = f'{key} = {{ column = "{name}", sign = -1 }} with its unit'
+        raise LoopFileError(key, f"{words}; write {remedy}, or without sign where it is -1")
 
 
 def _refuse_few(loop: LoopFile, fitted: list[str]) -> None:

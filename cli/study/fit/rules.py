@@ -1,11 +1,14 @@
 """What the keys of a fit have to do with each other: for each rule where it is broken, and what to write instead."""
 
+import math
 from typing import Any, Final
+
+import numpy as np
 
 from gradhesion.cli.study.fit.columns import is_force_file
 from gradhesion.cli.study.rules.asked import Asked, Found, home
 from gradhesion.cli.study.rules.form import Form
-from gradhesion.cli.study.rules.inputs import SOFT, inputs, rate, together, toughness, waves, works
+from gradhesion.cli.study.rules.inputs import inputs, rate, together, toughness, waves, works
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import line_of, required
 from gradhesion.core.problem.inputs import INPUTS
@@ -42,8 +45,7 @@ def broken(asked: Asked) -> Found:
             yield table, required(table)
     if not asked.right("kind") or "physical" not in asked.data:
         return
-    yield from together(asked, "physical", "toughness")
-    for rule in (inputs, waves, _profile, _columns, _machine, works, toughness, rate, _searched):
+    for rule in (together, inputs, waves, _profile, _columns, _machine, works, toughness, rate, _searched):
         yield from rule(asked)
 
 
@@ -52,8 +54,6 @@ def _profile(asked: Asked) -> Found:
     for name in ("file", "spectrum", "sha256", "terms", "up_to"):
         if asked.has(f"profile.{name}"):
             yield f"profile.{name}", "a loop has one punch; give the harmonics that `gradhesion profile` prints"
-    if asked.form.profile.exponent == "fit":
-        yield "profile.exponent", "there is no file to fit it to; write a number"
 
 
 def _columns(asked: Asked) -> Found:
@@ -115,8 +115,10 @@ def _searched(asked: Asked) -> Found:
         yield "physical", 'nothing is fitted; write for example E_star = { start = "0.1 GPa", stop = "10 GPa" }'
     for name in [name for name in free if name in ONE_NUMBER][1:]:
         yield home(name), "a loop depends on E_star, c0 and nu through one number; give all but one of them as numbers"
+    sizes = ["R", next((name for name in free if name in ONE_NUMBER), "E_star"), "work_of_adhesion"]
+    endless = np.all(np.isinf(asked.values.get("a_max", math.inf)))
+    if {*sizes} <= {*free} and endless and not (asked.waved or asked.form.toughness or asked.form.rate):
+        words = "the loop of a smooth punch, which has no length of its own, does not tell"
+        yield home("R"), f"{words} {sizes[0]}, {sizes[1]} and {sizes[2]} apart; give one of them as a number"
     if {*_SPEEDS} <= {*free}:
         yield home(_SPEEDS[1]), "a loop depends on the ratio of the two speeds alone; give one of them as a number"
-    k = given.get("k")
-    if (k.stop if isinstance(k, Range) else k) == 1.0 and given.get("nu") != 0.5:
-        yield "parameters.k", SOFT

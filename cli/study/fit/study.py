@@ -4,6 +4,7 @@ import hashlib
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from gradhesion.cli.study.fit.columns import LoopFileError
 from gradhesion.cli.study.fit.loop_file import LoopFile, fingerprint, read_loops
 from gradhesion.cli.study.fit.rules import NUMBER_ALONE, control_of, given_in
 from gradhesion.cli.study.rules.asked import Asked
@@ -12,7 +13,7 @@ from gradhesion.cli.study.rules.inputs import shape_of
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import Mistake
 from gradhesion.cli.study.text.source import Source
-from gradhesion.cli.study.text.written import toml_of, with_fingerprint
+from gradhesion.cli.study.text.written import with_fingerprints
 from gradhesion.cli.tables.columns import changed
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
@@ -25,7 +26,7 @@ from gradhesion.core.problem.toughness import Rate, Toughness
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class FitStudy:
-    """A valid study of a fit."""
+    """A valid study of a fit; the power of its law of speed is searched where `free` has it."""
 
     name: str
     title: str
@@ -46,16 +47,20 @@ class FitStudy:
     """Standard deviations of depth and load, in SI units, where the study has them."""
     intervals: str
     starts: int
+    adhesion_range: float | None = None
+    """The range of the attraction in m, for the Tabor number, where the study has it."""
     profile: Profile = field(default_factory=Profile)
     loading: Loading = field(default_factory=Loading)
     toughness: Toughness | None = None
     rate: Rate | None = None
-    """The law of a moving edge; its power is searched where `free` has it."""
-    adhesion_range: float | None = None
-    """The range of the attraction in m, for the Tabor number, where the study has it."""
     folder: Path = Path()
     """Where the files are."""
     kind: str = "fit"
+
+    @property
+    def sha256(self) -> str:
+        """The fingerprint of its text."""
+        return hashlib.sha256(self.text.encode()).hexdigest()
 
     @property
     def loop(self) -> LoopFile:
@@ -66,16 +71,6 @@ class FitStudy:
     def is_of_one(self) -> bool:
         """Whether there is one loop, named without a pattern."""
         return len(self.loops) == 1 and self.file == self.loop.file
-
-    @property
-    def noise_is_given(self) -> bool:
-        """Whether the study has the noise."""
-        return self.given_noise is not None
-
-    @property
-    def noise(self) -> tuple[float, float]:
-        """The noise of the first loop."""
-        return self.noise_of(self.loop)
 
     def noise_of(self, loop: LoopFile) -> tuple[float, float]:
         """Give the standard deviations of depth and load of one of its loops, in SI units."""
@@ -94,17 +89,12 @@ class FitStudy:
         return (*self.free, *self.offsets.names)
 
     @property
-    def sha256(self) -> str:
-        """The fingerprint of its text."""
-        return hashlib.sha256(self.text.encode()).hexdigest()
-
-    @property
     def notes(self) -> tuple[str, ...]:
         """What there is to say of the data before they are fitted."""
         sentences = []
         for loop in self.loops:
             sentences += loop.notes
-            if not self.noise_is_given and not loop.problem:
+            if self.given_noise is None and not loop.problem:
                 depth, load = (1e9 * one for one in loop.noise)
                 words = f"{loop.file}: noise estimated from differences of neighbours: {depth:.3g} nm, {load:.3g} nN"
                 sentences.append(f"{words}; give it under [fit] where it is known")
@@ -118,9 +108,10 @@ def loops_of(folder: Path, asked: Asked) -> tuple[tuple[LoopFile, ...], list[Mis
     fitted = [name for name, entry in given_in(form).items() if isinstance(entry, Range)]
     fitted += Offsets(**dict(form.fit.offsets)).names
     through_machine = control_of(form) == "machine"
-    loops, error = read_loops(folder, table, fitted, average=form.fit.average, through_machine=through_machine)
-    if error:
-        return loops, [Mistake(("data", error.key), asked.at(("data", error.key)), str(error))]
+    try:
+        loops = read_loops(folder, table, fitted, average=form.fit.average, through_machine=through_machine)
+    except LoopFileError as error:
+        return (), [Mistake(("data", error.key), asked.at(f"data.{error.key}"), str(error))]
     sha256 = fingerprint(loops)
     if table.sha256 in ("", sha256):
         return loops, []
@@ -135,12 +126,11 @@ def fit_of(source: Source, form: Form, loops: tuple[LoopFile, ...]) -> FitStudy:
     free = {name: (entry.start, entry.stop) for name, entry in given.items() if isinstance(entry, Range)}
     fixed = {name: float(entry) for name, entry in given.items() if isinstance(entry, int | float)}
     exponent = fixed.pop("exponent", 0.0) or sum(free.get("exponent", ())) / 2.0
-    data, text = with_fingerprint(source.data, source.text, ("data",), fingerprint(loops))
     return FitStudy(
         name=source.name,
         title=form.title or source.name,
-        text=text or toml_of(data),
-        file=data["data"]["file"],
+        text=with_fingerprints(source.data, source.text, {("data",): fingerprint(loops)}),
+        file=source.data["data"]["file"],
         loops=loops,
         fixed={name: value for name, value in fixed.items() if name not in NUMBER_ALONE},
         free=free,

@@ -28,9 +28,9 @@ def expanded(entry: Entry) -> Values:
     """
     if not isinstance(entry, Range):
         return np.array(entry, dtype=np.float64) + 0.0 if isinstance(entry, list) else float(entry) + 0.0
-    ends = np.array([entry.start, entry.stop]) + 0.0  # no negative zeros
     if entry.num is None:  # searched
-        return ends
+        return np.array(entry.ends)
+    ends = np.array([entry.start, entry.stop]) + 0.0  # no negative zeros
     spaced = np.geomspace if entry.spacing == "log" else np.linspace
     values = spaced(ends[0], ends[1], entry.num)
     values = _shortest(values, np.abs(values) if entry.spacing == "log" else np.abs(ends).max())
@@ -56,29 +56,27 @@ def _shortest(values: NDArray[np.float64], size: NDArray[np.float64] | float) ->
     return moved if np.unique(moved).size == np.unique(values).size else values
 
 
-def range_mistakes(name: str, entry: Entry, *, searched: bool) -> Iterator[tuple[str, str]]:
+def range_mistakes(name: str, entry: Entry) -> Iterator[tuple[str, str]]:
     """Check that a range makes sense as a whole, and that an axis can be held in memory."""
     at = f"{INPUTS[name].table}.{name}"
     if isinstance(entry, list) and len(entry) > MOST_VALUES:
         yield at, f"more than {MOST_VALUES:,} values in one list; split the study"
     if not isinstance(entry, Range):
         return
-    if entry.num is None and not searched:
-        yield f"{at}.num", "this key is required; write for example num = 50"
-    elif entry.num and entry.num > MOST_VALUES:
+    if entry.num and entry.num > MOST_VALUES:
         yield f"{at}.num", f"more than {MOST_VALUES:,} values in one axis; split the study"
     elif entry.num == 1 and entry.start != entry.stop:
         yield f"{at}.num", "one value cannot be at both start and stop; use num = 2 or more, or a list of one value"
-    elif entry.start == entry.stop and entry.num != 1 and not searched:
-        yield at, "start and stop are the same, so that the value repeats; write a list of one value or another stop"
-    elif entry.spacing == "log" and min(entry.start, entry.stop) <= 0.0:
+    elif entry.start == entry.stop and entry.num != 1:
+        yield at, "start and stop are the same; write another stop, or a number"
+    elif entry.spacing == "log" and entry.ends[0] <= 0.0:
         end = "start" if entry.start <= 0.0 else "stop"
         yield f"{at}.{end}", 'log spacing needs values > 0; raise it, or use spacing = "linear"'
 
 
 def repeated(name: str, values: Values) -> Iterator[tuple[str, str]]:
     """Check that an axis has no value twice."""
-    unique, counts = np.unique(np.atleast_1d(values), return_counts=True)
+    unique, counts = np.unique(values, return_counts=True)
     if counts.max(initial=1) > 1:
         value = float(unique[counts.argmax()])
         first, second, *_ = np.flatnonzero(values == value).tolist()

@@ -51,7 +51,7 @@ def _zero(name: str, *words: str) -> Any:
     """Make the type of a zero of an instrument: a word, false, or the ends of the range in which it is searched."""
 
     def read(value: object) -> Any:
-        if value is False or (isinstance(value, str) and value in words) or isinstance(value, tuple):
+        if value is False or (isinstance(value, str) and value in words):
             return value
         if not isinstance(value, list) or len(value) != 2:
             end, known = QUANTITIES[name].value.strip('"'), " or ".join(f'"{word}"' for word in words)
@@ -77,7 +77,7 @@ def _offsets(value: object) -> object:
     """Read whether all zeros are fitted, or none."""
     if isinstance(value, bool):
         return dict.fromkeys(("indentation", "load"), "free" if value else False)
-    if not isinstance(value, Mapping | Table):
+    if not isinstance(value, Mapping):
         what = "this must be true or false, or a table; write for example offsets = { slope = true }"
         raise ValueError(what)  # noqa: TRY004 (pydantic hears no other)
     return value

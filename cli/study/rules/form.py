@@ -5,14 +5,16 @@ pydantic checks the whole study at once and gives its JSON Schema. Its findings 
 keys have to do with each other is in the other modules.
 """
 
-import dataclasses
+from dataclasses import fields
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, get_args
 
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
+from gradhesion.cli.names.outputs import OF_LINEAR, SI
 from gradhesion.cli.study.rules.fit_form import DataTable, FitTable
 from gradhesion.cli.study.rules.keys import (
+    Deviation,
     File,
     Finite,
     Range,
@@ -54,36 +56,32 @@ Words = Annotated[
 if TYPE_CHECKING:  # made when this is run, which the types cannot show
     Parameters = Any
     Physical = Any
+    Deviations = Any
     Shape = Any
     SpectrumTable = Any
-    LoadingTable = Any
     ToughnessTable = Any
+    LoadingTable = Any
     RateTable = Any
-    Deviations = Any
 else:
-
-    def _inputs_of(name: str) -> dict[str, Any]:
-        """Make the keys of a table of inputs."""
-        return {one.name: input_key(one) for one in INPUTS.values() if one.table == name}
-
-    def _power() -> Any:
-        """Make the key of the power of the speed: a number, or a range that a fit searches."""
-        (least, most), about = EXPONENTS, dataclasses.fields(Rate)[0].metadata["about"]
-        number = Annotated[Finite, Field(ge=least, le=most)]
-        forms = tagged(plain=number, table=range_of(Input("exponent", "", "", "0.3"), number))
-        schema = {"anyOf": [{"type": "number"}, {"type": "object"}], "minimum": least, "maximum": most}
-        return Annotated[forms, WithJsonSchema(schema)], said(about, "0.6")
-
-    _points = tagged(plain=Annotated[str, Field(min_length=1)], table=File)
-    _about = "scenes from a file (CSV or NetCDF): one row per scene, one column per parameter"
-    Parameters = named("Parameters", **_inputs_of("parameters"), points=(_points, said(_about, '"samples.csv"', None)))
-    Physical = named("Physical", **_inputs_of("physical"))
-    Shape = table_of(Profile)
-    SpectrumTable = table_of(Spectrum)
-    LoadingTable = table_of(Loading, machine_stiffness=input_key(INPUTS["machine_stiffness"]))
-    ToughnessTable = table_of(Toughness)
-    RateTable = table_of(Rate, exponent=_power())
+    _power = Annotated[Finite, Field(ge=EXPONENTS[0], le=EXPONENTS[1])]
+    _powers = Annotated[
+        tagged(plain=_power, table=range_of(Input("exponent", "", "", "0.3"), _power)),
+        WithJsonSchema({"anyOf": [{"type": "number"}, {"type": "object"}], "minimum": 0.1, "maximum": 2.0}),
+    ]
+    _points = (
+        tagged(plain=Annotated[str, Field(min_length=1)], table=File),
+        said("scenes from a file (CSV or NetCDF): one row per scene, one column per parameter", '"samples.csv"', None),
+    )
+    _parameters, _physical = (
+        {one.name: input_key(one) for one in INPUTS.values() if one.table == name}
+        for name in ("parameters", "physical")
+    )
+    Parameters = named("Parameters", **_parameters, points=_points)
+    Physical = named("Physical", **_physical)
     Deviations = named("Deviations", **{one.name: deviation_key(one) for one in INPUTS.values()})
+    Shape, SpectrumTable, ToughnessTable = table_of(Profile), table_of(Spectrum), table_of(Toughness)
+    LoadingTable = table_of(Loading, machine_stiffness=input_key(INPUTS["machine_stiffness"]))
+    RateTable = table_of(Rate, exponent=(_powers, said(fields(Rate)[0].metadata["about"], "0.6")))
 
 
 def _power_of_two(value: int) -> int:
@@ -101,12 +99,21 @@ class Uncertainty(Deviations):  # type: ignore[misc]
     )
     seed: int = said("seed of the random numbers", "1", 0, ge=0, lt=2**63)
 
+    def __bool__(self) -> bool:
+        """Report whether anything is uncertain."""
+        return bool(self.deviations)
+
+    @property
+    def deviations(self) -> dict[str, Deviation]:
+        """The uncertain inputs, in the order of a dataset's dimensions."""
+        return {name: one for name in INPUTS if (one := getattr(self, name)) is not None}
+
 
 class ProfileTable(Shape):  # type: ignore[misc]
     """The shape of the punch: that of a series, of random waves or of heights in a file."""
 
     exponent: Annotated[Finite, Field(ge=1.0)] | Literal["fit"] = said(
-        dataclasses.fields(Profile)[0].metadata["about"], "2.0", 2.0, json_schema_extra={"minimum": 1.0}
+        fields(Profile)[0].metadata["about"], "2.0", 2.0, json_schema_extra={"minimum": 1.0}
     )
     spectrum: SpectrumTable | None = said(
         "random self-affine waves for harmonics; A is their rms height over lambda", "{ hurst = 0.8, last = 32 }", None
@@ -157,10 +164,41 @@ class Optimum(Table):
         "conditions that an optimum must meet", "{ one_disc = true, minimum = { dissipated_energy = 0.1 } }", Require()
     )
 
+    def __bool__(self) -> bool:
+        """Report whether anything is sought."""
+        return bool(self.goals)
+
     @property
-    def goals(self) -> list[tuple[str, str]]:
-        """Every goal, behind the key that names it."""
-        return [(way, name) for way in ("maximise", "minimise") for name in getattr(self, way)]
+    def goals(self) -> list[str]:
+        """One output, or two whose best compromises are sought; those in SI units end so."""
+        return [*self.maximise, *self.minimise]
+
+    @property
+    def signs(self) -> list[int]:
+        """1 where a goal is to be as large as possible, -1 where as small."""
+        return [1] * len(self.maximise) + [-1] * len(self.minimise)
+
+    @property
+    def is_front(self) -> bool:
+        """Whether the best compromises of two goals are sought."""
+        return len(self.goals) > 1
+
+    @property
+    def reported(self) -> tuple[str, ...]:
+        """The outputs that are reported of an optimum: the goals, and what is limited."""
+        names = (*self.goals, *self.require.minimum, *self.require.maximum)
+        return tuple(dict.fromkeys(name.removesuffix(SI) for name in names))
+
+    @property
+    def solved(self) -> tuple[str, ...]:
+        """The outputs that are solved for on the way; `delta_max` follows the loading path, where nothing else does."""
+        return (*self.reported, *(("delta_max",) if self.require.one_disc else ()))
+
+    @property
+    def slope(self) -> str:
+        """The sensitivity that belongs to the goal; empty if it has none, or there are two."""
+        plain = self.goals[0].removesuffix(SI) if len(self.goals) == 1 else ""
+        return f"{plain}_sensitivity" if plain in OF_LINEAR else ""
 
 
 def _one_line(title: str) -> str:

@@ -28,23 +28,31 @@ EITHER: Final = {
     "toughness": ("rate",),
 }
 """Keys that cannot stand beside others."""
-SOFT: Final = "with k = 1 and nu other than 0.5 the surface has no stiffness; use nu = 0.5, or k below 1"
 _MAY_MIX: Final = ("A", "closing_ratio", "machine_stiffness")
 """The ratios that may stand beside quantities with units."""
 _MOST_AMPLITUDES: Final = 1000
 """Different amplitudes of points up to which each is looked at."""
 
 
-def together(asked: Asked, *tables: str) -> Found:
-    """Check the keys of some tables that need, or exclude, each other."""
+def together(asked: Asked) -> Found:
+    """Check the keys that need, or exclude, each other."""
     for key, other in NEEDS.items():
         table, name = steps_of(other)
-        if table in tables and asked.has(key) and not asked.has(other):
+        if asked.has(key) and not asked.has(other):
             yield key, f"this needs {name}; add {line_of(table, name)} under [{table}], or remove this key"
     for key, others in EITHER.items():
         beside = next(filter(asked.has, others), "")
-        if key.split(".")[0] in tables and beside and asked.has(key):
+        if beside and asked.has(key):
             yield key, f"this cannot be combined with {beside}; remove one of the two"
+    if asked.form.profile.exponent == "fit" and not asked.has("profile.file"):
+        yield "profile.exponent", "there is no file to fit it to; write a number, for example exponent = 2.0"
+    k, nu = (np.atleast_1d(asked.axes.get(name, 0.5)) for name in ("k", "nu"))
+    soft = bool(np.any(k == 1.0) and np.any(nu != 0.5))
+    if asked.points and soft:  # in one scene, unless the lists differ in length
+        soft = (1 in (k.size, nu.size) or k.size == nu.size) and bool(np.any((k == 1.0) & (nu != 0.5)))
+    if soft:
+        words = "with k = 1 and nu other than 0.5 the surface has no stiffness; use nu = 0.5, or k below 1"
+        yield "parameters.k", words
 
 
 def inputs(asked: Asked) -> Found:

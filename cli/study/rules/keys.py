@@ -1,14 +1,13 @@
 """What the tables of a study are made of: keys with a meaning and an example, of inputs and of classes of the core."""
 
-import dataclasses
 import math
 import re
 from collections.abc import Mapping
+from dataclasses import MISSING, dataclass, fields
 from typing import Annotated, Any, ClassVar, Final, Literal, Union, get_args, get_type_hints
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, WithJsonSchema, create_model
 
-from gradhesion.cli.study.rules.answers import Deviation
 from gradhesion.cli.study.text.quantities import ratio_sentence, si_value
 from gradhesion.core.problem.inputs import INPUTS, Input
 from gradhesion.core.problem.profile import MOST_HARMONICS
@@ -54,7 +53,7 @@ class OfCore(Table):
 
     def made(self, **instead: Any) -> Any:
         """Make what it says, with some values in the place of its own."""
-        own = {one.name: getattr(self, one.name) for one in dataclasses.fields(self.made_as)} | instead
+        own = {one.name: getattr(self, one.name) for one in fields(self.made_as)} | instead
         given = {name: value for name, value in own.items() if value is not None}
         waves = {name: tuple(one.made() for one in value) for name, value in given.items() if isinstance(value, list)}
         return self.made_as(**given | waves)
@@ -63,7 +62,7 @@ class OfCore(Table):
 def table_of(kind: type, **more: Any) -> Any:
     """Make the table of a study whose keys are the settings of a class of the core, and perhaps `more`."""
     hints, own = get_type_hints(kind), {}
-    for one in dataclasses.fields(kind):
+    for one in fields(kind):
         hint, default, limits = hints[one.name], one.default, dict(one.metadata["bounds"])
         if items := get_args(hint):
             hint, limits = list[table_of(items[0])], {"min_length": 1, "max_length": MOST_HARMONICS}  # type: ignore[misc]
@@ -71,9 +70,9 @@ def table_of(kind: type, **more: Any) -> Any:
             hint = Literal[one.metadata["choices"]]
         elif hint is float:
             limits["allow_inf_nan"] = False
-        if default is None or (items and default is not dataclasses.MISSING):
+        if default is None or (items and default is not MISSING):
             hint, default, limits = Annotated[hint, Field(**limits)] | None, None, {}
-        default = ... if default is dataclasses.MISSING else default
+        default = ... if default is MISSING else default
         own[one.name] = (hint, said(one.metadata["about"], one.metadata["example"], default, **limits))
     made: Any = create_model(kind.__name__, __base__=OfCore, __doc__=str(kind.__doc__).partition("\n")[0], **own | more)
     made.made_as = kind
@@ -97,6 +96,12 @@ class Range(Table):
     )
     spacing: Literal["linear", "log"] = said("whether differences or ratios of neighbours are equal", '"log"', "linear")
 
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The bounds of what is searched, the lower first."""
+        low, high = sorted((self.start + 0.0, self.stop + 0.0))  # no negative zeros
+        return low, high
+
 
 class File(Table):
     """A file with its fingerprint."""
@@ -111,7 +116,7 @@ def tagged(**forms: Any) -> Any:
     """Make the type of a value of several forms (plain, list, table), told apart before any is tried."""
 
     def form_of(value: object) -> str:
-        return "table" if isinstance(value, Mapping | Table) else "list" if isinstance(value, list) else "plain"
+        return "table" if isinstance(value, Mapping) else "list" if isinstance(value, list) else "plain"
 
     own: Any = Union[tuple(Annotated[form, Tag(name)] for name, form in forms.items())]  # noqa: UP007 (at run time)
     return Annotated[own, Discriminator(form_of)]
@@ -146,6 +151,19 @@ def input_key(own: Input) -> tuple[Any, Any]:
 # How far they may be off.
 
 
+@dataclass(frozen=True, kw_only=True)
+class Deviation:
+    """The distribution of one input, in SI units: normal about the value of each scene, or uniform."""
+
+    deviation: float = 1.0
+    relative: bool = False
+    """Whether it is a share of the value."""
+    low: float = -math.inf
+    high: float = math.inf
+    """The bounds of the input, or the ends of a uniform distribution."""
+    uniform: bool = False
+
+
 def deviation_of(value: object, name: str) -> Deviation:
     """Read the deviation of an input; ValueError says what to write instead of what is none.
 
@@ -155,20 +173,15 @@ def deviation_of(value: object, name: str) -> Deviation:
     >>> nu.uniform, nu.low, nu.high
     (True, 0.28, 0.32)
     """
-    if isinstance(value, Deviation):
-        return value
     own = INPUTS[name]
     forms = f'write for example {name} = "5 %", a standard deviation in its unit, or {{ low = .., high = .. }}'
 
     def number(one: object) -> float:
-        plain = isinstance(one, int | float) and not isinstance(one, bool)
-        if own.table == "physical" and not plain:
-            return si_value(one, name)
         if own.table == "physical":
-            raise ValueError(f"a number without a unit; {forms}")
-        if not plain:
-            raise ValueError((isinstance(one, str) and ratio_sentence(one, name)) or f"not a deviation; {forms}")
-        return float(one)  # type: ignore[arg-type]
+            return si_value(one, name)
+        if isinstance(one, int | float) and not isinstance(one, bool):
+            return float(one)
+        raise ValueError((isinstance(one, str) and ratio_sentence(one, name)) or f"not a deviation; {forms}")
 
     if isinstance(value, Mapping):
         if {*value} != {"low", "high"}:

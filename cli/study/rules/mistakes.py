@@ -14,7 +14,7 @@ from gradhesion.cli.study.rules.keys import Table
 from gradhesion.cli.study.text.quantities import ratio_sentence
 from gradhesion.cli.study.text.written import Path, dotted
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
-from gradhesion.core.problem.inputs import INPUTS, Input
+from gradhesion.core.problem.inputs import INPUTS
 
 _STEPS: Final = ("step", "by", "increment", "delta")
 """What a range does not have."""
@@ -56,20 +56,13 @@ def _path(detail: ErrorDetails, data: Mapping[str, Any]) -> Path:
 
 
 @cache
-def tables_of(model: type[Table], above: Path = ()) -> dict[Path, type[Table]]:
-    """Find the tables of a form by their keys, the whole of it under the empty one."""
-    found = {above: model}
-    for name, field in model.model_fields.items():
-        for inner in _tables_in(field.annotation):
-            found |= tables_of(inner, (*above, name))
-    return found
-
-
-def _tables_in(annotation: Any) -> list[type[Table]]:
-    """Find the tables that a type names."""
-    if isinstance(annotation, type) and issubclass(annotation, Table):
-        return [annotation]
-    return [table for one in get_args(annotation) for table in _tables_in(one)]
+def tables_of(kind: Any, above: Path = ()) -> dict[Path, type[Table]]:
+    """Find the tables in a type by their keys, that of a table itself under the empty one."""
+    if not (isinstance(kind, type) and issubclass(kind, Table)):
+        return {path: own for one in get_args(kind) for path, own in tables_of(one, above).items()}
+    keys: Mapping[str, Any] = kind.model_fields
+    inner = [tables_of(field.annotation, (*above, name)) for name, field in keys.items()]
+    return {above: kind} | {path: own for tables in inner for path, own in tables.items()}
 
 
 def line_of(*path: str | int) -> str:
@@ -97,54 +90,44 @@ def _sentence(detail: ErrorDetails, path: Path) -> str:
         return str(detail["ctx"]["error"])
     if kind == "missing":
         return required(*path)
-    if kind == "literal_error" and (known := re.findall(r"'([^']+)'", str(detail["ctx"]["expected"]))):
+    if kind == "literal_error":
+        known = re.findall("'([^']+)'", detail["msg"])
         return f"this must be one of its words; {did_you_mean(str(value), known)}"
-    if (
-        kind == "float_type"
-        and isinstance(value, str)
-        and (sentence := ratio_sentence(value, own.name if own else "A"))
-    ):
-        return sentence if own else f"this must be a number; {sentence}"
+    if kind == "float_type" and isinstance(value, str) and (words := ratio_sentence(value, own.name if own else "A")):
+        return words if own else f"this must be a number; {words}"
+    if own and own.infinite and kind == "finite_number":
+        return "a range must end at finite values; write a list where inf is one of the values"
     if own and kind in ("greater_than", "greater_than_equal", "less_than_equal", "finite_number"):
-        return _out_of_range(own, path, kind)
+        unpressed = "; for a turn at zero depth write indentation_max_over_R = 0.0" if own.name == "load_max" else ""
+        return f"out of range; choose a value with {own.allowed}{unpressed}"
     words = re.sub(r"^(Input|String|List) should (.*?)( or instance of.*| after .*)?$", r"this must \2", detail["msg"])
     limits = f", with {own.allowed}" if own else ""
     return f"{words.replace('dictionary', 'table')}{limits}; write for example {line_of(*path)}"
 
 
-def _out_of_range(own: Input, path: Path, kind: str) -> str:
-    """Say which values an input may have."""
-    if kind == "finite_number" and path[-1] in ("start", "stop") and own.infinite:
-        return "a range must end at finite values; write a list where inf is one of the values"
-    unpressed = "; for a turn at zero depth write indentation_max_over_R = 0.0" if own.name == "load_max" else ""
-    return f"out of range; choose a value with {own.allowed}{unpressed}"
-
-
 def _unknown_key(path: Path, absent: Collection[str]) -> tuple[Path, str]:
     """Report which key was meant, and say so."""
     table, key = path[:-1], str(path[-1])
-    keys_of = {name: [*one.model_fields] for name, one in tables_of(Form).items()}
+    keys_of = {place: [*one.model_fields] for place, one in tables_of(Form).items()}
     known = keys_of.get(tuple(step for step in table if isinstance(step, str)), [])
-    if table == ("uncertainty",):
-        return path, f"not an input of a study; {did_you_mean(key, known)}"
-    homes = {name: keys for name, keys in keys_of.items() if len(name) < 2 and not {*name} & {*absent}}
-    homes[()] = [name for name in homes[()] if name not in absent]
-    homes |= {name: ["samples", "seed"] for name in homes if name == ("uncertainty",)}  # the others are those of inputs
-    for other, keys in homes.items():
-        if other != table and key in keys:
-            where = f"under [{dotted(other)}]" if other else "at the top, before the first [table]"
-            return (*other, key), f"this key belongs {where}, as {dotted((*other, key))}; move it there"
     if "num" in known and key in _STEPS:
         sentence = "a range has no step; give the number of its values instead, for example num = 11"
         return (*table, "num"), f'{sentence}, evenly spaced unless spacing = "log"'
-    near, place = nearest(key, known), table
+    homes = {place: keys for place, keys in keys_of.items() if len(place) < 2 and not {*place} & {*absent}}
+    homes[()] = [name for name in homes[()] if name not in absent]
+    homes |= {place: ["samples", "seed"] for place in homes if place == ("uncertainty",)}  # the others are inputs
+    place, near = table, nearest(key, known)
     called = [name for name, one in INPUTS.items() if key.lower() in one.called]
-    elsewhere = called and near not in called and (near or "").lower() != key.lower()
-    if elsewhere and table in (("parameters",), ("physical",)):
-        near, place = called[0], (INPUTS[called[0]].table,)
+    slip = (near or "").lower() == key.lower()
+    if there := [other for other, keys in homes.items() if other != table and key in keys]:
+        place, near = there[0], key
+    elif called and near not in called and not slip and table in (("parameters",), ("physical",)):
+        place, near = (INPUTS[called[0]].table,), called[0]
     elif not table and not near:
-        found = ((other, nearest(key, keys)) for other, keys in homes.items())
-        place, near = next(((other, one) for other, one in found if one), (table, None))
-    if place != table:
-        return (*place, str(near)), f'unknown key; did you mean "{near}", under [{dotted(place)}]?'
-    return (*table, near or ""), f"unknown key; {did_you_mean(key, known)}"
+        found = [(other, one) for other, keys in homes.items() if (one := nearest(key, keys))]
+        place, near = found[0] if found else (table, None)
+    if place == table:
+        return (*table, near or ""), f"unknown key; {did_you_mean(key, known)}"
+    where = f"under [{dotted(place)}]" if place else "at the top, before the first [table]"
+    words = f'unknown key; did you mean "{near}", {where}?'
+    return (*place, str(near)), f"this key belongs {where}; move it there" if near == key else words

@@ -1,7 +1,7 @@
 """What the keys of a study of scenes have to do with each other: where a rule is broken, and what to write instead."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
@@ -11,7 +11,7 @@ from gradhesion.cli.names.outputs import SI
 from gradhesion.cli.study.rules.asked import Asked, Found, home
 from gradhesion.cli.study.rules.axes import repeated
 from gradhesion.cli.study.rules.form import OUTPUTS_OF
-from gradhesion.cli.study.rules.inputs import SOFT, inputs, rate, shape_of, together, toughness, waves, works
+from gradhesion.cli.study.rules.inputs import inputs, rate, shape_of, together, toughness, waves, works
 from gradhesion.cli.study.rules.mistakes import required
 from gradhesion.cli.study.rules.search import search, uncertain
 from gradhesion.cli.terminal.wording import did_you_mean, shown
@@ -26,24 +26,13 @@ MOST_SCENES: Final = {"map": 2**31, "curve": 1_000, "optimum": 2**31, "pareto": 
 
 def broken(asked: Asked) -> Found:
     """List what is wrong between the keys of a study of scenes."""
-    yield from together(asked, "profile", "physical", "toughness")
-    for rule in (_outputs, _method, _axes, search, inputs, waves, _punch, _machine, works, toughness, rate, _states,
-                 _range, uncertain, _size):  # fmt: skip
+    for rule in (together, _outputs, _method, _axes, search, inputs, waves, _punch, _machine, works, toughness, rate,
+                 _states, _range, uncertain, _size):  # fmt: skip
         yield from rule(asked)
 
 
 def _axes(asked: Asked) -> Found:
-    """Check the axes of a grid, or the lists of points: no value twice, one length; no material without stiffness."""
-    for name, own in INPUTS.items():
-        entry = asked.at((own.table, name))
-        if isinstance(entry, Mapping) and "num" not in entry and name not in asked.over:
-            yield f"{home(name)}.num", required(own.table, name, "num")
-    k, nu = (np.atleast_1d(asked.axes.get(name, 0.5)) for name in ("k", "nu"))
-    soft = bool(np.any(k == 1.0) and np.any(nu != 0.5))
-    if asked.points and soft:  # in one scene, unless the lists differ in length, as is said below
-        soft = (1 in (k.size, nu.size) or k.size == nu.size) and bool(np.any((k == 1.0) & (nu != 0.5)))
-    if soft:
-        yield "parameters.k", SOFT
+    """Check the axes of a grid, or the lists of points: no value twice, or one length."""
     if not asked.points:
         for name, values in asked.values.items():
             yield from repeated(name, values)
@@ -82,8 +71,9 @@ def _outputs(asked: Asked) -> Found:
         elif curve in listed and curve != name:
             yield at, f'a variable of "{curve}", which is listed as a whole; remove one of the two'
         yield from ((at, words) for words in _unknown_of(name, asked))
-    goals = asked.form.optimum.goals if asked.form.optimum else []
-    yield from ((f"optimum.{way}", words) for way, name in goals for words in _unknown_of(name, asked))
+    for way in ("maximise", "minimise"):
+        for name in getattr(asked.form.optimum, way, ()):
+            yield from ((f"optimum.{way}", words) for words in _unknown_of(name, asked))
 
 
 def _unknown_of(name: str, asked: Asked) -> Iterator[str]:
@@ -148,8 +138,6 @@ def _method(asked: Asked) -> Found:
 def _punch(asked: Asked) -> Found:
     """Check what goes with each source of the waves of a profile."""
     table = asked.form.profile
-    if table.exponent == "fit" and not asked.has("profile.file"):
-        yield "profile.exponent", "there is no file to fit it to; add file, or write for example exponent = 2.0"
     if (spectrum := table.spectrum) is not None:
         if not 0 <= spectrum.last - spectrum.first < MOST_HARMONICS:
             words = f"a series has 1 to {MOST_HARMONICS} waves, from first on; use another last, or another first"

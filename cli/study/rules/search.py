@@ -10,6 +10,7 @@ from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.rules.asked import Asked, Found, home
 from gradhesion.cli.study.rules.form import Optimum
 from gradhesion.cli.study.rules.mistakes import line_of, required
+from gradhesion.cli.study.text.written import steps_of
 from gradhesion.cli.terminal.wording import did_you_mean, nearest, shown
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.names import SENSITIVITIES
@@ -58,7 +59,7 @@ def search(asked: Asked) -> Found:
         if asked.kind == "optimum" and "optimum" not in asked.data:
             yield "optimum", required("optimum")
         return
-    yield from _goals(asked, table.goals)
+    yield from _goals(asked, table)
     if asked.right("optimum.over"):
         yield from _over(asked, table)
     known = tuple(name for name in OUTPUTS if name not in SENSITIVITIES)
@@ -74,20 +75,21 @@ def search(asked: Asked) -> Found:
         yield "method.solver", "an optimum has one solver; choose one of these"
 
 
-def _goals(asked: Asked, goals: list[tuple[str, str]]) -> Found:
+def _goals(asked: Asked, table: Optimum) -> Found:
     """Check that one goal or two are named, each an output with one value a scene."""
-    ways = ("optimum.maximise", "optimum.minimise")
+    ways, goals = ("optimum.maximise", "optimum.minimise"), table.goals
     meant = {("optimum", "maximise"), ("optimum", "minimise")} & {mistake.meant for mistake in asked.mistakes}
     if not goals and asked.right(*ways) and not meant:
         yield ways[0], f"there is no goal; write for example {line_of('optimum', 'maximise')}"
     if len(goals) > 2:
-        yield f"optimum.{goals[2][0]}", "at most two goals are possible; remove the others"
+        yield ways[len(table.maximise) < 3], "at most two goals are possible; remove the others"
     known = [*SPREADABLE, "contact_slope", *(name + SI for name in SPREADABLE if name in UNITS and asked.units)]
-    for i, (way, name) in enumerate(goals):
-        if name in [other for _, other in goals[:i]]:
-            yield f"optimum.{way}", f"{shown(name)} is named twice; remove one of the two"
+    for i, name in enumerate(goals):
+        way = ways[i >= len(table.maximise)]
+        if name in goals[:i]:
+            yield way, f"{shown(name)} is named twice; remove one of the two"
         elif name not in known:
-            yield f"optimum.{way}", f"{shown(name)} cannot be a goal (counts cannot); {did_you_mean(name, known)}"
+            yield way, f"{shown(name)} cannot be a goal (counts cannot); {did_you_mean(name, known)}"
 
 
 def _over(asked: Asked, table: Optimum) -> Found:
@@ -95,7 +97,7 @@ def _over(asked: Asked, table: Optimum) -> Found:
     if not table.over:
         yield "optimum.over", f"no input is searched; write for example {line_of('optimum', 'over')}"
     for i, name in enumerate(table.over):
-        at, entry = f"optimum.over[{i}]", asked.at((INPUTS[name].table, name)) if name in INPUTS else None
+        at, entry = f"optimum.over[{i}]", asked.at(home(name)) if name in INPUTS else None
         if name in table.over[:i]:
             yield at, "this input is named twice; remove one of the two"
         elif entry is None and not (name in INPUTS and asked.meant(name)):
@@ -104,8 +106,9 @@ def _over(asked: Asked, table: Optimum) -> Found:
             yield at, f"the study gives no {name} to search; {remedy}"
         elif entry is not None and (not isinstance(entry, Mapping) or "num" in entry):
             yield at, f"a searched input has two bounds; write {home(name)} = {{ start = .., stop = .. }}, without num"
-        elif name in asked.values and np.ptp(np.asarray(asked.values[name])) == 0.0:
-            yield home(name), "the bounds are the same; write another stop, or a number"
+    if INPUTS.keys() >= {*table.over}:
+        for name in (name for name in asked.over if name not in table.over):
+            yield f"{home(name)}.num", f"{required(*steps_of(home(name)), 'num')}, or name {name} in over"
     if len(table.over) > MOST_SEARCHED:
         yield "optimum.over", f"at most {MOST_SEARCHED} inputs are searched at once; fix the others"
     elif (2 * table.resolution - 1) ** len(table.over) > MOST_POINTS:

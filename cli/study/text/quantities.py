@@ -37,13 +37,9 @@ WORDS: Final = {
     "m/s": "a speed (m/s)",
 }
 """What is expected of a quantity, by its unit in SI."""
-_USUAL: Final = ("m", "mm", "um", "nm", "Pa", "kPa", "MPa", "GPa", "N", "mN", "uN", "nN", "J/m^2", "mJ/m^2", "N/m",
-                 "mN/m", "m/s", "mm/s", "um/s", "nm/s")  # fmt: skip
-"""Units as they are usually written, for those who write "Mpa"."""
 _QUANTITY: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,4})?|[+-]?inf|nan)\s*\*?\s*(.*)")
-_COMMA: Final = re.compile(r"([+-]?\d+),(\d+)")
-_THOUSANDS: Final = re.compile(r"([+-]?[1-9]\d{0,2}(?:,\d{3})+(?![\d,]))(\.\d*)?")
-"""A number that may have commas between its thousands, and its decimals after a point."""
+_COMMA: Final = re.compile(r"\s*[+-]?\d+,\d")
+_NO_COMMA: Final = "a comma in a number; write a point before the decimals, and nothing between thousands, as 1234.5"
 _POWER: Final = re.compile(r"([^\W\d_])([+-]?\d)")
 """A power as UDUNITS and astropy write it, `m-2`."""
 
@@ -55,13 +51,13 @@ def si_value(value: object, name: str) -> float:
     (1e-06, 0.02, 0.02)
     """
     key = QUANTITIES[name]
-    number, written = _parts_of(value if isinstance(value, str) else str(value) if isinstance(value, float) else "")
+    number, written = _parts_of(str(value) if isinstance(value, str | float) else "")
     plain = isinstance(value, int | float) and not isinstance(value, bool)
     if "inf" not in number and (plain or not written):
         what = WORDS["1"] if plain or number else "not a number with its unit, in quotes"
         raise ValueError(f"{what}; {_expected(name)}")
-    if comma := _comma_in(str(value)):
-        raise ValueError(f"{comma}; {_expected(name)}")
+    if _COMMA.match(str(value)):
+        raise ValueError(f"{_NO_COMMA}; {_expected(name)}")
     result = float(Decimal(number) * (factor_of(written, name) if written else 1)) + 0.0
     if not key.admits(result):
         unpressed = '; for a turn at zero depth write indentation_max = "0 nm"' if name == "preload" else ""
@@ -75,26 +71,10 @@ def _parts_of(text: str) -> tuple[str, str]:
     return (parts[1], parts[2]) if parts else ("", "")
 
 
-def _comma_in(text: str) -> str:
-    """Describe the comma in a number, and how to write the number without it; "" without one.
-
-    >>> _comma_in("300,5 nm"), _comma_in("1,000 nm"), _comma_in("1,234.5 nm")  # doctest: +NORMALIZE_WHITESPACE
-    ('a decimal comma; write a point, 300.5', 'a comma of decimals or between thousands; write 1.000 or 1000',
-    'a comma between thousands; write 1234.5')
-    """
-    thousands, comma = _THOUSANDS.match(text.strip()), _COMMA.match(text.strip())
-    if thousands:
-        plain = thousands[0].replace(",", "")
-        if thousands[2] or thousands[1].count(",") > 1:
-            return f"a comma between thousands; write {plain}"
-        return f"a comma of decimals or between thousands; write {thousands[1].replace(',', '.')} or {plain}"
-    return f"a decimal comma; write a point, {comma[1]}.{comma[2]}" if comma else ""
-
-
 def ratio_sentence(text: str, name: str) -> str:
     """Say that a quantity, or a number with a comma, stands where a ratio is expected; nothing if it is neither."""
-    if comma := _comma_in(text):
-        return f"{comma}, without quotes"
+    if _COMMA.match(text):
+        return f"{_NO_COMMA}, without quotes"
     written = _parts_of(text)[1]
     return f'"{written}" is not a unit of this quantity; {_expected(name)}' if written else ""
 
@@ -107,26 +87,14 @@ def _expected(name: str) -> str:
     return f"{WORDS[key.unit]} is expected; write for example {key.example}{instead}"
 
 
-def in_si(numbers: NDArray[Any], written: str, name: str) -> NDArray[np.float64]:
-    """Give numbers in some unit in that of a key, of which a ratio has none; their range is not checked.
-
-    >>> in_si(np.array([1.0, 25.0]), "um", "R"), in_si(np.array([5.0]), "percent", "A")
-    (array([1.0e-06, 2.5e-05]), array([0.05]))
-    """
-    same = written == QUANTITIES[name].unit  # without asking pint
-    return np.asarray(numbers, dtype=np.float64) + 0.0 if same else scaled(numbers, factor_of(written, name))
-
-
 def factor_of(written: str, name: str) -> Decimal:
     """Report how many of the unit of a key another unit is; ValueError where it is unknown or of another dimension."""
-    factor = factor_between(written, QUANTITIES[name].unit)
-    if factor:
-        return factor
-    meant = next(
-        (f', did you mean "{one}"?' for one in _USUAL if one.lower() == written.lower() and one != written), ""
-    )
-    problem = f'the unit "{written}" is not known' if factor is None else f'"{written}" is not a unit of this quantity'
-    raise ValueError(f"{problem}{meant}; {_expected(name)}")
+    unit = QUANTITIES[name].unit
+    factor = Decimal(1) if written == unit else factor_between(written, unit)  # without asking pint
+    if not factor:
+        problem = "is not a known unit" if factor is None else "is not a unit of this quantity"
+        raise ValueError(f'"{written}" {problem}; {_expected(name)}')
+    return factor
 
 
 def factor_of_column(found: Columns, name: str, key: str, written: str = "") -> Decimal:
@@ -153,8 +121,13 @@ def scaled(numbers: NDArray[Any], factor: Decimal) -> NDArray[np.float64]:
     """Multiply numbers, as the shortest decimals that they are, by a factor; each product is rounded once.
 
     So that 25 um is 2.5e-05 m, which the product of 25.0 and 1e-06 is not.
+
+    >>> scaled(np.array([1.0, 25.0]), Decimal("1e-6"))
+    array([1.0e-06, 2.5e-05])
     """
     given = np.asarray(numbers, dtype=np.float64)
+    if factor == 1:
+        return given + 0.0
     products = [float(Decimal(repr(value)) * factor) for value in given.ravel().tolist()]
     return np.reshape(products, given.shape) + 0.0  # no negative zeros
 

@@ -1,6 +1,5 @@
 """The text of a study: read, parsed, overridden, and where each of its keys comes from."""
 
-import json
 import os
 import re
 import tomllib
@@ -17,18 +16,15 @@ from gradhesion.cli.study.text.written import lines_of
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, FAILED, POOR_FIT
 
-MOST_BYTES: Final = 2**28
+MOST_BYTES: Final = 2**26
 """The longest study that is read: far above any that is meant as one."""
 _DEEPEST: Final = 32
 """Levels of tables and lists: a study has four."""
 DEEP: Final = f"nested more than {_DEEPEST} deep; remove some levels"
 _DOTS: Final = re.compile(r"(?:[\w\"'-]+\s*\.\s*){100}")
 """A key far too deep: the parser takes a time that grows with the square of its length."""
-_COMMA: Final = re.compile(r"=\s*([+-]?\d+),(\d+)")
-_AT: Final = re.compile(r" ?\(at (?:line (\d+), column (\d+)|end of document)\)")
+_AT: Final = re.compile(r" ?\(at (?:line (\d+), column \d+|end of document)\)")
 """Where the parser has found a mistake."""
-_Lines = Callable[[], Mapping[Key, str]]
-"""Finds the file and the line of each key."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,9 +43,9 @@ class Source:
     """The folder of the files that it names."""
 
 
-def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) -> Source:
-    """Read a study file of at most so many bytes, and set what is overridden; StudyError where it is no TOML."""
-    data, lines, text = _read(path, most, ())
+def read_source(path: Path, overrides: Iterable[str]) -> Source:
+    """Read a study file, and set what is overridden; StudyError where it is no TOML."""
+    data, texts = _read(path, ())
     sources: dict[Key, str] = {}
     mistakes = []
     for override in overrides:
@@ -57,6 +53,10 @@ def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) ->
             sources[_set(data, override)] = override
         except ValueError as error:
             mistakes.append(f"--set {override}: {error}")
+
+    @cache
+    def lines() -> dict[Key, str]:
+        return {key: f"{file}:{line}" for file, text in texts.items() for key, line in lines_of(text).items()}
 
     def place(key: Key) -> str:
         above = [key[:depth] for depth in range(len(key), 0, -1)]
@@ -69,16 +69,16 @@ def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) ->
     return Source(
         name=os.fsencode(path.stem).decode("utf-8", "replace"),
         data=data,
-        text="" if sources else text,
+        text="" if sources or len(texts) > 1 else texts[path],
         place=place,
         mistakes=tuple(mistakes),
         folder=path.absolute().parent,
     )
 
 
-def _read(path: Path, most: int, above: tuple[Path, ...]) -> tuple[dict[str, Any], _Lines, str]:
-    """Read the keys of a file and of what it includes, their places, and a text of just these keys if there is one."""
-    text = _text(path, most)
+def _read(path: Path, above: tuple[Path, ...]) -> tuple[dict[str, Any], dict[Path, str]]:
+    """Read the keys of a file and of what it includes, and the texts of both, its own last."""
+    text = _text(path)
     try:
         data = None if _DOTS.search(text) else tomllib.loads(text)
     except RecursionError:
@@ -88,18 +88,17 @@ def _read(path: Path, most: int, above: tuple[Path, ...]) -> tuple[dict[str, Any
         raise StudyError(_syntax_sentence(path, text, str(error))) from None
     if data is None or is_deep(data):
         raise StudyError(f"{path}: not a study, tables or lists are {DEEP}")
-    lines = cache(lambda: {key: f"{path}:{line}" for key, line in lines_of(text).items()})
     if "include" not in data:
-        return data, lines, text
-    where = f"{lines().get(('include',), path)}: include = {shown(data['include'])}"
-    merged, below = included(data, path.parent, where, (*above, path), most)
-    return merged, cache(lambda: {**below(), **lines()}), ""
+        return data, {path: text}
+    where = f"{path}:{lines_of(text).get(('include',), 1)}: include = {shown(data['include'])}"
+    merged, texts = included(data, path.parent, where, (*above, path))
+    return merged, {**texts, path: text}
 
 
 def included(
-    data: Mapping[str, Any], folder: Path, where: str, above: tuple[Path, ...] = (), most: int = MOST_BYTES
-) -> tuple[dict[str, Any], _Lines]:
-    """Give the keys of a study with those of the one that it includes, and the places of these.
+    data: Mapping[str, Any], folder: Path, where: str, above: tuple[Path, ...] = ()
+) -> tuple[dict[str, Any], dict[Path, str]]:
+    """Give the keys of a study with those of the one that it includes, and the texts of these.
 
     The keys of the study win; tables at the top are merged key by key, and all other values replaced. A message begins
     with `where`, the place of `include`; `above` are the files that include this one.
@@ -113,24 +112,22 @@ def included(
         raise StudyError(f"{where}: {base} includes {above[-1]} in turn; remove one of the two")
     if not base.is_file():
         raise StudyError(f"{where}: there is no file {base}; name a study that is there, from the folder of this one")
-    found, lines, _ = _read(base, most, above)
+    found, texts = _read(base, above)
     own = {key: value for key, value in data.items() if key != "include"}
     tables = {key for key in own if isinstance(own[key], Mapping) and isinstance(found.get(key), Mapping)}
-    return found | own | {key: {**found[key], **own[key]} for key in tables}, lines
+    return found | own | {key: {**found[key], **own[key]} for key in tables}, texts
 
 
-def _text(path: Path, most: int) -> str:
+def _text(path: Path) -> str:
     """Read the text of a study file."""
     try:
-        content = bytearray()
-        with path.open("rb") as file:  # bit by bit: memory for the most that it may be is not always there
-            while len(content) <= most and (piece := file.read(2**20)):
-                content += piece
+        with path.open("rb") as file:
+            content = file.read(MOST_BYTES + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise StudyError(f"{path}: cannot be read ({reason}); name a study in TOML") from None
-    if len(content) > most:
-        raise StudyError(f"{path}: larger than {most >> 20} MiB, too large for a study; name a study in TOML")
+    if len(content) > MOST_BYTES:
+        raise StudyError(f"{path}: larger than {MOST_BYTES >> 20} MiB, too large for a study; name a study in TOML")
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -152,16 +149,11 @@ def _syntax_sentence(path: Path, text: str, problem: str) -> str:
     at = _AT.search(problem)
     if not at:  # Python's own limit on integers
         return f"{path}: not valid TOML, a number of more than 4,300 digits; write it with an exponent, as 1e6"
-    lines, what = text.rstrip().split("\n"), problem[: at.start()]
+    lines = text.rstrip().split("\n")
     number = min(int(at[1] or len(lines)), len(lines))
-    line = lines[number - 1].strip() if path.suffix == ".toml" else ""
-    remedy = "fix this line"
-    if comma := _COMMA.search(line):
-        remedy = f"write a decimal point, {comma[1]}.{comma[2]}"
-    if what.startswith(("Cannot overwrite", "Cannot declare")):
-        remedy = "it is given twice, join the two or remove one"
-    column, within = f" (column {at[2]})" if at[2] else "", f" in {shown(line)}" if line else ""
-    return f"{path}:{number}: not valid TOML, {what[0].lower()}{what[1:]}{column}{within}; {remedy}"
+    line = f" in {shown(lines[number - 1].strip())}" if path.suffix == ".toml" else ""
+    remedy = "fix this line: strings are in quotes, decimals have a point, and each key and table stands once"
+    return f"{path}:{number}: not valid TOML, {problem[: at.start()]}{line}; {remedy}"
 
 
 def _set(data: dict[str, Any], override: str) -> Key:
@@ -172,9 +164,10 @@ def _set(data: dict[str, Any], override: str) -> Key:
         raise ValueError("not of the form KEY=VALUE; write for example --set parameters.A=0.02")
     if steps[0] == "include":
         raise ValueError("a study is included by its file alone; write this at its top")
-    parsed = (
-        _fitted_value(Path(value), steps[-1]) if value.endswith(".nc") and '"' not in value else _parsed(key, value)
-    )
+    if value.endswith(".nc") and '"' not in value:
+        parsed = _fitted(Path(value), steps[-1], "standard_deviation" if steps[0] == "uncertainty" else "value")
+    else:
+        parsed = _parsed(value)
     if len(steps) > _DEEPEST or is_deep(parsed):
         raise ValueError(DEEP)
     table: Any = data
@@ -187,23 +180,22 @@ def _set(data: dict[str, Any], override: str) -> Key:
     return steps
 
 
-def _parsed(key: str, value: str) -> Any:
+def _parsed(value: str) -> Any:
     """Parse the value of an override; ValueError where it is no TOML."""
-    for text, right in ((value, ""), (f"[{value}]", "write several values in brackets")):
-        try:
-            found = tomllib.loads(f"value = {text}")
-        except (ValueError, RecursionError):
-            continue
-        if right and found.keys() == {"value"}:
-            raise ValueError(f"the value is not TOML; {right}, as in --set '{key}={text}'")
-        if found.keys() == {"value"}:
-            return found["value"]
-    quoted = json.dumps(value, ensure_ascii=False)
-    raise ValueError(f"the value is not TOML; quote strings, as in --set '{key}={quoted}'")
+    try:
+        found = tomllib.loads(f"value = {value}")
+    except (ValueError, RecursionError):
+        found = {}
+    if found.keys() != {"value"}:
+        remedy = "put strings in quotes and several values in brackets"
+        raise ValueError(
+            f"""the value is not TOML; {remedy}, as in --set 'title="A map"' --set 'parameters.k=[0, 0.5]'"""
+        )
+    return found["value"]
 
 
-def _fitted_value(path: Path, key: str) -> float | str:
-    """Give the value of a key as a study writes it: in its unit if it has one.
+def _fitted(path: Path, key: str, variable: str) -> float | str:
+    """Give the value of a fitted key, or its standard deviation, as a study writes it: in its unit if it has one.
 
     ValueError where the file is no fit of one loop, or the fit has no such key, or is flagged.
     """
@@ -217,7 +209,11 @@ def _fitted_value(path: Path, key: str) -> float | str:
                 one = f"`gradhesion select {path} --at loop=0 -o one.nc`"
                 raise ValueError(f"fits of several loops; take one with {one}")
             names, units = (list(map(str, file[name][:])) for name in ("parameter", "parameter_units"))
-            values, status, converged = file["value"][:].tolist(), int(file["status"][...]), int(file["converged"][...])
+            values, status, converged = (
+                file[variable][:].tolist(),
+                int(file["status"][...]),
+                int(file["converged"][...]),
+            )
     except OSError as error:
         what = kind_of(path) or error.strerror or "it cannot be read"
         raise ValueError(f"not the dataset of a fit ({what}); name one, or give a value") from None

@@ -9,7 +9,7 @@ from typing import Any, Final
 Path = tuple[str | int, ...]
 """A key as the steps to it: `("parameters", "k", 3)` is item 3 of `parameters.k`."""
 
-_VALUE: Final = re.compile(r"""(?<==)(\s*)("[^"\\]*"|'[^']*')""")
+_VALUE: Final = re.compile(r"""(?<==)\s*("[^"\\]*"|'[^']*')""")
 """A string behind its key."""
 _VEILED: Final = re.compile(
     r'"""(?:\\.|[^\\])*?"""|\'\'\'.*?\'\'\'|"(?:\\.|[^"\\\n])*"|\'[^\'\n]*\'|#[^\n]*', re.DOTALL
@@ -80,34 +80,37 @@ def toml_of(data: Mapping[str, Any]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def with_fingerprint(data: Mapping[str, Any], text: str, path: Path, sha256: str) -> tuple[dict[str, Any], str]:
-    r"""Give the keys and the text of a study with the SHA-256 of a file, where it names the file.
+def with_fingerprints(data: Mapping[str, Any], text: str, files: Mapping[Path, str]) -> str:
+    r"""Write a valid study as TOML with the SHA-256 of each file that it names, in its own text if it has one.
 
-    The path is that of a key with the name of the file, which becomes a table, or of a table with a key `file`. There
-    is no text where none gives just these keys; it is then to be made.
+    Each path is that of a key with the name of a file, which becomes a table, or of a table with a key `file`.
 
-    >>> with_fingerprint({"data": {"file": "a.csv"}}, "[data]\nfile = 'a.csv'", ("data",), "0a")[1]
-    '[data]\nfile = \'a.csv\'\nsha256 = "0a"'
-    >>> with_fingerprint({"a": {"b": "c.csv"}}, "[a]\nb = 'c.csv' # x", ("a", "b"), "0a")[1]
+    >>> with_fingerprints({"data": {"file": "a.csv"}}, "[data]\nfile = 'a.csv' # x", {("data",): "0a"})
+    '[data]\nfile = \'a.csv\' # x\nsha256 = "0a"'
+    >>> with_fingerprints({"a": {"b": "c.csv"}}, "[a]\nb = 'c.csv' # x", {("a", "b"): "0a"})
     '[a]\nb = { file = "c.csv", sha256 = "0a" } # x'
     """
-    *above, last = map(str, path)
-    table = data[above[0]] if above else data
-    named = table[last] if isinstance(table[last], Mapping) else {"file": table[last]}
-    if named.get("sha256"):
-        return dict(data), text
-    named = {**named, "sha256": sha256}
-    data = {**data, above[0]: {**table, last: named}} if above else {**data, last: named}
-    lines, places = text.split("\n"), lines_of(text)
-    if (*path, "file") in places:
-        number = places[*path, "file"]
-        dot = f"{last}." if lines[number - 1].lstrip().startswith(f"{last}.") else ""
-        lines.insert(number, f"{dot}sha256 = {value_of(sha256)}")
-    elif path in places:
-        at = places[path] - 1
-        lines[at] = _VALUE.sub(lambda old: old[1] + value_of(named), lines[at], count=1)
+    if text and not files:
+        return text
+    made = {key: {**value} if isinstance(value, Mapping) else value for key, value in data.items()}
+    lines = text.split("\n")
+    for path, sha256 in files.items():
+        *above, last = map(str, path)
+        table = made[above[0]] if above else made
+        named = table[last] if isinstance(table[last], Mapping) else {"file": table[last]}
+        if named.get("sha256"):
+            continue
+        table[last] = named = {**named, "sha256": sha256}
+        places = lines_of("\n".join(lines))
+        if (*path, "file") in places:
+            number = places[*path, "file"]
+            dot = f"{last}." if lines[number - 1].lstrip().startswith(f"{last}.") else ""
+            lines.insert(number, f"{dot}sha256 = {value_of(sha256)}")
+        elif path in places and (value := _VALUE.search(lines[places[path] - 1])):
+            line = value.string
+            lines[places[path] - 1] = line[: value.start()] + " " + value_of(named) + line[value.end() :]
     text = "\n".join(lines)
     try:
-        return data, text if tomllib.loads(text) == data else ""
+        return text if text and tomllib.loads(text) == made else toml_of(made)
     except ValueError:
-        return data, ""
+        return toml_of(made)

@@ -46,7 +46,7 @@ def fitted(study: FitStudy, loop: LoopFile) -> FittedLoop:
             study.fixed,
             study.free,
             noise=study.noise_of(loop),
-            noise_is_given=study.noise_is_given,
+            noise_is_given=study.given_noise is not None,
             counts=loop.counts,
             offsets=study.offsets,
             profile=study.profile,

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.names.outputs import BEST, ON_BOUND, PARAMETER, SI
 from gradhesion.cli.names.scenes import STEEP
-from gradhesion.cli.study.rules.answers import Search
-from gradhesion.cli.study.study import Method, Study
+from gradhesion.cli.study.rules.form import Optimum
+from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of
 from gradhesion.cli.work.solve.scenes import Arrays, solve_given
 from gradhesion.core.answers.flags import NOTHING_FEASIBLE, RESOLUTION_TOO_COARSE
@@ -30,7 +30,7 @@ def solve_optima(study: Study, block: Block, threads: int | None) -> Arrays:
     search, shape = study.search, shape_of(block)
     count = int(np.prod(shape))
     goals = [_Cells(study=study, block=block, threads=threads, goal=goal) for goal in range(len(search.goals))]
-    swept = sweep(goals[0].all_values, len(search.inputs), count, search.resolution)
+    swept = sweep(goals[0].all_values, len(study.searched), count, search.resolution)
     ends = [optima_of(goal, merits) for goal, merits in zip(goals, swept, strict=True)]
     places, numbers = ends[0].places, np.arange(count)
     if search.is_front:
@@ -62,9 +62,9 @@ class _Cells:
     def plain(self) -> Study:
         """The study of the scenes: what is searched is given."""
         study = self.study
-        inputs = {one.name: one.low for one in study.search.inputs}
-        method = study.method if study.search.one_disc else Method(solver=study.method.solver, check_contact=False)
-        return replace(study, search=Search(), parameters={**study.parameters, **inputs}, method=method)
+        given = {**study.parameters, **{name: one.ends[0] for name, one in study.searched.items()}}
+        method = study.method if study.search.require.one_disc else replace(study.method, check_contact=False)
+        return replace(study, search=Optimum(), searched={}, parameters=given, method=method)
 
     @cached_property
     def given(self) -> Arrays:
@@ -78,9 +78,10 @@ class _Cells:
     def at(self, places: Floats, cells: Integers) -> Arrays:
         """Give scenes as a study does: cells, and where they are searched."""
         found = {name: values if values.ndim == 0 else values[cells] for name, values in self.given.items()}
-        for one, place in zip(self.study.search.inputs, places, strict=True):
-            inner = one.low * (one.high / one.low) ** place if one.log else one.low + (one.high - one.low) * place
-            found[one.name] = np.where(place == 1.0, one.high, inner)
+        for (name, one), place in zip(self.study.searched.items(), places, strict=True):
+            low, high = one.ends
+            inner = low * (high / low) ** place if one.spacing == "log" else low + (high - low) * place
+            found[name] = np.where(place == 1.0, high, inner)
         return found
 
     def all_values(self, places: Floats, cells: Integers) -> Floats:
@@ -89,9 +90,11 @@ class _Cells:
         given = self.at(places, cells)
         found = solve_given(self.plain, given, self.block, self.threads, outputs=search.solved)
         meets = np.ones(np.broadcast_shapes(places.shape[1:], np.shape(cells)), bool)
-        for name, low, high in search.limits:
-            meets &= (found[name] >= low) & (found[name] <= high)
-        if search.one_disc:
+        for name, least in search.require.minimum.items():
+            meets &= found[name] >= least
+        for name, most in search.require.maximum.items():
+            meets &= found[name] <= most
+        if search.require.one_disc:
             meets &= (found["status"] & LOADING_NOT_ONE_DISC) == 0
         goals = [sign * found[goal] for sign, goal in zip(search.signs, search.goals, strict=True)]
         return np.array([np.where(meets | np.isnan(goal), goal, -np.inf) for goal in goals])
@@ -110,12 +113,12 @@ class _Cells:
         found = solve_given(self.plain, given, self.block, self.threads, outputs=(goal.removesuffix(SI), name))
         labels = replace(self.plain, outputs=(name,)).labels[PARAMETER]
         powers = POWERS[name] if goal.endswith(SI) else {}
-        keys = [one.name for one in study.search.inputs]
-        slopes = slopes_to_keys(given, keys, labels, found[goal], found[name], powers)
+        slopes = slopes_to_keys(given, [*study.searched], labels, found[goal], found[name], powers)
         along = []
-        for one in study.search.inputs:
-            reach = given[one.name] * np.log(one.high / one.low) if one.log else one.high - one.low
-            along.append(np.nan_to_num(study.search.signs[self.goal] * slopes[one.name] * reach))
+        for key, one in study.searched.items():
+            low, high = one.ends
+            reach = given[key] * np.log(high / low) if one.spacing == "log" else high - low
+            along.append(np.nan_to_num(study.search.signs[self.goal] * slopes[key] * reach))
         return np.array(np.broadcast_arrays(*along))
 
 
@@ -149,8 +152,8 @@ def _reported(cells: _Cells, places: Floats, numbers: Integers) -> Arrays:
     best = {
         BEST + name: np.broadcast_to(own, (*status.shape, *own.shape[status.ndim :])) for name, own in found.items()
     }
-    for one in study.search.inputs:
-        best[BEST + one.name] = np.where(np.isnan(places[0]), np.nan, np.broadcast_to(given[one.name], status.shape))
+    for name in study.searched:
+        best[BEST + name] = np.where(np.isnan(places[0]), np.nan, np.broadcast_to(given[name], status.shape))
     return best | steep | {"status": status}
 
 

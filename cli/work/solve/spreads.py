@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.names.outputs import PARAMETER, SI, SPREADABLE
 from gradhesion.cli.names.scenes import STEEP
-from gradhesion.cli.study.rules.answers import Uncertainty
+from gradhesion.cli.study.rules.form import Uncertainty
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, shape_of
 from gradhesion.cli.work.solve.scenes import Arrays, solve_given
@@ -58,7 +58,7 @@ def solve_uncertain(study: Study, block: Block, threads: int | None) -> Arrays:
         given=study.parameters_of(axes),
         block=block,
         threads=threads,
-        spreads={name: Spread(**asdict(one)) for name, one in study.uncertainty.deviations},
+        spreads={name: Spread(**asdict(one)) for name, one in study.uncertainty.deviations.items()},
     )
     more = tuple(f"{name}_sensitivity" for name in study.linear)
     watch = study.watches_slope

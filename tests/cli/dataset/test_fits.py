@@ -12,6 +12,7 @@ from gradhesion.cli.dataset.fits import cautions_of_fit, dataset_of
 from gradhesion.cli.dataset.read.reader import opened
 from gradhesion.cli.dataset.select import write_dataset
 from gradhesion.cli.names.fits import FIT_MORE
+from gradhesion.cli.study import load_study
 from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.work.solve.fitting import Fit, doubts_of
 from gradhesion.core.loops.fitted import FittedLoop, OtherMinimum
@@ -145,6 +146,8 @@ def test_a_fitted_value_is_taken_for_a_key(study: FitStudy, tmp_path: Path, grad
         values = [found[name].item() for name in ("E_star", "work_of_adhesion", "wavelength", "A")]
         assert values == [1e7, 0.03, 5e-7, 0.01]
         assert 'E_star = "10000000.0 Pa"' in found.attrs["study"]
+    uncertain = load_study(scene, [*(one.removeprefix("--set=") for one in sets), f"uncertainty.E_star={sound}"])
+    assert uncertain.uncertainty.deviations["E_star"].deviation == 1e5
     for key, file in (
         ("R", sound),
         ("E_star", poor),

@@ -103,12 +103,6 @@ def test_curves_turn_where_the_cycle_does() -> None:
     assert np.isnan(none["surface_gap"].sel(state="turning_point")).all()
 
 
-def test_the_radius_may_be_left_out_of_a_study_that_turns() -> None:
-    dataset = compute(study_from({"outputs": OUTPUTS, "parameters": SCENE | {"load_max": 2.0}}))
-    assert dataset["a_max_over_R"] == math.inf
-    assert 0.0 < dataset["turning_radius"] < 1.0
-
-
 def test_the_envelope_radius_of_loading_is_that_of_closing() -> None:
     parameters = (
         SCENE | {"closing_ratio": 0.4, "a_max_over_a2": 1.5},

@@ -193,19 +193,6 @@ def test_numbers_with_any_solver(solver: Any, numbered: dict[str, Any]) -> None:
         np.testing.assert_array_equal(values, exact[name])
 
 
-def test_numbers_alone_and_in_python() -> None:
-    ball = {"k": 0.0, "nu": 0.5, "A": 0.0, "R": "1 mm", "E_star": "1 MPa", "work_of_adhesion": "50 mJ/m^2"}
-    found = gr.solve(ball, "tabor_parameter", adhesion_range=["0.3 nm", "1 um"])
-    assert found["tabor_parameter"].sizes == {"adhesion_range": 2}
-    one = (1e-3 * 0.05**2 / 1e6**2) ** (1 / 3) / 3e-10
-    assert found["tabor_parameter"][0].item() == pytest.approx(one, rel=1e-14)
-    np.testing.assert_allclose(found["adhesion_range_over_R"], [3e-7, 1e-3], rtol=1e-15)
-    assert (
-        gr.solve(k=0.0, nu=0.3, modulus=500.0, A=[0.0, 0.1], lambda_over_R=0.1, outputs="wave_slope")["status"].sum()
-        == 0
-    )
-
-
 def test_a_scene_without_value_has_none_of_them() -> None:
     found = gr.solve(
         k=0.0, nu=0.3, modulus=5000.0, A=0.1, lambda_over_R=0.1, a_max_over_a2=1.0, outputs=list(VALIDITY[2:])

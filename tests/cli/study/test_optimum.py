@@ -1,5 +1,6 @@
 """Studies of optima: against brute force, in blocks, in units, with requirements, as fronts, and what is refused."""
 
+import pickle
 import re
 from pathlib import Path
 from typing import Any
@@ -27,6 +28,12 @@ def study() -> dict[str, Any]:
         "optimum": {"maximise": "pull_off_force", "over": ["lambda_over_R"]},
         "parameters": PUNCH | {"k": [0.0, 0.3, 0.7], "lambda_over_R": WAVES},
     }
+
+
+def test_it_goes_to_other_processes(study: dict[str, Any]) -> None:
+    asked = study_from(study)
+    there = pickle.loads(pickle.dumps(asked))  # noqa: S301 (of our own)
+    assert (there.search, there.searched, there.text) == (asked.search, asked.searched, asked.text)
 
 
 @pytest.mark.parametrize("word", ["maximise", "minimise"])

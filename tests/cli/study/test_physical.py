@@ -148,8 +148,8 @@ def test_a_quantity_is_the_double_next_to_it(text: str, name: str, value: float)
     [
         ("1", "without a unit"), (0.001, "without a unit"), (3, "without a unit"), (True, "not a number"), (["1 m"], "not a number"),
         ("mm", "not a number"), ("", "not a number"), ("1 2 mm", '"2 mm"'), ("1 foo", '"foo"'), ("1 m**m", '"m**m"'), ("1 m*", '"m*"'),
-        ("1 __import__('os')", "not known"), ("1 degC", '"degC"'), ("1 %", '"%"'), ("1 m^99999999", '"m^99999999"'),
-        ("1" * 70 + " m", "not a number"), ("300,5 nm", "300.5"), ("1,000 nm", "comma"),
+        ("1 __import__('os')", "not a known unit"), ("1 degC", '"degC"'), ("1 %", '"%"'), ("1 m^99999999", '"m^99999999"'),
+        ("1" * 70 + " m", "not a number"), ("300,5 nm", "comma"), ("1,000 nm", "comma"),
     ],
 )  # fmt: skip
 def test_what_is_no_quantity_is_told_with_what_is_expected(value: object, words: str) -> None:
@@ -158,14 +158,6 @@ def test_what_is_no_quantity_is_told_with_what_is_expected(value: object, words:
             si_value(value, name)
         assert words in str(caught.value)
         assert f"{WORDS[key.unit]} is expected; write for example {name} = " in str(caught.value)
-
-
-@pytest.mark.parametrize(
-    ("text", "name", "unit"), [("3 Mpa", "E_star", "MPa"), ("3 KPA", "E", "kPa"), ("2 NM", "R", "nm")]
-)
-def test_a_unit_in_the_wrong_case_is_suggested(text: str, name: str, unit: str) -> None:
-    with pytest.raises(ValueError, match=f'did you mean "{unit}"'):
-        si_value(text, name)
 
 
 @pytest.mark.parametrize("name", PHYSICAL)

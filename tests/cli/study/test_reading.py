@@ -11,7 +11,6 @@ import pytest
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.study.rules.form import Form
-from gradhesion.cli.study.text.source import read_source
 from gradhesion.cli.terminal.messages import printable_line
 from gradhesion.core.problem.inputs import INPUTS
 from tests.cli.conftest import Call, Made
@@ -58,7 +57,7 @@ LINES = {  # what is replaced, by what, the key of the mistake and its line
     "too many scenes": ("nu = 0.3", "nu = { start = 0, stop = 0.4, num = 1000000000 }", "parameters.nu.num", 8),
     "behind a list over lines": ("k = [0.0, 0.5]\nnu = 0.3", "k = [\n 0.0, # ]\n 0.5,\n]\nnu = 0.7", "parameters.nu", 11),
 }  # fmt: skip
-OVERRIDES = {"": ("parameters.k", "=3", "parameters..k=3", "layout=points", "parameters.k=", "parameters.k=0.1\nA=3",
+OVERRIDES = {"": ("parameters.k", "=3", "parameters..k=3", "layout=points", "parameters.k=", "parameters.k=0,0.1", "parameters.k=0.1\nA=3",
                   "title.x=3", 'include="base.toml"'),
              "parameters.kk": ("parameters.kk=0.1",), "parameters.k": ("parameters.k=2",), "nothing": ("nothing.at.all=1",),
              "parameters.lambda_over_R.num": ("parameters.lambda_over_R={start=1, stop=2, num=0}", "parameters.lambda_over_R.num=0")}  # fmt: skip
@@ -137,24 +136,9 @@ def test_a_file_that_is_no_study(content: bytes | str | None, place: str, gradhe
     assert result.stderr.count("\n") == 1
 
 
-def test_a_dataset_is_no_study(gradhesion: Call, dataset_file: Path) -> None:
-    result = gradhesion("validate", dataset_file)
-    assert (result.exit_code, result.stderr.count("\n")) == (2, 1)
-    assert f"{dataset_file}: " in result.stderr
-    assert "a dataset (NetCDF or HDF5)" in result.stderr
-
-
-def test_several_values_of_an_option_stand_in_brackets(refused: Callable[..., list[str]]) -> None:
-    for override, answer in (
-        ("parameters.k=0,0.1", "--set 'parameters.k=[0,0.1]'"),
-        ("title=a, b", """--set 'title="a, b"'"""),
-    ):
-        assert answer in refused(GOOD, "--set", override)[0]
-
-
 def test_an_endless_file_is_not_read_for_ever() -> None:
-    with pytest.raises(StudyError, match="larger than 1 MiB"):
-        read_source(Path("/dev/zero"), (), most=2**20)
+    with pytest.raises(StudyError, match="larger than 64 MiB"):
+        load_study("/dev/zero")
 
 
 def test_a_study_made_in_python_is_checked_alike() -> None:

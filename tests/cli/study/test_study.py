@@ -27,17 +27,6 @@ def same(one: Study, other: Study) -> bool:
     return parameters and all(getattr(one, name) == getattr(other, name) for name in rest)
 
 
-def test_numbers_lists_and_ranges(study_file: Path) -> None:
-    study = load_study(study_file)
-    assert study.sizes == {"k": 2, "lambda_over_R": 3, "A": 2, "a_max_over_R": 2}
-    assert study.shape == (2, 3, 2, 2)
-    assert study.scenes == 24
-    assert study.parameters["nu"] == 0.27
-    assert study.parameters["lambda_over_R"][1] == pytest.approx((0.11 * 0.47) ** 0.5, rel=1e-15)
-    assert study.parameters["a_max_over_R"][1] == float("inf")
-    assert study.name == "study"
-
-
 def test_the_text_and_its_fingerprint(study_file: Path, data: dict[str, Any]) -> None:
     text = "# a comment stays\n" + study_file.read_text()
     study_file.write_text(text)

@@ -1,6 +1,6 @@
 """Files of instruments: heights, forces and segments become depth, load and branches by the conventions of the field."""
 
-import builtins
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -120,12 +120,5 @@ def test_tables_by_such_names_are_tables_where_columns_are_named(folder: Path) -
 
 def test_without_the_package_its_name_is_said(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     saved(folder, "curve.h5")
-    real = builtins.__import__
-
-    def missing(name: str, *rest: Any, **more: Any) -> Any:
-        if name.startswith("afmformats"):
-            raise ModuleNotFoundError(name)
-        return real(name, *rest, **more)
-
-    monkeypatch.setattr(builtins, "__import__", missing)
+    monkeypatch.setitem(sys.modules, "afmformats", None)
     assert "pip install gradhesion[afm]" in refused("data.file", data__file="curve.h5")
