@@ -188,10 +188,11 @@ def _extremes(variable: xarray.DataArray) -> list[tuple[float, dict[str, float |
     """Find the least and the greatest value of a variable with their places, a block at a time."""
     cells: list[xarray.DataArray] = []
     for block in tiling_of(variable):
-        part = variable[block].load()
-        part = part.where(np.isfinite(part))
-        if part.notnull().any():
-            cells += [part[part.argmin(part.dims)], part[part.argmax(part.dims)]]
+        part = variable[block]
+        values = np.where(np.isfinite(part.values), part.values, np.nan)
+        if not np.isnan(values).all():
+            places = np.nanargmin(values), np.nanargmax(values)
+            cells += [part[np.unravel_index(place, part.shape)] for place in places]
     ends = [min(cells, key=float), max(cells, key=float)] if cells else []
     return [(float(cell), {name: cell[name].item() for name in _varying(variable)}) for cell in ends]
 

@@ -134,8 +134,8 @@ def test_slow_speeds_are_the_cycle_at_rest_and_fast_ones_hide_the_waves() -> Non
 def test_no_wavelength_is_better_than_the_best() -> None:
     """For each exponent, against 20,000 wavelengths; the slope is 0 there."""
     best, study = run("optimum"), gr.load(CONFIGS / "optimum.toml")
-    (searched,) = study.search.inputs
-    waves = np.geomspace(searched.low, searched.high, 20_000)[:, None]
+    (searched,) = study.searched.values()
+    waves = np.geomspace(searched.start, searched.stop, 20_000)[:, None]
     scenes = {name: best[name].values for name in study.parameters}
     force = gr.core.solve(scenes | {"lambda_over_R": waves}, ["pull_off_force"])["pull_off_force"].max(axis=0)
     assert np.all(best["best_pull_off_force"].values >= force * (1.0 - 1e-15))

@@ -130,4 +130,5 @@ def _unknown_key(path: Path, absent: Collection[str]) -> tuple[Path, str]:
         return (*table, near or ""), f"unknown key; {did_you_mean(key, known)}"
     where = f"under [{dotted(place)}]" if place else "at the top, before the first [table]"
     words = f'unknown key; did you mean "{near}", {where}?'
-    return (*place, str(near)), f"this key belongs {where}; move it there" if near == key else words
+    path = (*place, str(near))
+    return path, f"this key belongs {where}; move it there, as {dotted(path)}" if near == key else words
