@@ -143,7 +143,8 @@ def leaf(function: _Function) -> _Function:
 def inlined(function: _Function) -> _Function:
     """Write a long function that is called in one place into its caller, before that is compiled: it is compiled once.
 
-    Any other kernel is compiled by itself, and again with each that it is part of.
+    Any other kernel is compiled by itself, and again with each that it is part of. Numba counts the references of what
+    is written in, and keeps its variables alive: compare the time of a scene before and after.
     """
     return _compiled(function, fastmath=_CONTRACTED, inline="always")
 

@@ -226,7 +226,7 @@ def _target_is_tied(walked: Walked, turn: int, y: float, reduced: Floats, i: int
     )
 
 
-@inlined
+@leaf
 def _is_tied(walked: Walked, opened: int, y: float, at_rim: bool) -> bool:
     """Return whether a decision of a cycle that turns at y is close, but for the turn."""
     closing, opening = walked.closing, walked.opening
@@ -319,7 +319,7 @@ def put_losses(
     return JUMP_IN_TO_RIM if loaded.in_to_rim and cycle.turn == reduced[at.RIM_Y, i] else 0
 
 
-@inlined
+@leaf
 def _put_cycle(walked: Walked, wanted: Wanted, opened: int, y: float, reduced: Floats, i: int, out: Floats) -> int:
     """Store what the cycle of scene i, which turns at y, loses; return its bits of status, -1: too short a table.
 
@@ -484,7 +484,7 @@ def put_force(lowest: Lowest, reduced: Floats, i: int, out: Floats) -> None:
     out[at.STATUS, i] = put_pull_off(lowest, reduced[at.RIM_Y, i], reduced, i, out) if lowest.known else at.SHORT
 
 
-@inlined
+@leaf
 def solve_patterned_forces(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Solve the pull-off alone of the scenes `first` to `last` - 1 with a pattern: no farther than it can be."""
     rooms = task.rooms
@@ -504,7 +504,7 @@ def solve_patterned_forces(task: Task, scenes: Floats, reduced: Floats, first: i
 @inlined
 def solve_exponent(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Solve the scenes `first` to `last` - 1 of one exponent, on arrays that Python holds."""
-    task = borrowed(task)
+    task, scenes, reduced, out = borrowed((task, scenes, reduced, out))
     if not task.wanted.cycle and task.punch.turn == AT_RIM:  # of an interface with a pattern
         solve_patterned_forces(task, scenes, reduced, first, last, out)
         return

@@ -37,7 +37,7 @@ from gradhesion.core.cycle.slopes import (
     unloading_by_turn,
 )
 from gradhesion.core.edge.pattern import Pattern, edge_area, toughness_at
-from gradhesion.core.jit import inlined, kernel, leaf
+from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.problem.material import theta_slopes
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, SENSITIVITIES, TURNS
 from gradhesion.core.scenes import rows as at
@@ -230,7 +230,7 @@ def _step_of(near: Near, pattern: Pattern, y_end: float, row: int) -> float:
     return _PHASE_STEP * _least_of(pattern) / (max(1.0, phase) if row == OF_PATTERN_WAVES else 1.0)
 
 
-@inlined
+@leaf
 def _fill_by(task: Task, near: Near, pattern: Pattern, frozen: Frozen, y_end: float) -> None:
     """Fill the derivatives of what is observed by all numbers but those of the turn."""
     near.by[:] = 0.0
@@ -269,7 +269,7 @@ def _move_of(near: Near, pair: Pair, frozen: Frozen, target: float, row: int) ->
     return -by / rate_at(measured_by(pair.closing, frozen), frozen.turn)
 
 
-@inlined
+@leaf
 def _put_slopes(near: Near, pair: Pair, frozen: Frozen, target: float, out: Floats, i: int) -> None:
     """Store the derivatives of force and energy of scene i, by the chain rule from those of what is observed.
 
@@ -304,7 +304,7 @@ def _put_slopes(near: Near, pair: Pair, frozen: Frozen, target: float, out: Floa
         out[ENERGY + row, i] = (loss + energy_by_turn * move) / energy
 
 
-@inlined
+@leaf
 def _fill_scene(
     task: Task, near: Near, walked: Walked, opened: int, y: float, scenes: Floats, reduced: Floats, i: int, out: Floats
 ) -> bool:
@@ -317,10 +317,7 @@ def _fill_scene(
         return False
     turns = task.punch.turn != AT_RIM and y < reduced[at.RIM_Y, i]
     frozen = _freeze(walked, task.punch.turn == AT_DEPTH, opened, y, lowest.y, turns, near.jumps)
-    for row in range(len(scenes)):  # one by one: an assignment of arrays takes seconds to compile
-        near.scene[row, 0] = scenes[row, i]
-    for row in range(len(reduced)):
-        near.numbers[row, 0] = reduced[row, i]
+    near.scene[:, 0], near.numbers[:, 0] = scenes[:, i], reduced[:, i]
     near.value[:] = 0.0
     _observe(pair, frozen, 1.0, near.value)
     y_end = _farthest(frozen, pair.pattern.rows.shape[1] > 0)

@@ -12,7 +12,7 @@ from gradhesion.core.curve.values import Curve, bin_of
 from gradhesion.core.cycle.disc import profile_of
 from gradhesion.core.cycle.pull_off import Lowest, envelope_place, lowest_load, serves
 from gradhesion.core.edge.pattern import bins_of_wave, bounds_of
-from gradhesion.core.jit import kernel
+from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.cycles import curve_end, put_force, solve_exponent
@@ -50,7 +50,7 @@ Group: TypeAlias = Callable[[int, Floats, Floats, Floats], None]
 """What solves scenes of one fineness of bins: takes that, scenes, their reduced numbers, and room for results."""
 
 
-@kernel
+@leaf
 def _near_lowest(basis: Basis, kept: Kept, place: int, curve: Curve, rim: float) -> Lowest:
     """Return the lowest load of a curve on a kept table, whose bins are filled where the search arrives."""
     table, most, around = curve.table, basis.values.shape[0] - 1, _AROUND
