@@ -195,7 +195,7 @@ def _turn(walked: Walked, turn: int, reduced: Floats, i: int) -> float:
     return min(found, float(reduced[at.RIM_Y, i]))
 
 
-@kernel
+@leaf
 def _loading_keeps_one_disc(task: Task, walked: Walked, y: float, reduced: Floats, i: int) -> bool:
     """Return whether the contact stays one disc on loading up to y, where the cycle turns, and around it there."""
     rim, root, plain = reduced[at.RIM_Y, i], math.sqrt(walked.ratio), walked.closing
@@ -210,7 +210,7 @@ def _loading_keeps_one_disc(task: Task, walked: Walked, y: float, reduced: Float
     return one
 
 
-@kernel
+@leaf
 def _target_is_tied(walked: Walked, turn: int, y: float, reduced: Floats, i: int) -> bool:
     """Return whether the target of scene i, which turns at y, is close to a highest one before."""
     target = reduced[at.TARGET_VALUE, i] / math.sqrt(walked.ratio)
