@@ -264,6 +264,7 @@ def _climbed(merit: Merit, starts: Floats, cells: Integers, spacing: float) -> F
         moved = best[:, None, live] + np.einsum("ikn,km->imn", own, shares)
         tried = np.concatenate([best[:, None, live], np.clip(moved, 0.0, 1.0)], axis=1)
         heights = _finite(merit.values(tried, cells[live]))
+        heights[1:][(tried[:, 1:] == tried[:, :1]).all(axis=0)] = -np.inf  # cut off at an end: the best itself
         order = np.argsort(-heights, axis=0, kind="stable")[: _CHOSEN + 1]
         heights, chosen = np.take_along_axis(heights, order, 0), np.take_along_axis(tried, order[None], 1)
         best[:, live] = chosen[:, 0]

@@ -50,6 +50,13 @@ def test_a_smooth_peak_among_others() -> None:
         assert not found.too_coarse.any()
 
 
+def test_a_peak_much_closer_to_an_end_than_points_of_the_sweep() -> None:
+    """The end itself is higher than any point of the sweep, and than those that are tried first."""
+    beside = np.array([0.003, 0.997])
+    found = Known(lambda x, cells: -np.abs(x - beside[cells]))(1, 2, 10)
+    np.testing.assert_allclose(found.places[0], beside, rtol=0.0, atol=2e-12)
+
+
 @pytest.mark.parametrize("steep", [1.3, 1e3])
 def test_a_peak_that_is_a_kink(steep: float) -> None:
     """With slopes or without: there is no place where they are zero."""
