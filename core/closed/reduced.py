@@ -34,11 +34,16 @@ def _of_chi(chi: Any, k: Any, nu: Any, modulus: Any, c0_over_R: Any, lambda_over
     return amplitude_of_ratio(k, nu, modulus, c0_over_R, lambda_over_R, chi)
 
 
+def _over_length(ratio: Any, *material: Any) -> Any:
+    """Return what is given over the similarity length L, over R."""
+    return ratio * similarity_length(*material)
+
+
 _FORMULAS: Final[dict[str, Callable[..., Any]]] = {
     **{name: one.follows for name, one in INPUTS.items() if one.follows},
-    "lambda_over_L": lambda ratio, *material: ratio * similarity_length(*material),
+    "lambda_over_L": _over_length,
     "chi": _of_chi,
-    "a_max_over_L": lambda ratio, *material: ratio * similarity_length(*material),
+    "a_max_over_L": _over_length,
     "a_max_over_a2": lambda ratio, *scene: ratio * jump_in_radius_of_envelope(*scene),
 }
 WAYS: Final = _ways()
