@@ -1,6 +1,7 @@
 """The panels of a picture of values: a map, lines, points or their density, each drawn into axes that are given."""
 
 import itertools
+from collections.abc import Iterator, Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -80,30 +81,34 @@ def _lightness(colours: Any) -> Any:
 
 
 def number_contours(lines: QuadContourSet, shown: Shown) -> None:
-    """Put a number on the longest piece of each line, where it is whole and clear; the layout must stand.
+    """Put a number on each line, on the longest piece that has room for it; the layout must stand.
 
-    On a steep flank, where lines crowd, there are none: they would hide the lines beside theirs.
+    On a steep flank, where lines crowd, there is none: it would hide the lines beside.
     """
     frame, transform, inch = lines.axes.get_window_extent(), lines.get_transform(), lines.axes.figure.dpi
     pieces = [
         [Path(transform.transform(piece)).interpolated(10).vertices for piece in path.to_polygons(closed_only=False)]
         for path in lines.get_paths()
     ]
-    places: list[Any] = []
+    taken: list[Any] = []
     for i, own in enumerate(pieces):
-        longest: Any = max(own, key=lambda piece: np.ptp(piece, axis=0).max(), default=np.empty((0, 2)))
-        if not len(longest) or np.ptp(longest, axis=0).max() < 0.5 * inch:
-            continue
         others = np.vstack([np.empty((0, 2)), *itertools.chain(*pieces[:i], *pieces[i + 1 :])])
-        for share in (0.5, 0.35, 0.65, 0.2, 0.8):
-            place = longest[int(share * (len(longest) - 1))]
+        for place in _middles(own, 0.5 * inch):
             inside = all(frame.contains(*(place + side * 0.125 * inch)) for side in (-1.0, 1.0))
-            if inside and _clear(place, places, 0.4 * inch) and _clear(place, others, 0.1 * inch):
-                places.append(place)
+            if inside and _clear(place, taken, 0.4 * inch) and _clear(place, others, 0.1 * inch):
+                taken.append(place)
                 break
-    if places:
-        manual = transform.inverted().transform(places).tolist()
-        lines.clabel(manual=manual, fmt=shown.unit.number, fontsize="x-small", inline_spacing=2)
+    if taken:
+        places = transform.inverted().transform(taken).tolist()
+        lines.clabel(manual=places, fmt=shown.unit.number, fontsize="x-small", inline_spacing=2)
+
+
+def _middles(pieces: Sequence[Any], least: float) -> Iterator[Any]:
+    """Give places along pieces of a line that extend to `least`: the longest first, and of each the middle first."""
+    extents = [float(np.ptp(piece, axis=0).max()) for piece in pieces]
+    for i in np.argsort(extents)[::-1]:
+        if extents[i] >= least:
+            yield from (pieces[i][int(share * (len(pieces[i]) - 1))] for share in (0.5, 0.35, 0.65, 0.2, 0.8))
 
 
 def _clear(place: Any, others: Any, distance: float) -> bool:

@@ -47,6 +47,17 @@ def test_every_shape_is_drawn_in_line(shape: str) -> None:
     )
 
 
+def test_contours_of_a_map_have_numbers_that_keep_clear_of_each_other() -> None:
+    """On the longest piece with room, where the longest one of all runs along a steep flank among others."""
+    k, wavelength = np.linspace(0.0, 0.9, 10), np.geomspace(0.05, 1.0, 80)
+    maps = gr.solve(k=k, nu=0.3, modulus=500.0, c0_over_R=0.01, lambda_over_R=wavelength, A=0.05, a_max_over_R=0.3)
+    for axes in gr.plot(maps, width="page"):
+        numbers = [text.get_window_extent().get_points().mean(axis=0) for text in axes.texts]
+        assert len(numbers) >= 2
+        apart = [np.hypot(*(one - other)) for i, one in enumerate(numbers) for other in numbers[:i]]
+        assert min(apart) > 0.35 * axes.figure.dpi
+
+
 @pytest.mark.parametrize("kind", ["map", "lines"])
 def test_panels_in_a_column_are_high_enough_to_be_read(kind: Any) -> None:
     panels = gr.plot(computed(**SHAPES["panels of maps"]), kind=kind, width="column")
