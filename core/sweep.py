@@ -85,8 +85,8 @@ def request_of(
     profile: Profile,
     loading: Loading,
     toughness: Toughness | None,
-) -> tuple[Request, tuple[int, ...]]:
-    """Return what is to be solved, and the shape of the scenes."""
+) -> Request:
+    """Return what is to be solved."""
     factor, waves = in_own_wavelength(profile)
     given = {**_DEFAULTS, **parameters}
     if turn is not None:
@@ -98,8 +98,9 @@ def request_of(
     if not len(waves):
         waves = np.array([[1.0, 1.0, 0.0]])
     pattern = np.zeros((0, 3)) if toughness is None else rows_of_pattern(toughness)
-    request = Request(
+    return Request(
         arrays=arrays,
+        shape=np.broadcast_shapes(*(array.shape for array in arrays)),
         exponent=profile.exponent,
         waves=waves,
         control=CONTROLS.index(loading.control),
@@ -107,7 +108,6 @@ def request_of(
         pattern=pattern,
         of_work=toughness is not None and toughness.of == "work",
     )
-    return request, np.broadcast_shapes(*(array.shape for array in arrays))
 
 
 def _without_adhesion(found: Results, ratio: NDArray[np.float64], downwards: NDArray[np.bool_]) -> None:
@@ -134,7 +134,7 @@ def _solved(
     check_contact: bool,
 ) -> Results:
     """Return results of cycles by name, all as floats, and `status`, of the broadcast shape."""
-    request, shape = request_of(parameters, turn, profile, loading, toughness)
+    request = request_of(parameters, turn, profile, loading, toughness)
     cycle = bool({*outputs} - {*PULL_OFF, "turning_radius"})
     wanted = Wanted(
         cycle=cycle,
@@ -151,13 +151,14 @@ def _solved(
     names = [name for name in at.NAMES if name in needed]
     form = BY_DEPTH if solver == "asymptotic" else EXACT
     rows, status = solve_all(request, wanted, form, [at.NAMES.index(name) for name in names], threads)
-    found: Results = {name: row.reshape(shape) for name, row in zip(names, rows, strict=True)}
-    status = status.reshape(shape)
+    found: Results = {name: row.reshape(request.shape) for name, row in zip(names, rows, strict=True)}
+    status = status.reshape(request.shape)
     if "dissipated_energy" in found:  # NaN is beyond all numbers, and a gain a contact that is no larger than a wave
         lost = found["dissipated_energy"]
         none = (np.isnan(lost) | ((form != EXACT) & (lost < 0.0))) & ((status & NO_VALUE) == 0)
-        status = np.where(none, NO_VALUE, status)
-        found = {name: np.where(none, np.nan, values) for name, values in found.items()}
+        if none.any():
+            status = np.where(none, NO_VALUE, status)
+            found = {name: np.where(none, np.nan, values) for name, values in found.items()}
     ratio = np.asarray(parameters.get(CLOSING, 1.0), dtype=float)
     if cycle and CLOSING in parameters and (ratio == 0.0).any():
         _without_adhesion(found, ratio, starts_downwards(parameters, profile))
@@ -310,10 +311,9 @@ def solve(
     if slopes:
         from gradhesion.core.scenes.slopes import sensitivities  # noqa: PLC0415 (kernels of their own)
 
-        request, shape = request_of(parameters, turn, profile, loading, toughness)
-        found |= sensitivities(
-            request, shape, slopes, [name for name in (*_COLUMNS, *TURNS) if name in parameters], threads
-        )
+        request = request_of(parameters, turn, profile, loading, toughness)
+        given = [name for name in (*_COLUMNS, *TURNS) if name in parameters]
+        found |= sensitivities(request, slopes, given, threads)
     wide = turn == TURNS[0] or toughness is not None or (status > _MOST_NARROW).any()
     found["status"] = status.astype(np.int16 if wide else np.int8)
     return {name: _typed(name, found[name]) for name in (*outputs, "status")}

@@ -172,7 +172,7 @@ def draw_curves(
         return draw_at_speed(scene, curves, rate, own, partial(draw_curves, **own))
     shape: dict[str, Any] = {"profile": profile, "loading": loading, "toughness": toughness}
     plain = {name: value for name, value in scene.items() if name != turn}
-    frame = frame_of(request_of(plain, None, **shape)[0])
+    frame = frame_of(request_of(plain, None, **shape))
     of_cycle = bool({*curves} & {"path", "jumps"})
     status, radius, pulled = 0, None, math.nan
     if turn is not None or of_cycle:

@@ -182,9 +182,9 @@ def move(
     it. `track`, (3, .): radii and depths in R, loads in 1.5 pi R dgamma, step by step.
     """
     turn = TURNS[0] if TURNS[0] in parameters and not opens else None
-    request, shape = request_of(parameters, turn, known["profile"], known["loading"], None)
+    request = request_of(parameters, turn, known["profile"], known["loading"], None)
     punch, names, (columns, count) = punch_of(request), OPENED if opens else CLOSED, columns_of(request)
-    scenes = np.vstack([scenes_of(columns, 0, count), np.broadcast_to(parameters[SPEED], shape).reshape(1, -1)])
+    scenes = np.vstack([scenes_of(columns, 0, count), np.broadcast_to(parameters[SPEED], request.shape).reshape(1, -1)])
     reduced = reduced_of(punch, basis_of(punch.exponent, punch.waves), scenes, np.ones(count), np.zeros(count))
     out, track = np.full((len(names) + 1, count), np.nan), np.zeros((3, points))
     out[-1] = NO_VALUE

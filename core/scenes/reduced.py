@@ -140,29 +140,32 @@ def fill_reach(punch: Punch, i: int, crest: float, steepest: float, mean: float,
 
 
 @kernel
-def fill_rim(punch: Punch, scenes: Floats, i: int, reduced: Floats) -> None:
-    """Fill what depends on the rim of scene i; the rest is known, and VALID so far without regard to the rim."""
+def fill_rim(punch: Punch, scenes: Floats, i: int, least: float, reduced: Floats) -> None:
+    """Fill what depends on the rim of scene i, which no table has below `least`; VALID has no regard to the rim yet."""
     rim, far = scenes[at.RIM, i] / reduced[at.LENGTH, i], reduced[at.FAR, i]
     if punch.turn == AT_RIM and punch.rows.shape[1] > 0 and rim < math.inf:
         far = max(far, rim)  # beyond its table an interface with a pattern is not known
     reduced[at.RIM_Y, i], reduced[at.NEED, i] = rim, min(far, rim)
-    if not (scenes[at.RIM, i] > 0.0 and rim >= _LEAST / punch.waves[:, 0].max()):  # tables begin there
+    if not (scenes[at.RIM, i] > 0.0 and rim >= least):
         reduced[at.VALID, i] = 0.0
 
 
 @kernel
-def _differs_in_rim_alone(scenes: Floats, i: int, j: int) -> bool:
-    """Return whether two scenes have all parameters but the rim in common."""
-    same, row = True, 0
-    while same and row < at.PARAMETER_ROWS:
-        same = row == at.RIM or scenes[row, i] == scenes[row, j]
-        row += 1
-    return same
+def _end_of_rims(scenes: Floats, first: int) -> int:
+    """Return the end of the scenes from `first` on that have all parameters but the rim in common."""
+    end, same = first, True
+    while same:
+        end, row = end + 1, 0
+        same = end < scenes.shape[1]
+        while same and row < at.PARAMETER_ROWS:
+            same = row == at.RIM or scenes[row, end] == scenes[row, first]
+            row += 1
+    return end
 
 
 @kernel
-def _is_valid(punch: Punch, scenes: Floats, reduced: Floats, i: int) -> bool:
-    """Return whether all parameters of scene i but its rim are in their ranges, and it does not end too small."""
+def _is_valid(punch: Punch, scenes: Floats, i: int, least: float, reduced: Floats) -> bool:
+    """Return whether all parameters of scene i but its rim are in their ranges, and it does not end below `least`."""
     sizes = 0.0 < scenes[at.MODULUS, i] < math.inf and 0.0 < scenes[at.C0, i] < math.inf
     sizes = sizes and 0.0 < scenes[at.WAVELENGTH, i] < math.inf and 0.0 <= scenes[at.AMPLITUDE, i] < math.inf
     edge = 0.0 <= scenes[at.RATIO, i] <= 1.0 and 0.0 < scenes[at.PATTERN_WAVELENGTH, i] < math.inf
@@ -171,13 +174,13 @@ def _is_valid(punch: Punch, scenes: Floats, reduced: Floats, i: int) -> bool:
     known = 0.0 < reduced[at.BY_POWER, i] < math.inf and reduced[at.MOST, i] > 0.0
     if punch.rows.shape[1] > 0:
         known = known and 0.0 < reduced[at.PATTERN_WAVES, i] < math.inf
-    return sizes and edge and target and machine and known and not _is_below_tables(punch, reduced, i)
+    return sizes and edge and target and machine and known and not _is_below_tables(punch, i, least, reduced)
 
 
 @kernel
-def _is_below_tables(punch: Punch, reduced: Floats, i: int) -> bool:
-    """Return whether the contact that jumps out of a smooth punch is too small for tables."""
-    least, eta = _LEAST / punch.waves[:, 0].max(), 0.5 * (1.0 - reduced[at.EXPONENT, i])
+def _is_below_tables(punch: Punch, i: int, least: float, reduced: Floats) -> bool:
+    """Return whether the contact that jumps out of a smooth punch is smaller than `least`."""
+    eta = 0.5 * (1.0 - reduced[at.EXPONENT, i])
     # d depth/dy = 0 is B m y^(m - eta) = eta; at k = 1 the contact shrinks to a point, and B y^m is compared with 1
     jump_out = eta / punch.exponent if eta > 0.0 else 1.0
     return reduced[at.BY_POWER, i] * least ** (punch.exponent - eta) > jump_out
@@ -185,17 +188,12 @@ def _is_below_tables(punch: Punch, reduced: Floats, i: int) -> bool:
 
 @kernel
 def reduce_scenes(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats) -> None:
-    """Fill the reduced numbers of all scenes but MOST and STEEP; neighbours share what they have in common."""
+    """Fill the reduced numbers of all scenes but MOST and STEEP; scenes that differ in the rim alone share the rest."""
     punch, basis, scenes, reduced = borrowed((punch, basis, scenes, reduced))
     k = nu = theta = depth_factor = crest = steepest = math.nan
-    mean = mean_of(punch.waves)
-    for i in range(scenes.shape[1]):
-        shares = i > 0 and punch.rows.shape[1] == 0 and reduced[at.VALID, i - 1] > 0.0
-        if shares and _differs_in_rim_alone(scenes, i - 1, i):
-            for row in range(at.REDUCED_ROWS):  # one by one, as in table/functions.py
-                reduced[row, i] = reduced[row, i - 1]
-            fill_rim(punch, scenes, i, reduced)
-            continue
+    mean, least = mean_of(punch.waves), _LEAST / punch.waves[:, 0].max()
+    i = int(np.int64(0))  # a plain 0 would be a type of its own
+    while i < scenes.shape[1]:
         if scenes[at.K, i] != k:
             k, nu = scenes[at.K, i], math.nan
             if not 0.0 <= k <= 1.0:
@@ -209,8 +207,14 @@ def reduce_scenes(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats) -
             theta = theta_of(k, nu)
         reduce_scene(punch, scenes, i, theta, depth_factor, reduced)
         fill_reach(punch, i, crest, steepest, mean, reduced)
-        reduced[at.VALID, i] = 1.0 if _is_valid(punch, scenes, reduced, i) else 0.0
-        fill_rim(punch, scenes, i, reduced)
+        reduced[at.VALID, i] = 1.0 if _is_valid(punch, scenes, i, least, reduced) else 0.0
+        end = i + 1 if punch.rows.shape[1] > 0 else _end_of_rims(scenes, i)
+        for row in range(at.REDUCED_ROWS):
+            for other in range(i + 1, end):
+                reduced[row, other] = reduced[row, i]
+        for other in range(i, end):
+            fill_rim(punch, scenes, other, least, reduced)
+        i = end
 
 
 def reduced_of(punch: Punch, basis: Basis, scenes: Floats, most: Floats, steep: Floats) -> Floats:

@@ -11,7 +11,7 @@ from gradhesion.core.edge.pattern import rows_by_number
 from gradhesion.core.processors import processors
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.reduced import Punch
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Integers
 
 _SCENES: Final = 1000
 """Scenes of a part, at least: a millisecond or more."""
@@ -32,11 +32,13 @@ class Wanted(NamedTuple):
 class Request(NamedTuple):
     """What a call asks for: the parameters of its scenes, and what all of them share, as `Punch` has it.
 
-    arrays      an array for each row of parameters (reduced.py), all broadcastable
+    arrays      an array for each row of parameters (rows.py), all broadcastable
+    shape       that of all of them together, which is that of the scenes
     pattern     the harmonics of the pattern of toughness, rows (n, cos, sin)
     """
 
     arrays: list[Floats]
+    shape: tuple[int, ...]
     exponent: float
     waves: Floats
     control: int
@@ -53,10 +55,9 @@ def punch_of(request: Request) -> Punch:
 
 def columns_of(request: Request) -> tuple[list[Floats], int]:
     """Return each row of parameters, of one item or one a scene, and the number of scenes."""
-    shape = np.broadcast_shapes(*(array.shape for array in request.arrays))
+    shape = request.shape
     full = [a if a.size == 1 or a.shape == shape else np.broadcast_to(a, shape) for a in request.arrays]
-    columns = [a.reshape(-1) for a in full]
-    return columns, math.prod(shape)
+    return [a.reshape(-1) for a in full], math.prod(shape)
 
 
 def scenes_of(columns: list[Floats], first: int, last: int) -> Floats:
@@ -65,6 +66,15 @@ def scenes_of(columns: list[Floats], first: int, last: int) -> Floats:
     for row, column in enumerate(columns):
         scenes[row] = column if column.size == 1 else column[first:last]
     return scenes
+
+
+def scenes_by_exponent(columns: list[Floats], first: int, last: int) -> tuple[Floats, slice | Integers]:
+    """Return the scenes `first` to `last` - 1 in the order of their exponents, and their places among all."""
+    scenes = scenes_of(columns, first, last)
+    if not (scenes[at.K, 1:] < scenes[at.K, :-1]).any():
+        return scenes, slice(first, last)
+    order = np.argsort(scenes[at.K], kind="stable")
+    return np.ascontiguousarray(scenes[:, order]), first + order
 
 
 def set_lengths(punch: Punch, scenes: Floats) -> None:

@@ -54,7 +54,7 @@ from gradhesion.core.scenes.cycles import (
     turns_of,
 )
 from gradhesion.core.scenes.reduced import AT_A_LOAD, AT_DEPTH, AT_RIM, MACHINE, Punch
-from gradhesion.core.scenes.requests import Request, Wanted, columns_of, punch_of, run_parts, scenes_of
+from gradhesion.core.scenes.requests import Request, Wanted, columns_of, punch_of, run_parts, scenes_by_exponent
 from gradhesion.core.scenes.tables import Tables, end_of_exponent, long_table, near_tables, solve_far, task_of
 from gradhesion.core.scenes.tasks import in_groups
 from gradhesion.core.table.basis import NODES, Basis, empty_table, fill_table, room_of
@@ -467,9 +467,9 @@ def _by_parameter(
 
 
 def sensitivities(
-    request: Request, shape: tuple[int, ...], outputs: Sequence[str], given: Sequence[str], threads: int | None
+    request: Request, outputs: Sequence[str], given: Sequence[str], threads: int | None
 ) -> dict[str, NDArray[np.float64]]:
-    """Return sensitivities among `outputs`, arrays of the shape (*shape, parameters).
+    """Return sensitivities among `outputs`, arrays of the shape (*request.shape, parameters).
 
     The last axis has the parameters of `PARAMETERS`, and those of `FURTHER` that are `given`, in this order. NaN where
     the value is not positive or has no bound, for nu at k = 1, and for the closing ratio of the energy of an unbounded
@@ -481,10 +481,8 @@ def sensitivities(
     found = {name: np.empty((count, len(names))) for name in outputs}
 
     def work(first: int, last: int) -> None:
-        """Fill a part of the scenes, which are solved in the order of their exponents."""
-        scenes = scenes_of(columns, first, last)
-        order = np.argsort(scenes[at.K], kind="stable")
-        scenes = np.ascontiguousarray(scenes[:, order])
+        """Fill a part of the scenes."""
+        scenes, places = scenes_by_exponent(columns, first, last)
         near, far = partial(_near, punch, profile), partial(_far, punch, profile)
         out, _ = in_groups(punch, EXACT, scenes, _ALL_ROWS, near, far)
         with np.errstate(all="ignore"):  # what has no value has no sensitivity
@@ -495,7 +493,7 @@ def sensitivities(
                 slopes = _by_parameter(punch, scenes, out[UNIT], by, material, of_force=of_force)
                 rows = np.array([slopes[name] for name in names])
                 has_value = np.isfinite(by[OF_POWER])
-                found[output][first + order] = np.where(has_value & np.isfinite(rows), rows + 0.0, np.nan).T  # no -0
+                found[output][places] = np.where(has_value & np.isfinite(rows), rows + 0.0, np.nan).T  # no -0
 
     run_parts(count, work, threads)
-    return {name: values.reshape(*shape, len(names)) for name, values in found.items()}
+    return {name: values.reshape(*request.shape, len(names)) for name, values in found.items()}

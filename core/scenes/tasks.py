@@ -18,7 +18,15 @@ from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.cycles import curve_end, put_force, solve_exponent
 from gradhesion.core.scenes.long import solve_summed
 from gradhesion.core.scenes.reduced import AT_RIM, Punch, reduced_of
-from gradhesion.core.scenes.requests import Request, Wanted, columns_of, punch_of, run_parts, scenes_of, set_lengths
+from gradhesion.core.scenes.requests import (
+    Request,
+    Wanted,
+    columns_of,
+    punch_of,
+    run_parts,
+    scenes_by_exponent,
+    set_lengths,
+)
 from gradhesion.core.scenes.tables import (
     MOST_BINS,
     Tables,
@@ -206,9 +214,10 @@ def in_groups(
         for value in np.unique(finer[finer <= FINEST]):
             put(near, int(value), np.flatnonzero(finer == value))
     short = np.flatnonzero(out[at.STATUS] == at.SHORT)
-    finenesses, exponents = np.broadcast_to(finer, scenes.shape[1])[short], scenes[at.K, short]
-    for value, k in sorted({*zip(finenesses.tolist(), exponents.tolist(), strict=True)}):
-        put(far, value, short[(exponents == k) & (finenesses == value)])
+    if short.size:
+        finenesses, exponents = np.broadcast_to(finer, scenes.shape[1])[short], scenes[at.K, short]
+        for value, k in sorted({*zip(finenesses.tolist(), exponents.tolist(), strict=True)}):
+            put(far, value, short[(exponents == k) & (finenesses == value)])
     return out, reduced
 
 
@@ -282,14 +291,13 @@ def solve_all(
     out, status = np.empty((len(rows), count)), np.empty(count, dtype=np.int16)
 
     def work(first: int, last: int) -> None:
-        """Solve a part of the scenes, in the order of their exponents."""
-        scenes = scenes_of(columns, first, last)
+        """Solve a part of the scenes."""
+        scenes, places = scenes_by_exponent(columns, first, last)
         set_lengths(punch, scenes)
-        order = np.argsort(scenes[at.K], kind="stable")
-        found = _solve_task(punch, wanted, form, profile, np.ascontiguousarray(scenes[:, order]))
+        found = _solve_task(punch, wanted, form, profile, scenes)
         for row, wanted_row in enumerate(rows):
-            out[row, first + order] = found[wanted_row]
-        status[first + order] = found[at.STATUS]
+            out[row, places] = found[wanted_row]
+        status[places] = found[at.STATUS]
 
     run_parts(count, work, threads)
     return out, status
