@@ -21,6 +21,7 @@ from gradhesion.cli.names.curves import RAGGED, STATE, is_ragged
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, size_of
+from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.progress import Advance
 from gradhesion.cli.work.folder import Parts, claimed, clear, is_written, mark_of
@@ -140,6 +141,7 @@ def _kept(
         if parts.study.has_parts and not reused:
             with writing(parts.output):
                 parts.write(number, values)
+        interrupts.check()  # a cluster may have swallowed it
         written.failed += int(np.count_nonzero(values["status"] & FAILED))
         written.reused += reused
         written.computed += not reused

@@ -5,7 +5,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
@@ -14,8 +14,15 @@ from typing import Any
 import pytest
 
 from gradhesion.cli import disk
+from gradhesion.cli.dataset.writer import write
 from gradhesion.cli.disk import replacement
 from gradhesion.cli.errors import OutputError
+from gradhesion.cli.study.reading import load_study
+from gradhesion.cli.study.study import Study
+from gradhesion.cli.terminal import interrupts
+from gradhesion.cli.work.folder import folder_of, parts_in
+from gradhesion.cli.work.solve.blocks import in_threads
+from gradhesion.cli.work.solve.scenes import Arrays
 from tests.cli.conftest import Patch
 
 HUGE = """\
@@ -80,15 +87,25 @@ def test_a_second_interrupt_does_not_disturb_the_tidying_up(tmp_path: Path) -> N
 
 
 def test_an_interrupt_that_a_library_swallows_is_heard(study_file: Path, tmp_path: Path, monkeypatch: Patch) -> None:
-    from gradhesion.cli.dataset.writer import write
-    from gradhesion.cli.study.reading import load_study
-    from gradhesion.cli.terminal import interrupts
-
     monkeypatch.setattr(interrupts, "_heard", [0.0])
     monkeypatch.setattr("gradhesion.cli.work.solve.scenes.solve", lambda *_, **__: time.sleep(0.5))
     with pytest.raises(KeyboardInterrupt):
         write(load_study(study_file), tmp_path / "out" / "out.nc", history="")
     assert os.listdir(tmp_path / "out") == []
+
+
+def test_an_interrupt_that_a_cluster_swallows_ends_the_run_after_a_block(
+    study_file: Path, tmp_path: Path, monkeypatch: Patch
+) -> None:
+    def engine(study: Study, numbers: Sequence[int]) -> Iterator[tuple[int, Arrays]]:
+        for solved in in_threads(study, numbers):
+            monkeypatch.setattr(interrupts, "_heard", [0.0])
+            yield solved
+
+    monkeypatch.setenv("GRADHESION_CHUNK", "2")
+    with pytest.raises(KeyboardInterrupt):
+        write(load_study(study_file), tmp_path / "out.nc", history="", engine=engine)
+    assert len(parts_in(folder_of(tmp_path / "out.nc"))) == 1
 
 
 @pytest.fixture
