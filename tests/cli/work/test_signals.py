@@ -21,7 +21,7 @@ from gradhesion.cli.study.reading import load_study
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.work.folder import folder_of, parts_in
-from gradhesion.cli.work.solve.blocks import in_threads
+from gradhesion.cli.work.solve.blocks import solve_block
 from gradhesion.cli.work.solve.scenes import Arrays
 from tests.cli.conftest import Patch
 
@@ -98,9 +98,9 @@ def test_an_interrupt_that_a_cluster_swallows_ends_the_run_after_a_block(
     study_file: Path, tmp_path: Path, monkeypatch: Patch
 ) -> None:
     def engine(study: Study, numbers: Sequence[int]) -> Iterator[tuple[int, Arrays]]:
-        for solved in in_threads(study, numbers):
+        for number in numbers:
             monkeypatch.setattr(interrupts, "_heard", [0.0])
-            yield solved
+            yield number, solve_block(study, study.tiling[number], 1)
 
     monkeypatch.setenv("GRADHESION_CHUNK", "2")
     with pytest.raises(KeyboardInterrupt):
