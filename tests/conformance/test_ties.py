@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from gradhesion.core import FLAGS, draw_curves
+from gradhesion.core import FLAGS, Harmonic, Profile, draw_curves, solve
 
 from .kinds import BY_NAME, COUNTS, EXACT, SCENES, Kind, Scenes, drawn, for_kinds, one_of, rng_of, some
 from .promises import CLOSE, has
@@ -136,3 +136,21 @@ def test_a_punch_that_touches_elsewhere_first_is_flagged(kind: Kind) -> None:
     lower = np.array([touches_elsewhere(kind, one_of(scenes, i)) for i in range(found["status"].size)])
     assert lower.any()
     assert has(found, NOT_ONE)[lower].all()
+
+
+@pytest.mark.parametrize(
+    "waves", [((1, 0.5, 0.0), (4, -0.4, 0.2)), ((1, 0.5, 0.3), (5, -0.7, 0.0)), ((1, 0.2, 0.1), (3, -0.3, 0.4))]
+)
+def test_the_amplitude_from_which_a_punch_touches_elsewhere_first(waves: tuple[tuple[int, float, float], ...]) -> None:
+    """A dip that reaches the height of the centre between two samples of the profile; the amplitude is that of many."""
+    wavelength = 0.1
+    r = np.linspace(0.0, 1.2 * wavelength, 1_000_001)[1:]
+    swing = sum(
+        even * (1 - np.cos(2 * np.pi * n * r / wavelength)) + odd * np.sin(2 * np.pi * n * r / wavelength)
+        for n, even, odd in waves
+    )
+    least = np.min(0.5 * r[swing < 0] ** 2 / (-wavelength * swing[swing < 0]))
+    scene = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": wavelength, "a_max_over_R": 1.0}
+    profile = Profile(harmonics=tuple(Harmonic(n=n, cos=even, sin=odd) for n, even, odd in waves))
+    found = solve(scene | {"A": least * np.array([1 - 2e-4, 1 + 2e-4])}, profile=profile)
+    assert has(found, NOT_ONE).tolist() == [False, True]
