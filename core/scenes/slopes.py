@@ -75,7 +75,6 @@ UNIT: Final = at.RESULT_ROWS + 2 * ROWS
 _ALL_ROWS: Final = UNIT + 1
 FURTHER: Final = ("machine_stiffness", *TURNS, CLOSING, *PATTERN)
 """Parameters beyond the seven, in the order of the last axis."""
-_WANTED: Final = Wanted(cycle=True, depth=False, contact=False, residual=False, saturation=False)
 ALL: Final = -1
 """In the place of a number of bins: the whole table is filled."""
 _STEP: Final = 2.0**-11
@@ -176,11 +175,11 @@ def _observe(pair: Pair, frozen: Frozen, weight: float, out: Floats) -> None:
 
 
 @kernel
-def _freeze(walked: Walked, at_depth: bool, opened: int, y: float, pull: float, turns: bool, jumps: Floats) -> Frozen:
+def _freeze(task: Task, walked: Walked, opened: int, y: float, pull: float, turns: bool, jumps: Floats) -> Frozen:
     """Return the radii of the cycle of a scene that turns at y, short of its rim if it `turns`; fill `jumps`.
 
     `opened` is the number of branches of opening, `pull` the radius of the lowest load: where that is y, it moves with
-    the turn. A turn that a jump has passed lies where that jump lands.
+    the turn. A turn that a jump has passed lies where that jump lands. Where no energy is wanted there are no jumps.
     """
     own, visited = walked.loading, walked.columns[0]
     loading = list_loading_jumps(walked.closing, y, own, visited, walked.visits, jumps)
@@ -189,10 +188,12 @@ def _freeze(walked: Walked, at_depth: bool, opened: int, y: float, pull: float, 
     turn = y
     if passed:
         turn = jumps[LANDED, loading - 1]
-    count = list_unloading_jumps(walked.opening, turn, walked.unloading, opened, jumps, loading)
-    by_depth = 1.0 if at_depth else 0.0
+    by_depth = 1.0 if task.punch.turn == AT_DEPTH else 0.0
     pull = turn if pull == y else pull
     left = jumps[LEFT, loading - 1] if passed else 0.0
+    if not task.wanted.cycle:
+        return Frozen(pull, turn, turns, passed, left, by_depth, 1.0 - by_depth, jumps, 0, 0)
+    count = list_unloading_jumps(walked.opening, turn, walked.unloading, opened, jumps, loading)
     return Frozen(pull, turn, turns, passed, left, by_depth, 1.0 - by_depth, jumps, loading, count)
 
 
@@ -316,7 +317,7 @@ def _fill_scene(
     if walked.branches < 0 or opened < 0 or beyond or not (lowest.known and lowest.load < 0.0):
         return False
     turns = task.punch.turn != AT_RIM and y < reduced[at.RIM_Y, i]
-    frozen = _freeze(walked, task.punch.turn == AT_DEPTH, opened, y, lowest.y, turns, near.jumps)
+    frozen = _freeze(task, walked, opened, y, lowest.y, turns, near.jumps)
     near.scene[:, 0], near.numbers[:, 0] = scenes[:, i], reduced[:, i]
     near.value[:] = 0.0
     _observe(pair, frozen, 1.0, near.value)
@@ -379,7 +380,9 @@ def solve_slopes(
             first = max(end, first + 1)
 
 
-def _near(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Floats, out: Floats) -> None:
+def _near(
+    punch: Punch, wanted: Wanted, profile: Floats, finer: int, scenes: Floats, reduced: Floats, out: Floats
+) -> None:
     """Store the derivatives of near scenes of one fineness of bins."""
     patterned = punch.rows.shape[1] > 0
     with near_tables(punch, EXACT, finer, math.nan) as tables:  # neighbours need a basis of all exponents
@@ -388,10 +391,12 @@ def _near(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Fl
         nodes[:, Y] = tables.basis.fixed[0, : bins + 1]  # a table ends where its last bin does, filled or not
         rooms = rooms_for(bins if patterned else 0, patterned)
         four = (none, none, none, none)
-        solve_slopes(punch, _WANTED, tables, four, nodes, polys, rooms, profile, scenes, reduced, out)
+        solve_slopes(punch, wanted, tables, four, nodes, polys, rooms, profile, scenes, reduced, out)
 
 
-def _far(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Floats, out: Floats) -> None:
+def _far(
+    punch: Punch, wanted: Wanted, profile: Floats, finer: int, scenes: Floats, reduced: Floats, out: Floats
+) -> None:
     """Store the derivatives of scenes of one exponent that reach beyond near tables.
 
     Those of more waves than _MOST_BINS holds have none: here sums over waves would take over.
@@ -406,7 +411,7 @@ def _far(punch: Punch, profile: Floats, finer: int, scenes: Floats, reduced: Flo
         nodes, polys = (np.stack([room] * 4) for room in room_of(0))
         rooms = rooms_for(bins if patterned else 0, patterned)
         four = (long[0], long[1], long[2], long[3])
-        solve_slopes(punch, _WANTED, tables, four, nodes, polys, rooms, profile, own, numbers, found)
+        solve_slopes(punch, wanted, tables, four, nodes, polys, rooms, profile, own, numbers, found)
 
     if within.size:
         found = np.empty((len(out), within.size))
@@ -476,6 +481,8 @@ def sensitivities(
     punch that does not turn.
     """
     punch, profile = punch_of(request), profile_of(request.waves)
+    of_energy = SENSITIVITIES[1] in outputs
+    wanted = Wanted(cycle=of_energy, depth=False, contact=False, residual=False, saturation=False)
     columns, count = columns_of(request)
     names = [*PARAMETERS, *(name for name in FURTHER if name in given)]
     found = {name: np.empty((count, len(names))) for name in outputs}
@@ -483,7 +490,7 @@ def sensitivities(
     def work(first: int, last: int) -> None:
         """Fill a part of the scenes."""
         scenes, places = scenes_by_exponent(columns, first, last)
-        near, far = partial(_near, punch, profile), partial(_far, punch, profile)
+        near, far = partial(_near, punch, wanted, profile), partial(_far, punch, wanted, profile)
         out, _ = in_groups(punch, EXACT, scenes, _ALL_ROWS, near, far)
         with np.errstate(all="ignore"):  # what has no value has no sensitivity
             material = _material_slopes(scenes[at.K], scenes[at.NU], punch.exponent)

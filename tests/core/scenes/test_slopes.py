@@ -56,6 +56,13 @@ def test_against_differences_of_fourth_order(change: dict[str, Any], how: dict[s
         np.testing.assert_allclose(found[slopes], expected, rtol=1e-7, atol=(2e-8 + 4e-16 / step) * (1.0 + scale))
 
 
+@pytest.mark.parametrize(("change", "how"), KINDS.values(), ids=KINDS)
+def test_each_is_the_same_alone(change: dict[str, Any], how: dict[str, Any]) -> None:
+    both = solve(SCENE | change, SENSITIVITIES, **how)
+    for name in SENSITIVITIES:
+        np.testing.assert_array_equal(solve(SCENE | change, [name], **how)[name], both[name])
+
+
 def test_the_smooth_cycle_and_what_has_no_influence() -> None:
     """The energy is a number of k times M^(-2/(3+k)), and the force (3+k)/3 (section 3 of docs/theory.md)."""
     k, found = SCENE["k"], solve(SCENE | ENDLESS | {"A": 0.0}, SENSITIVITIES)
