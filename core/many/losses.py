@@ -84,8 +84,10 @@ def _losses(long: Long, curve: Curve, number: float, space: Space, outwards: boo
         low, inner = lowest_start(trace, others, count), lowest_start(trace, 0, first)
         if trace[at.START_LEVEL, inner] >= trace[at.START_LEVEL, low]:
             return False
-        trace[at.UNLOADED, inner] = trace[at.UNLOADING_JUMPS, inner] = 0.0
+        trace[at.UNLOADED, inner], trace[at.UNLOADING_JUMPS, inner], trace[at.LAST, inner] = 0.0, 0.0, inner
         fill_unloading(piece, trace, low, space.stack)
+        if trace[at.LAST, low] != inner:  # bottoms that differ by rounding: it leaves contact
+            return False
         out[INWARDS], out[JUMPS_INWARDS] = trace[at.UNLOADED, low], trace[at.UNLOADING_JUMPS, low]
     return True
 
