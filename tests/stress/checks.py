@@ -69,7 +69,8 @@ def energy_not_negative(scenes: Scenes) -> Excess:
 def force_does_not_fall(scenes: Scenes) -> Excess:
     """A larger punch never holds less."""
     force = _at_rims(scenes, [1.0, 1.0 + 1e-9, 1.03, 1.4, 7.0, 1e4, np.inf], ("pull_off_force",))["pull_off_force"]
-    falls = (-np.diff(force, axis=1) / (16 * EPS * np.abs(force[:, 1:]))).max(axis=1)
+    # near and far punches have tables of their own, whose rounding differs: 21 EPS at most in 200,000 scenes
+    falls = (-np.diff(force, axis=1) / (32 * EPS * np.abs(force[:, 1:]))).max(axis=1)
     return np.where(np.isnan(force).any(axis=1) | (force == 0.0).any(axis=1), 0.0, falls)
 
 
