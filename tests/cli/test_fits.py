@@ -12,7 +12,7 @@ import xarray
 
 import gradhesion as gr
 from gradhesion.cli.dataset import fits as of_fits
-from gradhesion.cli.picture.fits import drawn_fits
+from gradhesion.cli.picture.fits import doubtful, drawn_fits
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, NO_VALUE, POOR_FIT
 from tests.cli.conftest import BALL, WORK, Call, Patch, jkr
 
@@ -145,6 +145,9 @@ def test_pictures_of_all_and_of_one(gradhesion: Call, found: xarray.Dataset) -> 
     top, _ = gr.plot(found, at={"loop": 1})
     count = sum(line.get_xdata().size for line in top.lines if line.get_marker() == "." and len(line.get_xdata()))
     assert count == int(found["kept_points"][1])
+    at_end = found.assign(on_bound=found["on_bound"].copy(data=np.eye(*found["on_bound"].shape, -1, dtype="i1")))
+    assert not doubtful(found)[:3].any()
+    assert doubtful(at_end)[:3].tolist() == [False, True, True]
     many = xarray.concat([found.isel(loop=[0, 1, 2])] * 10, "loop")
     heights = sum(patch.get_height() for patch in drawn_fits(many).axes[0].patches)
     assert heights == 30, "a histogram of all"

@@ -67,6 +67,8 @@ def test_where_a_formula_has_no_value_or_a_last_one() -> None:
     )
     assert call("hertz.indentation") == call("jkr.indentation", stiffness=np.inf)
     assert call("effective.jump_out_radius", k=1.0) == 0.0
+    s, r = envelopes.adhesion_strength(0.3, 500.0), envelopes.waviness_strength(0.3, 0.1, 0.02)
+    assert effective.second_part(0.3, 500.0, 0.1, 0.02, effective.jump_in_radius(0.3, s, r)) == 0.0
     assert call("short_waves.share", ratio=[1.0, 1.5, np.inf]).tolist() == [0.0, 0.0, 0.0]
 
 
