@@ -55,6 +55,13 @@ def test_contact_is_where_loading_leaves_the_line() -> None:
     assert contact_of(rows[back], back[back]) is None, "loading has none"
 
 
+def test_what_is_flat_at_the_lowest_load_of_unloading_is_no_base_line() -> None:
+    depth = np.linspace(0.0, 1.0, 400)
+    rows = np.column_stack([depth, np.maximum(depth - 0.3, 0.0) ** 2])
+    assert base_line(rows, np.ones(400, bool), NOISE) is None
+    assert base_line(rows, np.zeros(400, bool), NOISE) is not None, "loading begins without contact"
+
+
 def test_without_a_base_line_or_with_nothing_else_there_is_no_contact_point() -> None:
     """Six points are the least that a line is found from."""
     rows, back = points(1, first=0.2)
