@@ -125,6 +125,7 @@ def test_a_table_has_a_row_for_each_loop(gradhesion: Call, found: xarray.Dataset
     value, low, high = (float(found[name][1, 0]) for name in ("value", "low", "high"))
     assert f"{value:.5g} ({low:.4g} to {high:.4g})" in rows[1]
     assert any(line.startswith("curves/9.csv") and line.endswith("no_value") for line in told)
+    assert "averaged" not in "".join(told), "there are few points"
     table = list(csv.DictReader(io.StringIO(gradhesion("info", "many.nc", "--format", "csv").stdout)))
     assert len(table) == 4 * 4
     assert [float(row["value"]) for row in table[:4]] == found["value"].values[0].tolist()
