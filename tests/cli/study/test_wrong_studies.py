@@ -72,6 +72,7 @@ STUDIES: dict[str, tuple[dict[str, Any], str]] = {
     "another name": (of_units(work_of_adhesion=None, gamma="50 mJ/m^2"), '"work_of_adhesion"'),
     "a synonym": ({"parameters": {**{key: one for key, one in PUNCH.items() if key != "nu"}, "poisson": 0.3}}, '"nu"'),
     "another table": ({"parameters": PUNCH | {"radius": 1.0}}, '"R", under [physical]'),
+    "misspelt at the top": ({"lamda_over_R": 0.1, "parameters": {key: one for key, one in PUNCH.items() if key != "lambda_over_R"}}, "[parameters]"),
     "misspelt": ({"parameters": {**{key: one for key, one in PUNCH.items() if key != "lambda_over_R"}, "lamda_over_R": 0.1}}, '"lambda_over_R"'),
     "a ratio with a unit": ({"parameters": PUNCH | {"lambda_over_R": "5 um"}}, "wavelength"),
     "a ratio for a quantity": (RATIO | {"physical": without_none(AFM | {"wavelength": None})}, "give wavelength"),
