@@ -202,7 +202,8 @@ def solve_far(
     k, most = float(scenes[at.K, 0]), (most_bins - GEOMETRIC) * width_of(punch.waves, finer)
     left, factor = np.arange(scenes.shape[1]), 1.0
     while left.size:
-        need = np.minimum(reduced[at.NEED, left] * factor, reduced[at.RIM_Y, left] * 1.01)
+        with np.errstate(over="ignore"):  # what is endless stays so
+            need = np.minimum(reduced[at.NEED, left] * factor, reduced[at.RIM_Y, left] * 1.01)
         possible = need[need <= most]
         y_end = float(possible.max()) if possible.size else most
         table, _, crest = long_table(punch, k, form, finer, y_end)

@@ -115,7 +115,7 @@ def similarity(scenes: Scenes) -> Excess:
     second = solve({name: values * scale ** powers.get(name, 0) for name, values in scenes.items()}, OUTPUTS)
     force = np.abs(second["pull_off_force"] / first["pull_off_force"] - 1) / 1e-11
     parts = np.abs(first["loading_energy"]) + np.abs(first["unloading_energy"])  # 1e4 times their sum, on wavy punches
-    size = np.abs(first["dissipated_energy"]) + 1e-3 * np.fmax(_size(scenes), parts)
+    size = np.abs(first["dissipated_energy"]) + np.fmax(1e-3 * _size(scenes), 1e-2 * parts)
     waves = np.minimum(scenes["a_max_over_R"] / scenes["lambda_over_R"], groups(scenes)["waves"])
     # waves whose folds tie to rounding: the last one of unloading is another, and loses what rounding leaves of the terms
     tied = first["unloading_jumps"] != second["unloading_jumps"]
