@@ -60,6 +60,18 @@ def test_what_is_lost_is_the_sum_over_the_drawn_jumps(kind: Kind) -> None:
         agree_but_for_a_jump(kind, some(scenes, [i]), own, values, ["loading_energy", "unloading_energy"])
 
 
+@EVERY
+def test_waves_are_summed_as_they_are_walked(kind: Kind) -> None:
+    """Up to 2,000 waves are walked where the loop integral is asked for, else up to 600."""
+    rng = rng_of(f"walked {kind.name}")
+    scenes = long(kind, "walked", rng.uniform(650.0, 1900.0, 40), rng.uniform(0.05, 4.0, 40))
+    scenes |= {"a_max_over_R": rng.uniform(0.5, 1.0, 40) * scenes["a_max_over_R"]}
+    summed, names = kind.solve(scenes), ["dissipated_energy", "loading_energy", "unloading_energy", "delta_max"]
+    walked = summed | kind.solve(scenes, [*names, *COUNTS, "energy_residual"])
+    assert np.isfinite(walked["energy_residual"]).all(), "it is known of what is walked alone"
+    agree_but_for_a_jump(kind, scenes, summed, walked, names)
+
+
 @for_kinds(PLAIN)
 def test_beyond_saturation_nothing_is_lost(kind: Kind) -> None:
     """Where the last fold lies within the rim, a wider rim or none changes no value but the depth that is reached."""
