@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from gradhesion.core import draw_curves, solve
+from gradhesion.core import draw_curves
 
 from .kinds import COUNTS, DEPTH, TWO, Kind, Scenes, for_kinds, one_of, rescaled, rng_of, some
 from .promises import agree
@@ -108,7 +108,7 @@ def test_waves_below_rounding_lose_nothing() -> None:
         "lambda_over_R": 5.29e-11,
         "A": 6.4e-9,
     }
-    found = solve(
+    found = PLAIN[0].solve(
         scene | {"a_max_over_R": rim * (1.0 + 1e-12 * np.arange(4))}, ["dissipated_energy", "unloading_energy"]
     )
     np.testing.assert_allclose(found["dissipated_energy"], np.pi * rim**2, rtol=1e-11)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from gradhesion.core import FLAGS, Harmonic, Profile, draw_curves, solve
+from gradhesion.core import FLAGS, draw_curves
 
 from .kinds import BY_NAME, COUNTS, EXACT, SCENES, Kind, Scenes, drawn, for_kinds, one_of, rng_of, some
 from .promises import CLOSE, has
@@ -151,6 +151,5 @@ def test_the_amplitude_from_which_a_punch_touches_elsewhere_first(waves: tuple[t
     )
     least = np.min(0.5 * r[swing < 0] ** 2 / (-wavelength * swing[swing < 0]))
     scene = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": wavelength, "a_max_over_R": 1.0}
-    profile = Profile(harmonics=tuple(Harmonic(n=n, cos=even, sin=odd) for n, even, odd in waves))
-    found = solve(scene | {"A": least * np.array([1 - 2e-4, 1 + 2e-4])}, profile=profile)
+    found = Kind("a dip", waves=waves).solve(scene | {"A": least * np.array([1 - 2e-4, 1 + 2e-4])})
     assert has(found, NOT_ONE).tolist() == [False, True]
