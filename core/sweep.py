@@ -122,19 +122,17 @@ def _without_adhesion(found: Results, ratio: NDArray[np.float64], downwards: NDA
 
 
 def _solved(
+    request: Request,
     parameters: Mapping[str, ArrayLike],
     outputs: Sequence[str],
-    turn: str | None,
     profile: Profile,
     loading: Loading,
-    toughness: Toughness | None,
     solver: str,
     threads: int | None,
     *,
     check_contact: bool,
 ) -> Results:
     """Return results of cycles by name, all as floats, and `status`, of the broadcast shape."""
-    request = request_of(parameters, turn, profile, loading, toughness)
     cycle = bool({*outputs} - {*PULL_OFF, "turning_radius"})
     wanted = Wanted(
         cycle=cycle,
@@ -293,9 +291,8 @@ def solve(
 
         found = _of_envelopes(parameters, values, profile, solve_envelope)
     else:
-        found = _solved(
-            parameters, values, turn, profile, loading, toughness, solver, threads, check_contact=check_contact
-        )
+        request = request_of(parameters, turn, profile, loading, toughness)
+        found = _solved(request, parameters, values, profile, loading, solver, threads, check_contact=check_contact)
     status = found["status"]
     if turn is not None:
         away = (status & NO_CONTACT) != 0
@@ -311,7 +308,6 @@ def solve(
     if slopes:
         from gradhesion.core.scenes.slopes import sensitivities  # noqa: PLC0415 (kernels of their own)
 
-        request = request_of(parameters, turn, profile, loading, toughness)
         given = [name for name in (*_COLUMNS, *TURNS) if name in parameters]
         found |= sensitivities(request, slopes, given, threads)
     wide = turn == TURNS[0] or toughness is not None or (status > _MOST_NARROW).any()

@@ -176,8 +176,12 @@ def mix_wave(waves: Waves, number: float, column: int, nodes: Floats, polys: Flo
 
 @kernel
 def waves_from(waves: Waves, number: float, nodes: Floats, polys: Floats) -> Table:
-    """Return a table of as many waves, from one on, as the given room holds."""
+    """Return a table of as many waves, from one on, as the given room holds.
+
+    Its integrals from 0 are NaN until `fill_from_zero` knows them, and not those of whatever stood there before.
+    """
     bins, room = len(polys), np.empty((3, SIZE))
+    nodes[at.HM, 0] = math.nan
     for j in range(bins // waves.per):
         mix_wave(waves, number + j, j * waves.per, nodes, polys, room)
     start = start_of(waves, number)
