@@ -128,9 +128,9 @@ def lowest_load(curve: Curve, rim: float, first: int, last: int) -> Lowest:
     start = min(bin_of(table, middle), limit - 1)
     if not first <= start < last:
         return unknown
-    i = start
+    i, here = start, _load_at(curve, start)  # the lowest load is no higher, even where the first trough lies inwards
     before = first_slope = slope_at(curve, start)
-    while i < limit and (i == start or _envelope(curve, crest, i) <= best.load):
+    while i < limit and (i == start or _envelope(curve, crest, i) <= min(best.load, here)):
         if i >= last:
             return unknown
         after = slope_at(curve, i + 1)
@@ -138,7 +138,7 @@ def lowest_load(curve: Curve, rim: float, first: int, last: int) -> Lowest:
             best = _trough(curve, i, before, after, rim, best)
         before = after
         i += 1
-    if i >= table.bins and rim > end and _envelope(curve, crest, table.bins) <= best.load:
+    if i >= table.bins and rim > end and _envelope(curve, crest, table.bins) <= min(best.load, here):
         return unknown
     i, after = start - 1, first_slope
     while i >= 0 and _envelope(curve, crest, i + 1) <= best.load:

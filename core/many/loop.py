@@ -343,6 +343,8 @@ def finish_unloading(
             left = _leave_far(long, piece, start_state(trace, low), starts)
     trace[at.UNLOADED, low], trace[at.UNLOADING_JUMPS, low], trace[at.LAST, low] = left.lost, left.jumps, low
     if within == 0 or trace[at.END, within - 1] < rim:
+        if rim > end_of(piece.table):  # folds go on beyond what is looked at
+            return Unloaded(math.inf, 0.0, 0.0), tied
         depth, load = state_in(piece, rim)
         if inner_branch(trace, within - 1, coordinate_of(piece, depth, load)) < 0:
             return _leave_far(long, piece, State(rim, depth, load), starts), tied

@@ -243,15 +243,12 @@ def from_birth(long: Long, curve: Curve) -> Long:
     near = long.near
     if long.waves.exponent - 1.0 < 0.5 * (1.0 - long.waves.k):
         near = max(near, BORN + first_wave(long, Sought(BIRTH, curve, 0.0, curve), near, long.most))
+    return with_limits(long, near, long.most)
+
+
+@leaf
+def with_limits(long: Long, near: int, most: int) -> Long:
+    """Return the same from one wave to another, its `near` and `most`."""
     return Long(
-        long.table,
-        long.waves,
-        near,
-        long.most,
-        long.disc,
-        long.contact,
-        long.start,
-        long.scratch,
-        long.window,
-        long.ends,
+        long.table, long.waves, near, most, long.disc, long.contact, long.start, long.scratch, long.window, long.ends
     )

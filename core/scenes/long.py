@@ -14,7 +14,7 @@ from gradhesion.core.cycle.disc import disc_of
 from gradhesion.core.cycle.pull_off import lowest_load
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.many.loop import begin, last_fold, loop_far, lowest_far, turn_far
-from gradhesion.core.many.search import MOST, NEAR, Long, end_of_folds, from_birth, space_for
+from gradhesion.core.many.search import MOST, NEAR, Long, end_of_folds, from_birth, space_for, with_limits
 from gradhesion.core.many.waves import Waves, reach_of, start_of, waves_of
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.scenes import rows as at
@@ -37,7 +37,7 @@ from gradhesion.core.table.filling import width_of
 from gradhesion.core.table.layout import BY_LOAD as OF_PULL_OFF
 from gradhesion.core.table.layout import EXACT, GEOMETRIC, PER_WAVE, end_of
 from gradhesion.core.table.leading import crests_of
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Integers
 
 _WALKED: Final = 600
 """Waves that are walked; scenes of more are summed."""
@@ -48,7 +48,7 @@ _WALKED_BINS: Final = 40_000
 _BINS_OF_A_WAVE: Final = 1024
 """Bins of a wave at most, where waves are summed: 5 MB for each doubling of their number."""
 _KEPT_WAVES: Final = 64e6
-"""Bytes of all waves (many/waves.py) that are kept between calls."""
+"""Bytes of all waves (many/waves.py) that are kept with_limits calls."""
 
 
 @leaf
@@ -60,14 +60,14 @@ def _curve(task: Task, reduced: Floats, i: int, root: float) -> Curve:
 
 @kernel
 def solve_long(
-    task: Task, every: Long, pull: Long, scenes: Floats, reduced: Floats, walkable: float, out: Floats
+    task: Task, every: Long, pull: Long, most: Integers, scenes: Floats, reduced: Floats, walkable: float, out: Floats
 ) -> None:
     """Solve scenes of one exponent; others are left as SHORT: irregular ones, and those that end next to the centre.
 
     Of the latter NEED is set to what they need; irregular ones that reach beyond `walkable` have no value. `pull` is
-    `every` with the waves of the pull-off.
+    `every` with the waves of the pull-off; `most` is the wave at which the search of each scene ends, (scenes,).
     """
-    task, every, pull, scenes, reduced, out = borrowed((task, every, pull, scenes, reduced, out))
+    task, every, pull, most, scenes, reduced, out = borrowed((task, every, pull, most, scenes, reduced, out))
     turn, bins = task.punch.turn, task.by_load.bins
     for i in range(scenes.shape[1]):
         no_value(out, i, NO_VALUE)
@@ -78,7 +78,7 @@ def solve_long(
             continue
         edge, tied, root = reduced[at.RIM_Y, i], False, math.sqrt(reduced[at.CLOSING, i])
         closing, opening = _curve(task, reduced, i, root), _curve(task, reduced, i, 1.0)
-        long = from_birth(every, closing)
+        long = from_birth(with_limits(every, every.near, most[i]), closing)
         if start_of(long.waves, long.near + 2.0) > end_of(long.table):
             out[at.STATUS, i] = NO_VALUE | TOO_MANY_WAVES
             continue
@@ -94,7 +94,7 @@ def solve_long(
         load = Curve(task.by_load, opening.B, opening.g, 0.0, 1.0)
         lowest = lowest_load(load, y, 0, bins)
         if not lowest.known:
-            lowest = lowest_far(pull, load, y)
+            lowest = lowest_far(with_limits(pull, pull.near, most[i]), load, y)
         out[at.STATUS, i] = NO_VALUE | TOO_MANY_WAVES
         if not (lowest.known and lowest.load < 0.0):
             continue
@@ -115,11 +115,12 @@ def solve_long(
 
 
 @kernel
-def fill_saturation(task: Task, long: Long, reduced: Floats, out: Floats) -> None:
-    """Store the radii of the outermost folds of opening, of scenes that have a value."""
-    task, long, reduced, out = borrowed((task, long, reduced, out))
+def fill_saturation(task: Task, every: Long, most: Integers, reduced: Floats, out: Floats) -> None:
+    """Store the radii of the outermost folds of opening, of scenes that have a value; `most` as of `solve_long`."""
+    task, every, most, reduced, out = borrowed((task, every, most, reduced, out))
     for i in range(reduced.shape[1]):
         if out[at.STATUS, i] < NO_VALUE or not int(out[at.STATUS, i]) & NO_VALUE:
+            long = with_limits(every, every.near, most[i])
             y = last_fold(long, _curve(task, reduced, i, 1.0)) if reduced[at.WINDOW, i] < math.inf else math.inf
             out[at.SATURATION, i] = y * reduced[at.LENGTH, i]  # NaN, and flagged, if there are too many waves up to it
             if math.isnan(y):
@@ -184,14 +185,14 @@ def solve_summed(
     k, reach = float(scenes[at.K, 0]), own[at.NEED]
     if punch.turn != AT_RIM:  # a jump may pass where a cycle turns
         reach = np.minimum(np.fmax(reach, own[at.WINDOW]), own[at.RIM_Y])
-    most = int(min(reach.max() / (2.0 * math.pi) + 3.0, MOST + 8.0))
-    task, long = _long_of(punch, wanted, k, form, profile, most)
+    most = np.minimum(reach / (2.0 * math.pi) + 3.0, MOST + 8.0).astype(np.int64)
+    task, long = _long_of(punch, wanted, k, form, profile, int(most.max()))
     pull = long
     if form != EXACT:
-        by_load, pull = _long_of(punch, wanted, k, OF_PULL_OFF, profile, most)
+        by_load, pull = _long_of(punch, wanted, k, OF_PULL_OFF, profile, int(most.max()))
         task = task._replace(by_load=by_load.table)
     walkable = (MOST_BINS - 2 * GEOMETRIC) * width_of(punch.waves)
-    solve_long(task, long, pull, chosen, own, walkable, found)
+    solve_long(task, long, pull, most, chosen, own, walkable, found)
     left = np.flatnonzero(found[at.STATUS] == at.SHORT)
     if left.size:
         rest = np.full((at.RESULT_ROWS, left.size), np.nan)
@@ -199,5 +200,5 @@ def solve_summed(
         walk(again, numbers, rest)
         found[:, left] = rest
     if wanted.saturation:
-        fill_saturation(task, long, own, found)
+        fill_saturation(task, long, most, own, found)
     out[:, far] = found

@@ -111,6 +111,29 @@ def reduce_scene(punch: Punch, scenes: Floats, i: int, theta: float, depth_facto
 
 
 @kernel
+def _end_of_folds(punch: Punch, i: int, steep: float, reduced: Floats) -> float:
+    """Return a radius beyond which scene i has no fold, inf if there may be any everywhere, 0 if there are no waves.
+
+    There D = B m y^(m-1) - steep y^eta - q most y^(eta-1) > 0, with the largest q of D (table/layout.py): `steep`
+    bounds the slope of the waves over y^eta, and MOST the toughness.
+    """
+    m, eta = punch.exponent, 0.5 * (1.0 - reduced[at.EXPONENT, i])
+    rise, power = reduced[at.BY_POWER, i] * m, m - 1.0 - eta
+    stretch = (eta if punch.control == DISPLACEMENT else 2.0 - eta) * reduced[at.MOST, i]
+    if steep == 0.0:
+        return 0.0
+    if power < 0.0 or (power == 0.0 and steep >= rise):
+        return math.inf
+    if power == 0.0:
+        return stretch / (rise - steep) * 1.15 + 60.0
+    end = (steep / rise) ** (1.0 / power)
+    if stretch > 0.05 * steep * end:  # the end lies farther out than that of the waves, and than that of the stretch
+        end = max(end, (stretch / rise) ** (1.0 / (m - eta)))
+        end = ((steep + stretch / end) / rise) ** (1.0 / power)
+    return end * 1.15 + 60.0
+
+
+@kernel
 def fill_reach(punch: Punch, i: int, crest: float, steepest: float, mean: float, reduced: Floats) -> None:
     """Fill how far scene i must be known without its rim: `crest` and `steepest` bound U and -U' over y^((1-k)/2)."""
     k, m = reduced[at.EXPONENT, i], punch.exponent
@@ -122,15 +145,7 @@ def fill_reach(punch: Punch, i: int, crest: float, steepest: float, mean: float,
     landing = 1.0 if punch.control == DISPLACEMENT else (1.0 + k + m) / m
     smooth = (front * max(landing, of_load)) ** (1.0 / (m - eta)) * 1.2 + _BEYOND
     reduced[at.PULL, i] = (front * of_load) ** (1.0 / (m - eta)) * 1.2 + 20.0
-    steep, power = g * steepest + reduced[at.STEEP, i], m - 1.0 - eta
-    window = math.inf
-    if steep == 0.0:
-        window = 0.0
-    elif power > 0.0:
-        window = (steep / (B * m)) ** (1.0 / power) * 1.15 + 60.0
-    elif power == 0.0 and steep < B * m:
-        window = 60.0
-    reduced[at.WINDOW, i] = max(smooth, window)
+    reduced[at.WINDOW, i] = max(smooth, _end_of_folds(punch, i, g * steepest + reduced[at.STEEP, i], reduced))
     reduced[at.FAR, i] = reduced[at.WINDOW, i]
     if punch.turn != AT_RIM:
         root = math.sqrt(reduced[at.CLOSING, i])

@@ -4,7 +4,7 @@ Force and energy are promised to 1e-12 of the sizes of their terms up to 1,000 w
 contact, a digit less for each decade more. Counts are equal wherever `close_to_a_jump` is not set.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -116,20 +116,24 @@ def errors(kind: Kind, scenes: Scenes, found: Results) -> dict[str, Array]:
 
 
 def agree(
-    kind: Kind, scenes: Scenes, found: Results, expected: Results, names: Iterable[str] = (), **more: Any
+    kind: Kind, scenes: Scenes, found: Results, expected: Results, names: Sequence[str] = (), **more: Any
 ) -> None:
     """Assert that results are the expected ones, all of the kind or `names`.
 
     Numbers may be off by `times` the promised error, 2 by default: two solves that are compared may be off by it each;
     and by a part `more` of their sizes. Counts are compared where neither scene is close to a jump. What has no value
-    must have none in both. With `bits` the status is compared, but for `close_to_a_jump`, which has a limit.
+    must have none in both. With `statuses` the status is compared, but for `close_to_a_jump`, which has a limit; with
+    `bits` so is every bit of the numbers.
     """
-    if more.get("bits"):
+    if more.get("bits") or more.get("statuses"):
         assert ((found["status"] ^ expected["status"]) & ~CLOSE == 0).all(), (found["status"], expected["status"])
+    names = names or [name for name in kind.outputs if name in expected]
+    for name in names if more.get("bits") else ():
+        np.testing.assert_array_equal(found[name], expected[name], err_msg=name)
     allowed = errors(kind, scenes, expected)
     where = np.broadcast_to(more.get("where", True), found["status"].shape)
     sure = where & ~has(found, CLOSE) & ~has(expected if "status" in expected else found, CLOSE)
-    for name in names or [name for name in kind.outputs if name in expected]:
+    for name in names:
         one, other = np.asarray(found[name], dtype=float), np.asarray(expected[name], dtype=float)
         with np.errstate(invalid="ignore"):
             limit = 0.0 if name in COUNTS else more.get("times", 2.0) * np.nan_to_num(allowed[name], posinf=0.0)

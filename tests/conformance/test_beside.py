@@ -1,11 +1,40 @@
 """A scene has the values that it has alone: beside any others, in any order, by any number of threads and blocks."""
 
 import numpy as np
+import pytest
 
 from .kinds import KINDS, SCENES, Kind, drawn, for_kinds, one_of, rng_of, some
 from .promises import NO_VALUE, agree, has
 
 EVERY = for_kinds(KINDS)
+NAMES = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
+REACH_FARTHER = {
+    "waves still fold where the search for the one ends": [
+        [
+            (0.76, 0.3806, 243.1, 0.01414, 1.806e-05, 0.0403, 0.9732),
+            (0.76, 0.01491, 6.326, 4.729, 1.429e-05, 4.256e-05, np.inf),
+        ],
+        [
+            (0.18, 0.1775, 1.04, 1.952, 1.488e-05, 0.001846, 2.616),
+            (0.18, 0.1481, 1.335, 2.572, 1.921e-05, 0.02306, np.inf),
+        ],
+        [
+            (0.76, 0.007996, 77650.0, 0.004449, 5.813e-05, 0.05437, 1.194),
+            (0.76, 0.06749, 550.9, 1.902, 1.626e-05, 7.473e-05, np.inf),
+        ],
+    ],
+    "waves so faint that the load has a single trough": [
+        [
+            (0.32, 0.2972, 40400.0, 0.006701, 0.001735, 1.496e-05, np.inf),
+            (0.32, 0.2918, 56740.0, 0.003083, 0.001109, 0.0003233, np.inf),
+        ],
+        [
+            (0.46, 0.2695, 10090.0, 0.07659, 0.003054, 2.722e-05, np.inf),
+            (0.46, 0.3448, 17280.0, 0.004058, 0.001156, 0.0001069, 0.3042),
+        ],
+    ],
+}
+"""Scenes and neighbours of the same exponent that must be known farther out."""
 
 
 @EVERY
@@ -62,3 +91,12 @@ def test_what_is_asked_for_changes_no_value(kind: Kind) -> None:
         asked = kind.solve(scenes, few)
         assert set(asked) == {*few, "status"}
         agree(kind, scenes, found | asked, found, few, where=where)
+
+
+@pytest.mark.parametrize("why", REACH_FARTHER)
+def test_a_neighbour_that_reaches_farther_changes_no_bit(why: str) -> None:
+    for pair in REACH_FARTHER[why]:
+        scenes = dict(zip(NAMES, np.array(pair).T, strict=True))
+        found, alone = KINDS[0].solve(scenes), KINDS[0].solve(some(scenes, [0]))
+        for name in found:
+            np.testing.assert_array_equal(alone[name], found[name][:1], err_msg=name)

@@ -37,7 +37,7 @@ def test_the_same_problem_in_other_numbers(kind: Kind) -> None:
         for of in ("toughness", "work"):
             others[f"with a flat pattern of {of}"] = (replace(kind, pattern=of), scenes | flat, found)
     for name, (other, own, expected) in others.items():
-        agree(replace(kind, name=f"{kind.name} {name}"), own, other.solve(own, kind.outputs), expected, bits=True)
+        agree(replace(kind, name=f"{kind.name} {name}"), own, other.solve(own, kind.outputs), expected, statuses=True)
 
 
 @for_kinds(KINDS)

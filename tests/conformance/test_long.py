@@ -72,6 +72,26 @@ def test_waves_are_summed_as_they_are_walked(kind: Kind) -> None:
     agree_but_for_a_jump(kind, scenes, summed, walked, names)
 
 
+@for_kinds([Kind("two works", ratio=True), Kind("two works, machine", ratio=True, control="machine")])
+def test_opening_may_fold_farther_than_closing(kind: Kind) -> None:
+    """Faint short waves whose end is set by the stretch: of opening at 2.19, of closing inside it."""
+    rims = np.array([1.5, 2.1, 2.3, 3.0, 30.0, np.inf])
+    scenes = {"k": 0.11065288007270635, "nu": 0.2904237501002302, "modulus": 1.2411071512131673}
+    scenes |= {"c0_over_R": 1.3658526168611218, "lambda_over_R": 0.0027736378292707135, "A": 0.010210029543445907}
+    scenes |= {"closing_ratio": 0.5, "machine_stiffness": 3.0} if kind.control == "machine" else {"closing_ratio": 0.5}
+    scenes = {name: np.full(6, value) for name, value in scenes.items()} | {"a_max_over_R": rims}
+    names = ["loading_energy", "unloading_energy"]
+    found, ends = kind.solve(scenes), kind.solve(scenes, ["saturation_radius"])["saturation_radius"]
+    inner, own = some(scenes, rims < 3.0), some(found, rims < 3.0)
+    walked = own | kind.solve(inner, [*names, *COUNTS, "energy_residual"])
+    agree_but_for_a_jump(kind, inner, own, walked, names)
+    beyond = rims > ends
+    assert beyond.sum() > 2
+    for i in np.flatnonzero(beyond)[1:]:
+        last = some(found, [np.flatnonzero(beyond)[0]])
+        agree_but_for_a_jump(kind, some(scenes, [i]), some(found, [i]), last, names)
+
+
 @for_kinds(PLAIN)
 def test_beyond_saturation_nothing_is_lost(kind: Kind) -> None:
     """Where the last fold lies within the rim, a wider rim or none changes no value but the depth that is reached."""
