@@ -127,7 +127,7 @@ def _end_of_folds(punch: Punch, i: int, steep: float, reduced: Floats) -> float:
     if power == 0.0:
         return stretch / (rise - steep) * 1.15 + 60.0
     end = (steep / rise) ** (1.0 / power)
-    if stretch > 0.05 * steep * end:  # the end lies farther out than that of the waves, and than that of the stretch
+    if stretch > 0.1 * power * steep * end:  # it lies farther out, and farther out than the end of the stretch alone
         end = max(end, (stretch / rise) ** (1.0 / (m - eta)))
         end = ((steep + stretch / end) / rise) ** (1.0 / power)
     return end * 1.15 + 60.0
