@@ -16,7 +16,7 @@ from gradhesion.core.curve.values import (
     slope_terms_at,
 )
 from gradhesion.core.jit import kernel, leaf
-from gradhesion.core.table.layout import BE, BP, BV, HALF, QPOW, QUP, RLOW, RPOW, Y, end_of
+from gradhesion.core.table.layout import BE, BP, BV, HALF, QPOW, QUP, RLOW, RPOW, SLOPE, V, Y, end_of
 from gradhesion.core.types import Floats
 
 _CHUNK: Final = 32
@@ -264,6 +264,19 @@ def close_end(curve: Curve, last: int, count: int, trace: Floats) -> None:
         trace[at.END_LEVEL, count - 1] = coordinate_of(curve, depth, load)
 
 
+@leaf
+def _depth_at_centre(curve: Curve) -> float:
+    """Return the depth at a first fold below the table, where B y^m + g U is a straight line.
+
+    That rises as fast as q y^(eta-1), eta = (1-k)/2, of which the stretch y^eta is left where k is almost 1.
+    """
+    k, nodes = curve.table.k, curve.table.nodes
+    eta = 0.5 * (1.0 - k)
+    q = eta if curve.by_depth > 0.0 else eta + 1.0 + k
+    rise = curve.B * nodes[SLOPE, 0] + curve.g * nodes[V, 0]
+    return curve.g * curve.table.zero - (1.0 - q) * (q / rise) ** (eta / (1.0 - eta))
+
+
 @kernel
 def find_folds(curve: Curve, y_end: float, trace: Floats) -> int:
     """Fill the trace with all branches that begin below a radius, and return their number, FULL or TOO_SHORT.
@@ -274,8 +287,8 @@ def find_folds(curve: Curve, y_end: float, trace: Floats) -> int:
     if y_end < end_of(curve.table):
         last = bin_of(curve.table, y_end) + 1
     count, trace[at.CLOSE_PAIR, 0] = 0, math.inf
-    if slope_at(curve, first) > 0.0:  # k = 1, or a groove at the centre: the first branch begins at 0
-        depth = curve.g * curve.table.zero - (1.0 if curve.table.k == 1.0 else 0.0)
+    if slope_at(curve, first) > 0.0:  # k = 1, or a first fold below the table: the first branch begins at 0
+        depth = _depth_at_centre(curve)
         trace[at.START, 0], trace[at.START_DEPTH, 0], trace[at.START_LOAD, 0] = 0.0, depth, 0.0
         trace[at.START_LEVEL, 0] = coordinate_of(curve, depth, 0.0)
         trace[at.END, 0], trace[at.END_LEVEL, 0], trace[at.UNLOADED, 0] = math.inf, math.inf, math.nan
