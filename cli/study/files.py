@@ -118,8 +118,8 @@ def _mistakes(data: Mapping[str, Any], found: Columns) -> Iterator[str]:
             yield f"{name} is given under [{INPUTS[name].table}] and as a column of the file; keep one of the two"
     if data.get("layout", "points") == "grid":
         yield 'the rows of a file are points, but layout = "grid"; write layout = "points" or leave it out'
-    if found.rows > MOST_VALUES:
-        yield f"the file has {found.rows:,} rows, but at most {MOST_VALUES:,} are read; split it"
+    if (rows := next(iter(found.values.values())).size) > MOST_VALUES:
+        yield f"the file has {rows:,} rows, but at most {MOST_VALUES:,} are read; split it"
 
 
 def _column(name: str, found: Columns) -> NDArray[np.float64]:
