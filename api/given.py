@@ -12,7 +12,7 @@ from gradhesion.cli.errors import StudyError
 from gradhesion.cli.names.outputs import OUTPUTS, PARAMETER, PHYSICAL_PARAMETER
 from gradhesion.cli.names.scenes import SCENE, SOLVER
 from gradhesion.cli.study.reading import study_from, text_of
-from gradhesion.cli.study.rules.axes import repeated
+from gradhesion.cli.study.rules.asked import repeated
 from gradhesion.cli.study.rules.scenes import MOST_SCENES
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.text.foreign import as_written

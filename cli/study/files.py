@@ -11,13 +11,11 @@ from numpy.typing import NDArray
 from pydantic import ValidationError
 
 from gradhesion.cli.names.outputs import OUTPUTS, SI
-from gradhesion.cli.study.rules.asked import REQUIRED, value_at
-from gradhesion.cli.study.rules.axes import MOST_VALUES, Values
+from gradhesion.cli.study.rules.asked import MOST_VALUES, REQUIRED, Values, value_at
 from gradhesion.cli.study.rules.keys import File
 from gradhesion.cli.study.rules.mistakes import Mistake, line_of
 from gradhesion.cli.study.text.quantities import factor_of_column, scaled, si_value
-from gradhesion.cli.study.text.written import Path as Key
-from gradhesion.cli.study.text.written import value_of
+from gradhesion.cli.study.text.written import Key, value_of
 from gradhesion.cli.tables.columns import Columns, ColumnsError, changed
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.wording import did_you_mean, shown
@@ -92,10 +90,10 @@ def points_of(
     try:
         found = read_columns(folder / named.file)
     except ColumnsError as error:
-        return FromFile(key=key, mistakes=(Mistake(key, written, str(error)),))
+        return FromFile(key=key, mistakes=((key, str(error)),))
     if named.sha256 not in ("", found.sha256):
         words = changed(found.sha256, named.sha256, f"write points = {value_of(named.file)}")
-        return FromFile(key=key, mistakes=(Mistake(key, written, words),))
+        return FromFile(key=key, mistakes=((key, words),))
     sentences, own, wrong = [*_mistakes(data, found)], {}, []
     for name in (name for name in found.values if name in INPUTS):
         try:
@@ -103,7 +101,7 @@ def points_of(
         except ColumnsError as error:
             sentences.append(str(error))
             wrong.append(name)
-    mistakes = tuple(Mistake(key, written, sentence) for sentence in sentences)
+    mistakes = tuple((key, sentence) for sentence in sentences)
     return FromFile(key=key, file=named.file, sha256=found.sha256, inputs=own, wrong=tuple(wrong), mistakes=mistakes)
 
 
@@ -146,7 +144,7 @@ def measured_in(data: Mapping[str, Any], folder: Path) -> FromFile:
     terms, exponent, expected = table.get("terms", TERMS), table.get("exponent", 2.0), table.get("sha256", "")
     up_to, mistakes = _up_to(data, table), [*_mistakes_beside(data, table)]
     numbers = isinstance(terms, int) and (exponent == "fit" or isinstance(exponent, int | float))
-    told = {INPUTS[str(one.path[-1])].gives for one in mistakes if one.path[-1] in INPUTS} - {"modulus"}
+    told = {INPUTS[str(path[-1])].gives for path, _ in mistakes if path[-1] in INPUTS} - {"modulus"}
     names = ("R", "wavelength", "amplitude") if united else ("lambda_over_R", "A")
     gives = tuple(name for name in names if INPUTS[name].gives not in told)
     fit: FittedProfile | None = None
@@ -160,7 +158,7 @@ def measured_in(data: Mapping[str, Any], folder: Path) -> FromFile:
             power = None if exponent == "fit" else float(exponent)
             fit = fit_profile(r, heights, up_to=up_to, terms=terms, exponent=power)
     except ValueError as error:
-        mistakes.append(Mistake(("profile", "file"), file, str(error)))
+        mistakes.append((("profile", "file"), str(error)))
     if mistakes or fit is None:
         return FromFile(wrong=gives, mistakes=tuple(mistakes))
     found = {"R": fit.radius, "wavelength": fit.wavelength, "amplitude": fit.amplitude}
@@ -175,10 +173,10 @@ def _mistakes_beside(data: Mapping[str, Any], table: Mapping[str, Any]) -> Itera
         own = data.get(key.table)
         if isinstance(own, Mapping) and key.name in own and (key.gives in ("lambda_over_R", "A") or key.name == "R"):
             sentence = "this comes from the fit of the profile; remove it, or remove file under [profile]"
-            yield Mistake((key.table, key.name), own[key.name], sentence)
+            yield (key.table, key.name), sentence
     if "up_to" not in table and _up_to(data, table) is None:
         sentence = "unless a_max is one finite length, a profile needs the distance up to which it is fitted"
-        yield Mistake(("profile", "up_to"), None, f"{sentence}; write for example {line_of('profile', 'up_to')}")
+        yield ("profile", "up_to"), f"{sentence}; write for example {line_of('profile', 'up_to')}"
 
 
 def _up_to(data: Mapping[str, Any], table: Mapping[str, Any]) -> float | None:

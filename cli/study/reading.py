@@ -1,7 +1,7 @@
 """A study from a file or a mapping: checked as a whole, and expanded."""
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, Final
 
@@ -108,7 +108,7 @@ def _of_a_fit(source: Source) -> FitStudy:
     asked = checked(source.data)
     mistakes = [*asked.mistakes, *_between(asked, source.data, broken_in_fit(asked))]
     loops: tuple[LoopFile, ...] = ()
-    if asked.form.data and not any("data" in (*one.path[:1], *one.meant[:1]) for one in mistakes):
+    if asked.form.data and not any("data" in path[:1] for path in (*asked.misspelt, *(path for path, _ in mistakes))):
         loops, more = loops_of(source.folder, asked)
         mistakes += more
     _refuse(source, mistakes)
@@ -122,7 +122,8 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
     points, measured = points_of(source.data, source.folder, columns), measured_in(source.data, source.folder)
     asked = checked(measured.beside(points.beside(source.data)), points.inputs)
     mistakes = [*asked.mistakes, *_between(asked, source.data, broken(asked))]
-    mistakes = [one for one in mistakes if not points.unread or one.value is not None]  # what a file would give
+    if points.unread:  # nothing is missing that the file would give
+        mistakes = [(path, words) for path, words in mistakes if value_at(source.data, path) is not None]
     _refuse(source, [*points.mistakes, *measured.mistakes, *mistakes])
     form = asked.form
     absent = left_out(asked.values, with_units=form.physical is not None)
@@ -182,20 +183,20 @@ def variables_of(kind: str, requested: Iterable[str]) -> tuple[str, ...]:
 
 def _between(asked: Asked, written: Mapping[str, Any], found: Iterable[tuple[str, str]]) -> Iterator[Mistake]:
     """Give the mistakes between keys; none is missing that is misspelt, or in a table that is wrong."""
-    known = {path for one in asked.mistakes for path in (one.path, one.meant)}
+    known = {path for path, _ in asked.mistakes} | {*asked.misspelt}
     for key, words in found:
         path = steps_of(key)
-        value = value_at(written, path)
-        if value is not None or not (path in known or path[:1] in asked.wrong):
-            yield Mistake(path, value, words)
+        if value_at(written, path) is not None or not (path in known or path[:1] in asked.wrong):
+            yield path, words
 
 
-def _refuse(source: Source, mistakes: Sequence[Mistake]) -> None:
+def _refuse(source: Source, mistakes: Iterable[Mistake]) -> None:
     """Raise StudyError with what is wrong with a study, in the order of its lines, if anything is."""
     sentences = []
-    for mistake in mistakes:
-        value = "" if mistake.value is None else f" = {shown(mistake.value)}"
-        sentences.append(f"{source.place(mistake.path)}: {dotted(mistake.path)}{value}: {mistake.sentence}")
+    for path, words in mistakes:
+        value = value_at(source.data, path)
+        written = "" if value is None else f" = {shown(value)}"
+        sentences.append(f"{source.place(path)}: {dotted(path)}{written}: {words}")
     found = [*source.mistakes, *sorted(sentences, key=_line)]
     if len(found) > MOST_MISTAKES:
         found[MOST_MISTAKES:] = [f"... and {len(found) - MOST_MISTAKES} more mistakes; fix these first"]

@@ -16,7 +16,7 @@ from gradhesion.cli.names.outputs import PARAMETER, PHYSICAL_PARAMETER, SI, labe
 from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
 from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.files import FromFile
-from gradhesion.cli.study.rules.axes import Values
+from gradhesion.cli.study.rules.asked import Values
 from gradhesion.cli.study.rules.form import Optimum, Uncertainty
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.tiling import Block, Tiling, cells_of_chunk

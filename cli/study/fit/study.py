@@ -111,13 +111,13 @@ def loops_of(folder: Path, asked: Asked) -> tuple[tuple[LoopFile, ...], list[Mis
     try:
         loops = read_loops(folder, table, fitted, average=form.fit.average, through_machine=through_machine)
     except LoopFileError as error:
-        return (), [Mistake(("data", error.key), asked.at(f"data.{error.key}"), str(error))]
+        return (), [(("data", error.key), str(error))]
     sha256 = fingerprint(loops)
     if table.sha256 in ("", sha256):
         return loops, []
     several = table.file not in {loop.file.partition("#")[0] for loop in loops}
     words = changed(sha256, table.sha256, "remove sha256", several=several)
-    return loops, [Mistake(("data", "file"), table.file, words)]
+    return loops, [(("data", "file"), words)]
 
 
 def fit_of(source: Source, form: Form, loops: tuple[LoopFile, ...]) -> FitStudy:

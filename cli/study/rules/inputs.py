@@ -6,8 +6,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.cli.study.rules.asked import Asked, Found, home
-from gradhesion.cli.study.rules.axes import Values
+from gradhesion.cli.study.rules.asked import Asked, Found, Values, home
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import line_of
 from gradhesion.cli.study.text.written import steps_of

@@ -8,8 +8,7 @@ import numpy as np
 
 from gradhesion.cli.names import curves
 from gradhesion.cli.names.outputs import SI
-from gradhesion.cli.study.rules.asked import Asked, Found, home
-from gradhesion.cli.study.rules.axes import repeated
+from gradhesion.cli.study.rules.asked import Asked, Found, home, repeated
 from gradhesion.cli.study.rules.form import OUTPUTS_OF
 from gradhesion.cli.study.rules.inputs import inputs, rate, shape_of, together, toughness, waves, works
 from gradhesion.cli.study.rules.mistakes import required

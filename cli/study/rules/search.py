@@ -78,8 +78,7 @@ def search(asked: Asked) -> Found:
 def _goals(asked: Asked, table: Optimum) -> Found:
     """Check that one goal or two are named, each an output with one value a scene."""
     ways, goals = ("optimum.maximise", "optimum.minimise"), table.goals
-    meant = {("optimum", "maximise"), ("optimum", "minimise")} & {mistake.meant for mistake in asked.mistakes}
-    if not goals and asked.right(*ways) and not meant:
+    if not goals and asked.right(*ways) and not {*map(steps_of, ways)} & {*asked.misspelt}:
         yield ways[0], f"there is no goal; write for example {line_of('optimum', 'maximise')}"
     if len(goals) > 2:
         yield ways[len(table.maximise) < 3], "at most two goals are possible; remove the others"

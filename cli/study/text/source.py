@@ -11,8 +11,7 @@ from typing import Any, Final
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.files import kind_of
-from gradhesion.cli.study.text.written import Path as Key
-from gradhesion.cli.study.text.written import lines_of
+from gradhesion.cli.study.text.written import Key, lines_of
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, FAILED, POOR_FIT
 
