@@ -11,15 +11,15 @@ from numpy.typing import NDArray
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.files import measured_in, points_of
 from gradhesion.cli.study.fit.loop_file import LoopFile
-from gradhesion.cli.study.fit.rules import broken as broken_in_fit
 from gradhesion.cli.study.fit.study import FitStudy, fit_of, loops_of
+from gradhesion.cli.study.fit.study import broken as broken_in_fit
 from gradhesion.cli.study.rules.asked import Asked, checked, kind_of, value_at
 from gradhesion.cli.study.rules.form import OUTPUTS_OF, Optimum, Uncertainty
 from gradhesion.cli.study.rules.inputs import left_out, shape_of
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import Mistake
 from gradhesion.cli.study.rules.scenes import broken
-from gradhesion.cli.study.study import Method, Study
+from gradhesion.cli.study.study import Method, Study, given_by
 from gradhesion.cli.study.text.foreign import as_written
 from gradhesion.cli.study.text.source import DEEP, Source, included, is_deep, read_source
 from gradhesion.cli.study.text.written import dotted, steps_of, with_fingerprints
@@ -139,11 +139,8 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
     profile = random_profile(spectrum, 0, float(form.profile.exponent)) if spectrum else shape_of(form.profile)
     ranges = {name: form.entries[name] for name in asked.over}
     searched = {name: Range(**dict(one)) for name, one in ranges.items() if isinstance(one, Range)}
-    fingerprints = {one.key: one.sha256 for one in (points, measured) if one.file}
     return Study(
-        name=source.name,
-        title=form.title or source.name,
-        kind=form.kind,
+        **given_by(source, form, {one.key: one.sha256 for one in (points, measured) if one.file}),
         layout=form.layout,
         outputs=() if form.kind == "optimum" else variables_of(form.kind, form.outputs),
         parameters=parameters,
@@ -151,15 +148,12 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
         profile=measured.fit.profile if measured.fit else profile,
         spectrum=spectrum,
         loading=Loading(control=form.loading.control),
-        toughness=form.toughness.made() if form.toughness else None,
         rate=form.rate.made() if form.rate else None,
         states=tuple(form.states.contact_radius_over_R or ()),
         search=form.optimum or Optimum(),
         searched=searched,
         uncertainty=form.uncertainty or Uncertainty(),
-        text=with_fingerprints(source.data, source.text, fingerprints),
         left_out=frozenset(absent.keys() - {"a_max", "a_max_over_R"}),
-        folder=source.folder,
         points=points,
         measured=measured,
     )
