@@ -52,16 +52,8 @@ class FromFile:
     dropped: int = 0
     """Rows without a number that were left out."""
 
-    @property
-    def unread(self) -> bool:
-        """Whether the file could not be read, so that what it would give is not missing."""
-        return bool(self.mistakes) and not self.file
-
     def beside(self, data: Mapping[str, Any]) -> dict[str, Any]:
-        """Give the keys of a study with one valid value for each input that the file gives.
-
-        So that all that is known of a key is asked of what the study gives beside the file.
-        """
+        """Give a study one valid value for each input that the file gives, so that all else can be checked."""
         whole = dict(data)
         if self.key == ("parameters", "points"):
             whole["layout"] = "points" if data.get("layout") == "grid" else data.get("layout", "points")
@@ -69,8 +61,7 @@ class FromFile:
             own = INPUTS[name]
             value = float(np.ravel(self.inputs[name])[0]) if name in self.inputs else REQUIRED.get(name, 1.0)
             written = f"{value!r} {own.unit}" if own.table == "physical" and np.isfinite(value) else value
-            table = whole.get(own.table, {})
-            if isinstance(table, Mapping):
+            if isinstance(table := whole.get(own.table, {}), Mapping):
                 whole[own.table] = {name: written, **table}
         return whole
 
@@ -89,11 +80,10 @@ def points_of(
         return FromFile(key=key, file=named.file, sha256=named.sha256, inputs=columns)
     try:
         found = read_columns(folder / named.file)
-    except ColumnsError as error:
+        if named.sha256 not in ("", found.sha256):
+            raise ColumnsError(changed(found.sha256, named.sha256, f"write points = {value_of(named.file)}"))
+    except ValueError as error:
         return FromFile(key=key, mistakes=((key, str(error)),))
-    if named.sha256 not in ("", found.sha256):
-        words = changed(found.sha256, named.sha256, f"write points = {value_of(named.file)}")
-        return FromFile(key=key, mistakes=((key, words),))
     sentences, own, wrong = [*_mistakes(data, found)], {}, []
     for name in (name for name in found.values if name in INPUTS):
         try:
@@ -136,17 +126,19 @@ def _column(name: str, found: Columns) -> NDArray[np.float64]:
 
 def measured_in(data: Mapping[str, Any], folder: Path) -> FromFile:
     """Fit the profile of a study, if it comes from a file, which is looked for in a folder."""
-    table = data.get("profile")
-    file = table.get("file") if isinstance(table, Mapping) else None
-    if not isinstance(table, Mapping) or not isinstance(file, str) or not file:
+    table, physical = data.get("profile"), data.get("physical")
+    if not isinstance(table, Mapping) or not isinstance(file := table.get("file"), str) or not file:
         return FromFile()
-    united = isinstance(data.get("physical"), Mapping)
-    terms, exponent, expected = table.get("terms", TERMS), table.get("exponent", 2.0), table.get("sha256", "")
-    up_to, mistakes = _up_to(data, table), [*_mistakes_beside(data, table)]
-    numbers = isinstance(terms, int) and (exponent == "fit" or isinstance(exponent, int | float))
+    up_to = _up_to(table, physical.get("a_max") if isinstance(physical, Mapping) else None)
+    mistakes = [*_mistakes_beside(data)]
+    if "up_to" not in table and up_to is None:
+        words = "unless a_max is one finite length, a profile needs the distance up to which it is fitted"
+        mistakes.append((("profile", "up_to"), f"{words}; write for example {line_of('profile', 'up_to')}"))
     told = {INPUTS[str(path[-1])].gives for path, _ in mistakes if path[-1] in INPUTS} - {"modulus"}
-    names = ("R", "wavelength", "amplitude") if united else ("lambda_over_R", "A")
+    names = ("R", "wavelength", "amplitude") if isinstance(physical, Mapping) else ("lambda_over_R", "A")
     gives = tuple(name for name in names if INPUTS[name].gives not in told)
+    terms, exponent, expected = table.get("terms", TERMS), table.get("exponent", 2.0), table.get("sha256", "")
+    numbers = isinstance(terms, int) and (exponent == "fit" or isinstance(exponent, int | float))
     fit: FittedProfile | None = None
     try:
         if up_to is not None and numbers and isinstance(expected, str):  # else refused by its form, or missing
@@ -167,22 +159,16 @@ def measured_in(data: Mapping[str, Any], folder: Path) -> FromFile:
     return FromFile(key=("profile",), file=file, sha256=sha256, inputs=inputs, fit=fit, dropped=dropped)
 
 
-def _mistakes_beside(data: Mapping[str, Any], table: Mapping[str, Any]) -> Iterator[Mistake]:
-    """Check what stands beside the file: nothing that comes from the fit, and up to where it is fitted."""
+def _mistakes_beside(data: Mapping[str, Any]) -> Iterator[Mistake]:
+    """Check that nothing that comes from the fit is given."""
     for key in INPUTS.values():
         own = data.get(key.table)
         if isinstance(own, Mapping) and key.name in own and (key.gives in ("lambda_over_R", "A") or key.name == "R"):
-            sentence = "this comes from the fit of the profile; remove it, or remove file under [profile]"
-            yield (key.table, key.name), sentence
-    if "up_to" not in table and _up_to(data, table) is None:
-        sentence = "unless a_max is one finite length, a profile needs the distance up to which it is fitted"
-        yield ("profile", "up_to"), f"{sentence}; write for example {line_of('profile', 'up_to')}"
+            yield (key.table, key.name), "this comes from the fit of the profile; remove it, or file under [profile]"
 
 
-def _up_to(data: Mapping[str, Any], table: Mapping[str, Any]) -> float | None:
-    """Find the distance up to which a profile is fitted: that of the study, or the radius of its punch."""
-    physical = data.get("physical")
-    rim = physical.get("a_max") if isinstance(physical, Mapping) else None
+def _up_to(table: Mapping[str, Any], rim: object) -> float | None:
+    """Find the distance up to which a profile is fitted: that of its table, or the radius of the punch."""
     try:
         value = si_value(table.get("up_to", rim), "up_to" if "up_to" in table else "a_max")
     except ValueError:

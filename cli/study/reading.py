@@ -36,10 +36,7 @@ MOST_MISTAKES: Final = 30
 def load_study(path: str | Path, overrides: Iterable[str] = ()) -> Study:
     """Read a study from a file, with `overrides` in the form of `--set` (`"parameters.A=0.02"`).
 
-    Raises
-    ------
-    StudyError
-        The file cannot be read, or the study is wrong; the error has all mistakes.
+    StudyError has all mistakes: the file cannot be read, or the study is wrong.
     """
     return _of_scenes(read_source(Path(path), overrides))
 
@@ -51,23 +48,10 @@ def study_from(
     folder: str | Path = "",
     columns: Mapping[str, NDArray[np.float64]] | None = None,
 ) -> Study:
-    """Make a study from a mapping with the keys of a study file.
+    """Make a study from a mapping with the keys of a study file; lists may be arrays. StudyError has all mistakes.
 
-    Parameters
-    ----------
-    data
-        The keys; lists may be arrays.
-    name
-        The name of the study if it has no title.
-    folder
-        The folder of the files that it names; the current directory by default.
-    columns
-        The columns of the file of its points, in SI units; the file is then not read.
-
-    Raises
-    ------
-    StudyError
-        The study is wrong; the error has all mistakes.
+    Without a title it has the `name`; files are in the `folder`, the current directory by default. Where the `columns`
+    of the file of its points are given, in SI units, that is not read.
     """
     return _of_scenes(_source(data, name, folder), columns)
 
@@ -99,12 +83,9 @@ def _source(data: Mapping[str, Any], name: str, folder: str | Path) -> Source:
 
 
 def _of_any(source: Source) -> Study | FitStudy:
-    """Check a study of its kind and expand it."""
-    return _of_a_fit(source) if kind_of(source.data) == "fit" else _of_scenes(source)
-
-
-def _of_a_fit(source: Source) -> FitStudy:
-    """Check a fit as a whole and read its data."""
+    """Check a study of its kind as a whole, and expand it or read its data."""
+    if kind_of(source.data) != "fit":
+        return _of_scenes(source)
     asked = checked(source.data)
     mistakes = [*asked.mistakes, *_between(asked, source.data, broken_in_fit(asked))]
     loops: tuple[LoopFile, ...] = ()
@@ -122,7 +103,7 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
     points, measured = points_of(source.data, source.folder, columns), measured_in(source.data, source.folder)
     asked = checked(measured.beside(points.beside(source.data)), points.inputs)
     mistakes = [*asked.mistakes, *_between(asked, source.data, broken(asked))]
-    if points.unread:  # nothing is missing that the file would give
+    if points.mistakes and not points.file:  # nothing is missing that the file would give
         mistakes = [(path, words) for path, words in mistakes if value_at(source.data, path) is not None]
     _refuse(source, [*points.mistakes, *measured.mistakes, *mistakes])
     form = asked.form
@@ -137,8 +118,7 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
     solver = tuple(form.method.solver) if asked.lists_solvers else form.method.solver[0]
     spectrum = form.profile.spectrum.made() if form.profile.spectrum else None
     profile = random_profile(spectrum, 0, float(form.profile.exponent)) if spectrum else shape_of(form.profile)
-    ranges = {name: form.entries[name] for name in asked.over}
-    searched = {name: Range(**dict(one)) for name, one in ranges.items() if isinstance(one, Range)}
+    ranges = ((name, form.entries[name]) for name in asked.over)
     return Study(
         **given_by(source, form, {one.key: one.sha256 for one in (points, measured) if one.file}),
         layout=form.layout,
@@ -151,7 +131,7 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
         rate=form.rate.made() if form.rate else None,
         states=tuple(form.states.contact_radius_over_R or ()),
         search=form.optimum or Optimum(),
-        searched=searched,
+        searched={name: Range(**dict(one)) for name, one in ranges if isinstance(one, Range)},
         uncertainty=form.uncertainty or Uncertainty(),
         left_out=frozenset(absent.keys() - {"a_max", "a_max_over_R"}),
         points=points,
