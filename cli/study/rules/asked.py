@@ -1,7 +1,7 @@
 """A study as its rules look at it: what is right of it, expanded, and which keys are there."""
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Final
@@ -27,16 +27,12 @@ _DIGITS: Final = 12
 """Significant digits of the decimals that the values of a range are moved to, where these are within rounding."""
 REQUIRED: Final = {"k": 0.5, "nu": 0.3}
 """The parameters that a form needs, with valid values: they stand for wrong ones, so that all else can be read."""
-_SCENES: Final = ("map", "curve", "optimum")
 _KINDS_OF: Final = {
     "outputs": ("map", "curve"),
-    "layout": _SCENES,
-    "states": _SCENES,
-    "method": _SCENES,
+    **dict.fromkeys(("layout", "states", "method"), ("map", "curve", "optimum")),
     "optimum": ("optimum",),
     "uncertainty": ("map",),
-    "data": ("fit",),
-    "fit": ("fit",),
+    **dict.fromkeys(("data", "fit"), ("fit",)),
 }
 """The kinds of study that have a key, where not all have it."""
 
@@ -111,6 +107,13 @@ class Asked:
     def right(self, *keys: str) -> bool:
         """Report whether nothing is wrong with some keys or tables, within them or above."""
         return not any(own[: len(path)] == path[: len(own)] for path in self.wrong for own in map(steps_of, keys))
+
+    def beside(self, *values: Values) -> Sequence[NDArray[np.float64]]:
+        """Give values of inputs as they meet in scenes, in a grid their extremes; none where lists differ in length."""
+        own = [np.atleast_1d(one) for one in values]
+        if not self.points:
+            return np.meshgrid(*([one.min(), one.max()] for one in own))
+        return np.broadcast_arrays(*own) if len({one.size for one in own} - {1}) < 2 else [np.zeros(0)] * len(own)
 
     @property
     def waved(self) -> list[str]:

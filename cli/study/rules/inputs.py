@@ -5,6 +5,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gradhesion.cli.study.rules.asked import Asked, Found, Values, home
 from gradhesion.cli.study.rules.keys import Range
@@ -45,11 +46,8 @@ def together(asked: Asked) -> Found:
             yield key, f"this cannot be combined with {beside}; remove one of the two"
     if asked.form.profile.exponent == "fit" and not asked.has("profile.file"):
         yield "profile.exponent", "there is no file to fit it to; write a number, for example exponent = 2.0"
-    k, nu = (np.atleast_1d(asked.axes.get(name, 0.5)) for name in ("k", "nu"))
-    soft = bool(np.any(k == 1.0) and np.any(nu != 0.5))
-    if asked.points and soft:  # in one scene, unless the lists differ in length
-        soft = (1 in (k.size, nu.size) or k.size == nu.size) and bool(np.any((k == 1.0) & (nu != 0.5)))
-    if soft:
+    k, nu = asked.beside(*(asked.axes.get(name, 0.5) for name in ("k", "nu")))
+    if np.any((k == 1.0) & (nu != 0.5)):
         words = "with k = 1 and nu other than 0.5 the surface has no stiffness; use nu = 0.5, or k below 1"
         yield "parameters.k", words
 
@@ -136,18 +134,10 @@ def waves(asked: Asked) -> Found:
 def works(asked: Asked) -> Found:
     """Check that no edge closes at more work than it opens at."""
     key, other = "work_of_adhesion_closing", "work_of_adhesion"
-    if not {key, other} <= asked.values.keys() or asked.given("closing_ratio"):
-        return
-    closing, opening = (np.atleast_1d(asked.values[name]) for name in (key, other))
-    if asked.points:
-        together = 1 in (closing.size, opening.size) or closing.size == opening.size
-        above = together and bool(np.any(closing > opening))
-    elif asked.kind == "fit":
-        above = closing.min() > opening.max()
-    else:
-        above = closing.max() > opening.min()
-    if above:
-        yield home(key), "an edge cannot close at more work than it opens at; lower it, or raise work_of_adhesion"
+    if {key, other} <= asked.values.keys() and not asked.given("closing_ratio"):
+        closing, opening = asked.beside(asked.values[key], asked.values[other])
+        if (np.all if asked.kind == "fit" else np.any)(closing > opening):
+            yield home(key), "an edge cannot close at more work than it opens at; lower it, or raise work_of_adhesion"
 
 
 def _needs_table(asked: Asked, table: str) -> Found:
@@ -170,9 +160,11 @@ def toughness(asked: Asked) -> Found:
     if table is None or len({wave.n for wave in table.harmonics}) < len(table.harmonics):
         return
     length, rim = ("toughness_wavelength", "a_max") if asked.units else ("toughness_wavelength_over_R", "a_max_over_R")
+    if length not in asked.values:
+        return
     key, pattern = "toughness_amplitude", table.made()
-    given = (asked.values.get(key, 1.0), asked.values.get(length, math.nan), asked.values.get(rim, math.inf))
-    for amplitude, wavelength, end in _patterns(asked, *map(np.atleast_1d, given)):
+    given = (asked.values.get(key, 1.0), asked.values[length], asked.values.get(rim, math.inf))
+    for amplitude, wavelength, end in _patterns(*asked.beside(*given)):
         radius = violation(pattern, amplitude, wavelength, end)
         if radius is not None:
             what = {"toughness": "toughness is negative", "work": "work of adhesion is not positive"}[pattern.of]
@@ -181,20 +173,15 @@ def toughness(asked: Asked) -> Found:
             return
 
 
-def _patterns(asked: Asked, *given: np.ndarray) -> Iterable[tuple[float, float, float]]:
-    """Give the amplitudes, wavelengths and rims of punches that are the worst of a study."""
+def _patterns(*given: NDArray[np.float64]) -> Iterable[tuple[float, float, float]]:
+    """Give the amplitudes, wavelengths and rims of punches that are the worst of those in scenes."""
     amplitudes, wavelengths, rims = given
-    if np.isnan(wavelengths).any() or (asked.points and len({one.size for one in given} - {1}) > 1):
-        return  # which is said of the wavelength, or of the lists
-    if asked.points:
-        amplitudes, wavelengths, rims = np.broadcast_arrays(*given)
-    unique = np.unique(amplitudes)
-    each = asked.points and unique.size <= _MOST_AMPLITUDES
-    for amplitude in unique.tolist() if each else {*unique[[0, -1]].tolist()}:
+    unique = np.unique(amplitudes).tolist()
+    each = len(unique) <= _MOST_AMPLITUDES
+    for amplitude in unique if each else (unique[0], unique[-1]):
         own = amplitudes == amplitude if each else slice(None)
         least = float(wavelengths[own].min())
-        count = (rims[own] / wavelengths[own]).max() if asked.points else rims.max() / least
-        yield amplitude, least, float(count) * least
+        yield amplitude, least, float((rims[own] / wavelengths[own]).max()) * least
 
 
 def rate(asked: Asked) -> Found:
