@@ -20,7 +20,7 @@ from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import Mistake
 from gradhesion.cli.study.rules.scenes import broken
 from gradhesion.cli.study.study import Method, Study, given_by
-from gradhesion.cli.study.text.foreign import as_written
+from gradhesion.cli.study.text.quantities import as_written
 from gradhesion.cli.study.text.source import DEEP, Source, included, is_deep, read_source
 from gradhesion.cli.study.text.written import dotted, steps_of, with_fingerprints
 from gradhesion.cli.terminal.wording import shown

@@ -146,8 +146,8 @@ def _of_table(path: Path, table: DataTable) -> Raw:
         sentence = "back names the columns of unloading, of depths and of loads, and then there is no branch or cycle"
         raise LoopFileError("load" if depth.back else table.depths, f"{sentence}; write all of them so")
     wanted = {depth.column: table.depths, load.column: "load", depth.back: table.depths, load.back: "load"}
-    wanted |= {name: key for name, key in ((table.branch, "branch"), (table.cycle, "cycle")) if name}
-    wanted.pop("", None)  # where nothing stands back
+    wanted |= {table.branch or "": "branch", table.cycle or "": "cycle"}
+    wanted.pop("", None)  # what is not named
     pauses = dict.fromkeys((*PAUSES, *(word.strip().lower() for word in table.leave_out)), PAUSE)
     words = {table.branch: BRANCHES | pauses} if table.branch else {}
     try:
@@ -160,18 +160,17 @@ def _of_table(path: Path, table: DataTable) -> Raw:
             raise LoopFileError(key, f"the file has no column {shown(name)}; {did_you_mean(name, there)}")
     columns = ((table.depths, depth), ("load", load))
     rows = np.array([_in_si(found, *one) for one in columns])
-    if not depth.back:
-        branch, cycle = (found.values[name] if name else None for name in (table.branch, table.cycle))
-        return Raw(depth=rows[0], load=rows[1], branch=branch, cycle=cycle, sha256=found.sha256)
-    backs = ((key, one.model_copy(update={"column": one.back})) for key, one in columns)
-    ways = [rows, np.array([_in_si(found, *one) for one in backs])]
-    for back, points in enumerate(ways):  # unloading behind loading, in the order of a cycle; the shorter is padded
-        points = points[:, ~np.isnan(points).all(axis=0)]
-        falls = points.size > 0 and points[0, -1] < points[0, 0]
-        ways[back] = points if falls == bool(back) else points[:, ::-1]
-    branch = np.repeat([0.0, 1.0], [way.shape[1] for way in ways])
-    both = np.concatenate(ways, axis=1)
-    return Raw(depth=both[0], load=both[1], branch=branch, sha256=found.sha256)
+    branch, cycle = (found.values[name] if name else None for name in (table.branch, table.cycle))
+    if depth.back:
+        backs = ((key, one.model_copy(update={"column": one.back})) for key, one in columns)
+        ways = [rows, np.array([_in_si(found, *one) for one in backs])]
+        for back, points in enumerate(ways):  # unloading behind loading, in the order of a cycle; the shorter is padded
+            points = points[:, ~np.isnan(points).all(axis=0)]
+            falls = points.size > 0 and points[0, -1] < points[0, 0]
+            ways[back] = points if falls == bool(back) else points[:, ::-1]
+        branch = np.repeat([0.0, 1.0], [way.shape[1] for way in ways])
+        rows = np.concatenate(ways, axis=1)
+    return Raw(depth=rows[0], load=rows[1], branch=branch, cycle=cycle, sha256=found.sha256)
 
 
 def _in_si(found: Columns, key: str, requested: ColumnTable) -> NDArray[np.float64]:

@@ -49,7 +49,7 @@ class LoopFile:
     """Rows without a number that were left out."""
     paused: int = 0
     """Rows of pauses that were left out."""
-    noise: tuple[float, float] = field(default=(0.0, 0.0))
+    noise: tuple[float, float] = (0.0, 0.0)
     """Standard deviations of depth and load of a point of the file, estimated from the points."""
     problem: str = ""
     """Why it cannot be fitted, where it is one of several; it has no points then."""
@@ -69,10 +69,8 @@ class LoopFile:
         """What was left out of it, and what was averaged."""
         if self.problem:
             return [f"{self.file}: {self.problem}"]
-        sentences = []
-        for count, what in ((self.dropped, "without a number"), (self.paused, "of pauses")):
-            if count:
-                sentences.append(f"{counted(count, 'row')} {what} {'was' if count == 1 else 'were'} left out")
+        left_out = ((self.dropped, "without a number left out"), (self.paused, "of pauses left out"))
+        sentences = [f"{counted(count, 'row')} {what}" for count, what in left_out if count]
         if self.points > self.depth.size:
             sentences.append(f"{counted(self.points, 'point')} averaged along the path; {self.depth.size:,} kept")
         return [f"{self.file}: {sentence}" for sentence in sentences]
@@ -179,13 +177,12 @@ def _loop(raw: Raw, file: str, table: DataTable, fitted: list[str], *, average: 
         paused=int(np.count_nonzero(paused)),
         noise=kept.noise,
     )
-    _refuse_faults(loop, table)
-    _refuse_few(loop, fitted)
+    _refuse(loop, table, fitted)
     return loop
 
 
-def _refuse_faults(loop: LoopFile, table: DataTable) -> None:
-    """Refuse points without contact, and with a sign that is wrong."""
+def _refuse(loop: LoopFile, table: DataTable, fitted: list[str]) -> None:
+    """Refuse points without contact, with a wrong sign, too few for what is fitted, or all the same."""
     fault = fault_of(loop.depth, loop.load, loop.noise[1] / np.sqrt(loop.counts), loop.unloading)
     if fault == "straight":
         raise LoopFileError("load", "the data show no contact, but a linear load; name another file or column")
@@ -195,10 +192,6 @@ def _refuse_faults(loop: LoopFile, table: DataTable) -> None:
         name = getattr(table, key).column if getattr(table, key) else "..."
         remedy = f'{key} = {{ column = "{name}", sign = -1 }} with its unit'
         raise LoopFileError(key, f"{words}; write {remedy}, or without sign where it is -1")
-
-
-def _refuse_few(loop: LoopFile, fitted: list[str]) -> None:
-    """Refuse points that are too few for what is fitted, or all the same."""
     if loop.depth.size <= len(fitted):
         words = f"{loop.depth.size} points are too few for {len(fitted)} fitted values ({', '.join(fitted)})"
         raise LoopFileError("file", f"{words}; measure more points, or fix some")

@@ -27,7 +27,7 @@ def uncertain(asked: Asked) -> Found:
     table, form = asked.form.uncertainty, asked.form
     if table is None:
         return
-    own = {name: one for name in INPUTS if (one := getattr(table, name)) is not None}
+    own = table.deviations
     if not own and asked.right("uncertainty"):
         yield "uncertainty", 'no input is uncertain; add for example modulus = "5 %", or remove [uncertainty]'
     for name, one in own.items():
