@@ -48,7 +48,6 @@ class FromFile:
     """Those that it gives, or would give, and that are not."""
     mistakes: tuple[Mistake, ...] = ()
     fit: "FittedProfile | None" = None
-    """What was fitted to heights."""
     dropped: int = 0
     """Rows without a number that were left out."""
 

@@ -56,9 +56,7 @@ class Given:
     profile: Profile = field(default_factory=Profile)
     loading: Loading = field(default_factory=Loading)
     toughness: Toughness | None = None
-    """How its toughness varies with the radius, if it does."""
     rate: Rate | None = None
-    """How the work of its edge grows with the speed, if it does."""
     folder: Path = Path()
     """The folder of the files that it names."""
 
@@ -101,11 +99,9 @@ class Study(Given):
     """A value for each parameter, under the key that gives it, in the order of the dataset's dimensions."""
     method: Method
     search: Optimum = field(default_factory=Optimum)
-    """What is sought in the place of values."""
     searched: Mapping[str, Range] = field(default_factory=dict)
     """The inputs that are searched for it, which are no parameters of the study."""
     uncertainty: Uncertainty = field(default_factory=Uncertainty)
-    """How far its inputs may be off."""
     states: tuple[float, ...] = ()
     """The contact radii a/R whose pressure and surface are drawn; empty: the named states of the cycle."""
     left_out: frozenset[str] = frozenset()
@@ -135,9 +131,8 @@ class Study(Given):
         """The variables with the spread of its outputs, those in SI units last."""
         own = tuple(f"{name}_std" for name in self.linear)
         if self.uncertainty.samples and self.uncertainty:
-            known = [name for name in self.outputs if name in names.SPREADABLE]
-            ways = {name: [way for way in names.SPREAD if way != "std_linear" or name in self.linear] for name in known}
-            own = tuple(f"{name}_{way}" for name in known for way in ways[name])
+            ways = ((name, way) for name in self.outputs if name in names.SPREADABLE for way in names.SPREAD)
+            own = tuple(f"{name}_{way}" for name, way in ways if way != "std_linear" or name in self.linear)
         return (*own, *(name + SI for name in own if name in UNITS and "R" in self.parameters))
 
     @cached_property

@@ -25,11 +25,7 @@ _LARGEST: Final = 2.0**53
 
 
 def number(cell: str) -> float:
-    """Give the number in a cell; NaN if it is empty, or an error of a spreadsheet.
-
-    >>> number("1e3"), number(" "), number("-inf")
-    (1000.0, nan, -inf)
-    """
+    """Give the number in a cell; NaN if it is empty, or an error of a spreadsheet."""
     try:
         value = float(cell)
         if math.isfinite(value) and "_" not in cell and cell.isascii():
@@ -54,11 +50,7 @@ def is_number(cell: str) -> bool:
 
 
 def word(cell: str, words: Mapping[str, float]) -> float:
-    """Give the number for a word, or that in its place; NaN if there is none.
-
-    >>> word("Unloading", {"loading": 0.0, "unloading": 1.0}), word("1.0", {"loading": 0.0, "unloading": 1.0})
-    (1.0, 1.0)
-    """
+    """Give the number for a word, or that in its place; NaN if there is none."""
     found = cell.strip().lower()
     if found in words:
         return words[found]
@@ -69,11 +61,7 @@ def word(cell: str, words: Mapping[str, float]) -> float:
 
 
 def whole_number(cell: str) -> float:
-    """Give the whole number in a cell; NaN if there is none.
-
-    >>> whole_number("7.0"), whole_number("")
-    (7.0, nan)
-    """
+    """Give the whole number in a cell; NaN if there is none."""
     value = number(cell)
     if math.isinf(value) or (math.isfinite(value) and value != math.floor(value)):
         raise ValueError("is not a whole number; write one")
@@ -98,11 +86,7 @@ class Wanted:
     """The columns of whole numbers."""
 
     def named(self, names: Sequence[str], heads: Sequence[str] = ()) -> tuple[str, ...]:
-        """Give the columns of a file the names that are wanted of them, where they differ in case or have their unit.
-
-        >>> Wanted(only=("height", "Load (nN)")).named(["Height", "Load"], ["Height (nm)", "Load (nN)"])
-        ('height', 'Load (nN)')
-        """
+        """Give the columns of a file the names that are wanted of them, where these differ in case or have a unit."""
         found = [*names]
         for wanted in self.only or ():
             both = ((name.lower(), head.lower()) for name, head in zip(names, heads or names, strict=True))
@@ -127,7 +111,6 @@ class Columns:
     units: dict[str, str]
     """Of the columns that have one."""
     sha256: str
-    """The fingerprint of the file."""
     place: Callable[[int], str]
     """Says where a row is, counted from 0."""
     others: tuple[str, ...] = ()
@@ -135,11 +118,7 @@ class Columns:
 
 
 def tidy(units: Mapping[str, str]) -> dict[str, str]:
-    """Leave out what says that there is no unit.
-
-    >>> tidy({"R": "um", "A": "-", "k": "1"})
-    {'R': 'um'}
-    """
+    """Leave out what says that there is no unit."""
     return {name: unit for name, unit in units.items() if unit not in ("", "1", "-")}
 
 

@@ -89,11 +89,7 @@ def _lines(text: str) -> Iterator[tuple[int, str]]:
 
 
 def _cells_of(place: int, line: str, separator: str | None, count: int) -> list[str]:
-    """Cut a line into cells, without empty ones at its end beyond a number of columns.
-
-    >>> _cells_of(1, '1; "2;3" ;', ";", 2)
-    ['1', '2;3']
-    """
+    """Cut a line into cells, without empty ones at its end beyond a number of columns."""
     cells = line.split(separator)
     if '"' in line:
         try:

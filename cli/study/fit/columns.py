@@ -91,11 +91,7 @@ def read_raw(path: Path, table: DataTable, *, through_machine: bool) -> list[Raw
 
 
 def is_force_file(table: DataTable) -> bool:
-    """Tell whether a file is an instrument's, by its name and whether columns are named.
-
-    >>> is_force_file(DataTable(file="curve.jpk-force")), is_force_file(DataTable(file="curve.csv"))
-    (True, False)
-    """
+    """Tell whether a file is an instrument's, by its name and whether columns are named."""
     suffix = PurePath(table.file).suffix.lower()
     return suffix in INSTRUMENTS or (suffix in EITHER and not (table.depths or table.load))
 

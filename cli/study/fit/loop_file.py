@@ -105,11 +105,7 @@ def read_loops(
 
 
 def _names_of(folder: Path, file: str) -> list[str]:
-    """Name the files that a pattern means, sorted; a file that has the name is meant itself.
-
-    >>> _names_of(Path("no such folder"), "loop.csv"), _names_of(Path("no such folder"), "*.csv")
-    (['loop.csv'], [])
-    """
+    """Name the files that a pattern means, sorted; a file that has the name is meant itself."""
     if not any(mark in file for mark in "*?[") or (folder / file).exists():
         return [file]
     found = glob(file, root_dir=folder, recursive=True)  # noqa: PTH207 (patterns may be absolute)

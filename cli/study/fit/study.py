@@ -49,7 +49,6 @@ class FitStudy(Given):
     """What is searched, with the ends of its range."""
     offsets: Offsets
     average: bool
-    """Whether many points are averaged."""
     given_noise: tuple[float, float] | None
     """Standard deviations of depth and load, in SI units, where the study has them."""
     intervals: str
@@ -140,11 +139,7 @@ def fit_of(source: Source, form: Form, loops: tuple[LoopFile, ...]) -> FitStudy:
 
 
 def unit_of_parameter(name: str) -> str:
-    """Give the unit in SI of what is fitted.
-
-    >>> [unit_of_parameter(name) for name in ("E_star", "A", "exponent", "load_offset", "load_slope")]
-    ['Pa', '1', '1', 'N', 'N/m']
-    """
+    """Give the unit in SI of what is fitted."""
     own = dict(zip(OFFSETS, ("m", "N", "N/m"), strict=True), exponent="1")
     return own.get(name) or INPUTS[name].unit
 

@@ -213,13 +213,7 @@ def home(name: str) -> str:
 
 
 def expanded(entry: Entry) -> Values:
-    """Expand a valid input of a study; a range begins and ends at exactly its `start` and `stop`.
-
-    >>> expanded(0.3)
-    0.3
-    >>> expanded(Range(start=0.01, stop=1.0, num=3, spacing="log"))
-    array([0.01, 0.1 , 1.  ])
-    """
+    """Expand a valid input of a study; a range begins and ends at exactly its `start` and `stop`."""
     if not isinstance(entry, Range):
         return np.array(entry, dtype=np.float64) + 0.0 if isinstance(entry, list) else float(entry) + 0.0
     if entry.num is None:  # searched
@@ -234,13 +228,7 @@ def expanded(entry: Entry) -> Values:
 
 
 def _shortest(values: NDArray[np.float64], size: NDArray[np.float64] | float) -> NDArray[np.float64]:
-    """Move values to decimals of a few digits that are within the rounding of a range of this `size`.
-
-    So that a value can be selected by what one would write: 0.69 and not 0.6900000000000001.
-
-    >>> float(_shortest(np.array([0.6900000000000001]), 1.0)[0])
-    0.69
-    """
+    """Move values to decimals of a few digits within the rounding of a range of this `size`."""
     with np.errstate(all="ignore"):
         places = np.clip(_DIGITS - 1 - np.floor(np.log10(size)), -22, 22)
         power = 10.0 ** np.abs(places)  # exact to 10^22

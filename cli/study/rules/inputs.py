@@ -96,11 +96,7 @@ def _ways(asked: Asked, own: Input, kin: list[str]) -> Found:
 
 
 def left_out(values: Mapping[str, Values], *, with_units: bool) -> dict[str, float]:
-    """Give the inputs that a valid study leaves out, with the values that they then have.
-
-    >>> left_out({"k": 0.0, "nu": 0.3, "modulus": 500.0, "A": 0.1, "lambda_over_R": 0.2}, with_units=False)
-    {'a_max_over_R': inf, 'c0_over_R': 1.0}
-    """
+    """Give the inputs that a valid study leaves out, with the values that they then have."""
     given = {INPUTS[name].gives for name in values}
     rim = {} if "a_max_over_R" in given else {"a_max" if with_units else "a_max_over_R": math.inf}
     idle = (name for name, own in INPUTS.items() if name not in given and is_zero(own.idle_without, values))

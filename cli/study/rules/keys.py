@@ -165,14 +165,7 @@ class Deviation:
 
 
 def deviation_of(value: object, name: str) -> Deviation:
-    """Read the deviation of an input; ValueError says what to write instead of what is none.
-
-    >>> deviation_of("5 %", "modulus").deviation, deviation_of("20 nm", "c0").deviation
-    (0.05, 2e-08)
-    >>> nu = deviation_of({"low": 0.28, "high": 0.32}, "nu")
-    >>> nu.uniform, nu.low, nu.high
-    (True, 0.28, 0.32)
-    """
+    """Read the deviation of an input; ValueError says what to write instead of what is none."""
     own = INPUTS[name]
     forms = f'write for example {name} = "5 %", a standard deviation in its unit, or {{ low = .., high = .. }}'
 

@@ -109,11 +109,10 @@ def _unknown_key(path: Key, absent: Collection[str]) -> tuple[Key, str]:
     if "num" in known and key in _STEPS:
         sentence = "a range has no step; give the number of its values instead, for example num = 11"
         return (*table, "num"), f'{sentence}, evenly spaced unless spacing = "log"'
-    homes = {
-        place: {*keys} - {*absent} for place, keys in keys_of.items() if len(place) < 2 and not {*place} & {*absent}
-    }
+    homes = {place: keys for place, keys in keys_of.items() if len(place) < 2 and not {*place} & {*absent}}
+    homes[()] = [name for name in homes[()] if name not in absent]
     if ("uncertainty",) in homes:
-        homes["uncertainty",] = {"samples", "seed"}  # the others are inputs
+        homes["uncertainty",] = ["samples", "seed"]  # the others are inputs
     place, near = table, nearest(key, known)
     called = [name for name, one in INPUTS.items() if key.lower() in one.called]
     slip = (near or "").lower() == key.lower()
@@ -122,7 +121,7 @@ def _unknown_key(path: Key, absent: Collection[str]) -> tuple[Key, str]:
     elif called and near not in called and not slip and table in (("parameters",), ("physical",)):
         place, near = (INPUTS[called[0]].table,), called[0]
     elif not table and not near:
-        found = [(other, one) for other, keys in homes.items() if (one := nearest(key, sorted(keys)))]
+        found = [(other, one) for other, keys in homes.items() if (one := nearest(key, keys))]
         place, near = found[0] if found else (table, None)
     if place == table:
         return (*table, near or ""), f"unknown key; {did_you_mean(key, known)}"

@@ -61,11 +61,7 @@ _POWER: Final = re.compile(r"([^\W\d_])([+-]?\d)")
 
 
 def si_value(value: object, name: str) -> float:
-    """Give a quantity in its unit in SI; an infinite one needs no unit. ValueError says what to write instead.
-
-    >>> si_value("1 um", "R"), si_value("20 mJ/m^2", "work_of_adhesion"), si_value("20 mN m-1", "work_of_adhesion")
-    (1e-06, 0.02, 0.02)
-    """
+    """Give a quantity in its unit in SI; an infinite one needs no unit. ValueError says what to write instead."""
     key = QUANTITIES[name]
     number, written = _parts_of(str(value) if isinstance(value, str | float) else "")
     plain = isinstance(value, int | float) and not isinstance(value, bool)
@@ -137,9 +133,6 @@ def scaled(numbers: NDArray[Any], factor: Decimal) -> NDArray[np.float64]:
     """Multiply numbers, as the shortest decimals that they are, by a factor; each product is rounded once.
 
     So that 25 um is 2.5e-05 m, which the product of 25.0 and 1e-06 is not.
-
-    >>> scaled(np.array([1.0, 25.0]), Decimal("1e-6"))
-    array([1.0e-06, 2.5e-05])
     """
     given = np.asarray(numbers, dtype=np.float64)
     if factor == 1:
@@ -179,11 +172,7 @@ def factor_between(written: str, unit: str) -> Decimal | None:
 
 
 def apart(value: Any) -> tuple[Any, str]:
-    """Take what has a unit apart: its numbers, and the unit as pint reads it; of all else there is none.
-
-    >>> apart([1.0, 2.0])
-    ([1.0, 2.0], '')
-    """
+    """Take what has a unit apart: its numbers, and the unit as pint reads it; of all else there is none."""
     if isinstance(value, _PLAIN):
         return value, ""
     attributes = getattr(value, "attrs", None)
@@ -235,9 +224,6 @@ def as_written(value: Any, path: tuple[str, ...] = (), *, bare: bool = True) -> 
     """Turn a value made in Python, at a path in a study, into what TOML would give: quantities are texts, as "25 um".
 
     Quantities without a dimension become numbers if `bare`.
-
-    >>> as_written({"A": np.float64(0.1), "k": (0.0, np.array([0.5]))})
-    {'A': 0.1, 'k': [0.0, [0.5]]}
     """
     if type(value) in _PLAIN:
         return value

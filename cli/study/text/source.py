@@ -203,11 +203,7 @@ def _fitted(path: Path, steps: tuple[str, ...]) -> float | str:
 
 
 def is_deep(data: Any, levels: int = _DEEPEST) -> bool:
-    """Check whether tables and lists are nested more deeply than in any study.
-
-    >>> is_deep({"parameters": {"k": [0.0, 0.5]}}), is_deep(eval(40 * '[' + 40 * ']'))
-    (False, True)
-    """
+    """Check whether tables and lists are nested more deeply than in any study."""
     items = data.values() if isinstance(data, Mapping) else data if isinstance(data, list) else ()
     nested = (item for item in items if isinstance(item, Mapping | list))
     return levels == 0 or any(is_deep(item, levels - 1) for item in nested)

@@ -22,29 +22,17 @@ _STEPS: Final = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
 
 
 def dotted(path: Key) -> str:
-    """Write a path as a message shows it.
-
-    >>> dotted(("parameters", "k", 3))
-    'parameters.k[3]'
-    """
+    """Write a path as a message shows it."""
     return "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in path).removeprefix(".")
 
 
 def steps_of(path: str) -> Key:
-    """Take a dotted key apart.
-
-    >>> steps_of("parameters.k[3]")
-    ('parameters', 'k', 3)
-    """
+    """Take a dotted key apart."""
     return tuple(int(item) if item else name for name, item in _STEPS.findall(path))
 
 
 def lines_of(text: str) -> dict[Key, int]:
-    r"""Find the line (from 1) of each table and key of a valid TOML text; those within a value are at its beginning.
-
-    >>> lines_of("layout = 'grid'\n[parameters]\nk = [\n  0.1,\n  0.2,\n]\nA = 0.3\n")
-    {('layout',): 1, ('parameters',): 2, ('parameters', 'k'): 3, ('parameters', 'A'): 7}
-    """
+    """Find the line (from 1) of each table and key of a valid TOML text; those within a value are at its beginning."""
     found: dict[Key, int] = {}
     table: Key = ()
     depth = 0
@@ -81,14 +69,9 @@ def toml_of(data: Mapping[str, Any]) -> str:
 
 
 def with_fingerprints(data: Mapping[str, Any], text: str, files: Mapping[Key, str]) -> str:
-    r"""Write a valid study as TOML with the SHA-256 of each file that it names, in its own text if it has one.
+    """Write a valid study as TOML with the SHA-256 of each file that it names, in its own text if it has one.
 
     Each path is that of a key with the name of a file, which becomes a table, or of a table with a key `file`.
-
-    >>> with_fingerprints({"data": {"file": "a.csv"}}, "[data]\nfile = 'a.csv' # x", {("data",): "0a"})
-    '[data]\nfile = \'a.csv\' # x\nsha256 = "0a"'
-    >>> with_fingerprints({"a": {"b": "c.csv"}}, "[a]\nb = 'c.csv' # x", {("a", "b"): "0a"})
-    '[a]\nb = { file = "c.csv", sha256 = "0a" } # x'
     """
     if text and not files:
         return text
