@@ -122,8 +122,7 @@ def tidy(units: Mapping[str, str]) -> dict[str, str]:
     return {name: unit for name, unit in units.items() if unit not in ("", "1", "-")}
 
 
-def changed(found: str, expected: str, remedy: str, *, several: bool = False) -> str:
-    """Say that a file is not the one that a study was written for, or that several are not, by their fingerprints."""
-    what, back = ("files are not the ones", "those") if several else ("file is not the one", "that file")
+def changed(found: str, expected: str, remedy: str) -> str:
+    """Say that what a study names is not what it was written for, by the fingerprints."""
     fingerprints = f"its sha256 is {found[:12]}..., not {expected[:12]}..."
-    return f"the {what} that this study was written for: {fingerprints}; put {back} back, or {remedy}"
+    return f"this is not what the study was written for: {fingerprints}; put that back, or {remedy}"

@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.study.fit.columns import PAUSE, LoopFileError, Raw, read_raw
+from gradhesion.cli.study.fit.columns import PAUSE, LoopFileError, Rows, read_raw
 from gradhesion.cli.study.rules.fit_form import DataTable
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.loops.measured import points as loop_points
@@ -92,8 +92,9 @@ def read_loops(
     errors: list[LoopFileError] = []
     for name in names:
         try:
-            raws = read_raw(folder / name, table, through_machine=through_machine)
-            loops += [_loop(raw, name, table, fitted, average=average) for raw in raws]
+            sha256, found = read_raw(folder / name, table, through_machine=through_machine)
+            files = ((f"{name}#{of}" if of else name, rows) for of, rows in found.items())
+            loops += [_loop(rows, file, sha256, table, fitted, average=average) for file, rows in files]
         except LoopFileError as error:
             errors.append(error)
             loops.append(LoopFile(file=name, problem=str(error), sha256=_digest(folder / name)))
@@ -128,19 +129,18 @@ def fingerprint(loops: Iterable[LoopFile]) -> str:
     return hashlib.sha256("".join(f"{name} {sha256}\n" for name, sha256 in own.items()).encode()).hexdigest()
 
 
-def _loop(raw: Raw, file: str, table: DataTable, fitted: list[str], *, average: bool) -> LoopFile:
+def _loop(rows: Rows, file: str, sha256: str, table: DataTable, fitted: list[str], *, average: bool) -> LoopFile:
     """Leave rows out, tell the branches, average, and refuse what is no loop."""
-    branch = np.zeros(raw.depth.size) if raw.branch is None else raw.branch
-    numbers = np.zeros(raw.depth.size) if raw.cycle is None else raw.cycle
+    branch, numbers = (rows.get(name, np.zeros(rows["depth"].size)) for name in ("branch", "cycle"))
     paused = branch == PAUSE
-    sound = np.isfinite(raw.depth) & np.isfinite(raw.load) & np.isfinite(branch) & np.isfinite(numbers)
+    sound = np.all([np.isfinite(row) for row in (rows["depth"], rows["load"], branch, numbers)], axis=0)
     use = sound & ~paused
     if not use.any():
         why = "every row belongs to a pause" if sound.any() else "no row has numbers in all of its columns"
         raise LoopFileError("file", f"{why}; name a file with some")
-    depth, load, cycle = raw.depth[use], raw.load[use], numbers[use].astype(np.int64)
-    rank = None if raw.cycle is None else np.unique(cycle, return_inverse=True)[1].astype(np.int32)
-    if raw.branch is not None:
+    depth, load, cycle = rows["depth"][use], rows["load"][use], numbers[use].astype(np.int64)
+    rank = None if "cycle" not in rows else np.unique(cycle, return_inverse=True)[1].astype(np.int32)
+    if "branch" in rows:
         unloading = branch[use] == 1.0
         rank = np.ones(depth.size, np.int32) if rank is None else rank
     elif loop_points.has_order(depth, rank):
@@ -150,7 +150,7 @@ def _loop(raw: Raw, file: str, table: DataTable, fitted: list[str], *, average: 
         what = f"the order of the points does not tell the branches ({turns:,} turns of {depth.size:,} points)"
         remedy = 'name a column that has them, branch = "branch", or sort the rows as they were measured'
         raise LoopFileError("file", f"{what}; {remedy}")
-    cycle = rank.astype(np.int64) if raw.cycle is None else cycle
+    cycle = cycle if "cycle" in rows else rank.astype(np.int64)
     if table.which is not None:
         own = unloading == (table.which == "unloading")
         if not own.any():
@@ -167,8 +167,8 @@ def _loop(raw: Raw, file: str, table: DataTable, fitted: list[str], *, average: 
         unloading=kept.unloading,
         cycle=cycle,
         counts=kept.counts,
-        file=f"{file}#{raw.of}" if raw.of else file,
-        sha256=raw.sha256,
+        file=file,
+        sha256=sha256,
         dropped=int(np.count_nonzero(~sound & ~paused)),
         paused=int(np.count_nonzero(paused)),
         noise=kept.noise,

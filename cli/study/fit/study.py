@@ -25,12 +25,8 @@ from gradhesion.core.problem.inputs import INPUTS
 
 LINEAR: Final = ("k", "nu", "indentation_max", "closing_ratio", "toughness_amplitude", "exponent")
 """What is searched as it is, so that its range may begin at 0; all else is by its logarithm."""
-NUMBER_ALONE: Final = ("adhesion_range",)
-"""What no loop depends on, and is a number."""
 ONE_NUMBER: Final = ("E_star", "E", "c0", "nu")
 """What acts on a loop through one number."""
-_SPEEDS: Final = ("speed", "reference_speed")
-"""The speeds whose ratio counts."""
 _DEPTHS: Final = ("indentation", "displacement")
 """The columns of depths, of the contact or of a machine."""
 
@@ -109,9 +105,7 @@ def loops_of(folder: Path, asked: Asked) -> tuple[tuple[LoopFile, ...], list[Mis
     sha256 = fingerprint(loops)
     if table.sha256 in ("", sha256):
         return loops, []
-    several = table.file not in {loop.file.partition("#")[0] for loop in loops}
-    words = changed(sha256, table.sha256, "remove sha256", several=several)
-    return loops, [(("data", "file"), words)]
+    return loops, [(("data", "file"), changed(sha256, table.sha256, "remove sha256"))]
 
 
 def fit_of(source: Source, form: Form, loops: tuple[LoopFile, ...]) -> FitStudy:
@@ -124,7 +118,8 @@ def fit_of(source: Source, form: Form, loops: tuple[LoopFile, ...]) -> FitStudy:
         **given_by(source, form, {("data",): fingerprint(loops)}),
         file=source.data["data"]["file"],
         loops=loops,
-        fixed={name: value for name, value in fixed.items() if name not in NUMBER_ALONE},
+        adhesion_range=fixed.pop("adhesion_range", None),
+        fixed=fixed,
         free=free,
         offsets=Offsets(**dict(form.fit.offsets)),
         average=form.fit.average,
@@ -134,7 +129,6 @@ def fit_of(source: Source, form: Form, loops: tuple[LoopFile, ...]) -> FitStudy:
         profile=shape_of(form.profile),
         loading=Loading(control=control_of(form)),
         rate=form.rate.made(exponent=exponent) if form.rate else None,
-        adhesion_range=fixed.get("adhesion_range"),
     )
 
 
@@ -215,15 +209,14 @@ def _searched(asked: Asked) -> Found:
     """Check that something is searched, within sensible ends, and that a loop can tell it apart."""
     given = given_in(asked.form)
     for name, entry in given.items():
-        table, key = (INPUTS[name].table, name) if name in INPUTS else ("rate", name)
-        at = f"{table}.{key}"
+        at = home(name) if name in INPUTS else f"rate.{name}"
         if isinstance(entry, list):
             yield at, "a fit has no axes: write a number, which is fixed, or a range { start, stop }, which is searched"
         elif not isinstance(entry, Range):
             continue
-        elif {*asked.data[table][key]} != {"start", "stop"}:
+        elif {*asked.at(at)} != {"start", "stop"}:
             yield at, "a searched range has start and stop, and nothing else; remove the other keys"
-        elif name in NUMBER_ALONE:
+        elif name == "adhesion_range":
             yield at, f"no loop depends on it; give it as a number, {INPUTS[name].example}"
         elif entry.start >= entry.stop:
             yield at, "the stop of a searched range is above its start; exchange the two, or give a number"
@@ -239,5 +232,6 @@ def _searched(asked: Asked) -> Found:
     if {*sizes} <= {*free} and endless and not (asked.waved or asked.form.toughness or asked.form.rate):
         words = "the loop of a smooth punch, which has no length of its own, does not tell"
         yield home("R"), f"{words} {sizes[0]}, {sizes[1]} and {sizes[2]} apart; give one of them as a number"
-    if {*_SPEEDS} <= {*free}:
-        yield home(_SPEEDS[1]), "a loop depends on the ratio of the two speeds alone; give one of them as a number"
+    if {"speed", "reference_speed"} <= {*free}:
+        words = "a loop depends on the ratio of the two speeds alone; give one of them as a number"
+        yield "physical.reference_speed", words

@@ -45,6 +45,8 @@ class Asked:
     """The study, but for what is wrong."""
     data: Mapping[str, Any]
     """The study with something valid in the place of what files give, and without keys of other kinds."""
+    kind: str
+    """The kind that is meant."""
     mistakes: list[Mistake]
     """What is wrong with each key for itself."""
     wrong: Collection[Key]
@@ -53,11 +55,6 @@ class Asked:
     """The keys that were meant where others stand."""
     values: dict[str, Values]
     """Of the inputs that are right; the two ends of those that are searched."""
-
-    @cached_property
-    def kind(self) -> str:
-        """The kind that is meant."""
-        return kind_of(self.data)
 
     @cached_property
     def over(self) -> tuple[str, ...]:
@@ -170,7 +167,7 @@ def checked(data: Mapping[str, Any], columns: Mapping[str, Values] | None = None
             mistakes += [(steps_of(key), sentence) for key, sentence in amiss]
         else:
             values[name] = expanded(entry) if columns is None or name not in columns else columns[name]
-    return Asked(form=form, data=own, mistakes=mistakes, wrong=wrong, misspelt=misspelt, values=values)
+    return Asked(form=form, data=own, kind=kind, mistakes=mistakes, wrong=wrong, misspelt=misspelt, values=values)
 
 
 def _without_num(data: Mapping[str, Any]) -> Iterator[Key]:

@@ -12,8 +12,6 @@ from gradhesion.cli.study.text.quantities import ratio_sentence, si_value
 from gradhesion.core.problem.inputs import INPUTS, Input
 from gradhesion.core.problem.profile import MOST_HARMONICS
 
-DATA: Final = "data"
-"""What stands for the deepest point of the data of a fit, where the cycle turns."""
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 _PERCENTAGE: Final = re.compile(r"\s*([+-]?(?:\d{1,20}\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*%\s*")
 
@@ -27,11 +25,6 @@ class Table(BaseModel):
 def said(about: str | None, example: str, default: Any = ..., **limits: Any) -> Any:
     """Declare a key: what it is about, a value that would do, as TOML has it, and what holds where it is left out."""
     return Field(default, description=about, examples=[example], **limits)
-
-
-def named(name: str, **keys: Any) -> Any:
-    """Make a table of keys, each with its type and what is said of it."""
-    return create_model(name, __base__=Table, **keys)
 
 
 def read_by(read: Any, schema: Mapping[str, Any], kind: Any = Any) -> Any:
@@ -130,19 +123,14 @@ def range_of(own: Input, number: Any) -> Any:
 
 def input_key(own: Input) -> tuple[Any, Any]:
     """Make the key of an input: a number, a list of numbers, or a range table; quantities become numbers in SI."""
-    number: Any
+    limits: dict[str, Any] = {"strict": True, "allow_inf_nan": own.infinite, **own.bounds}
+    number: Any = Annotated[float, Field(**limits)]
     if own.table == "physical":
-        schema = Field(json_schema_extra={"type": ["string", "number"]})
-        number = Annotated[float, BeforeValidator(lambda value: si_value(value, own.name)), schema]
-    else:
-        limits: dict[str, Any] = {"strict": True, "allow_inf_nan": own.infinite, **own.bounds}
-        number = Annotated[float, Field(**limits)]
+        number = read_by(lambda value: si_value(value, own.name), {"type": ["string", "number"]}, float)
     plain = number
-    if own.name == "indentation_max":
-        plain = Annotated[
-            float | Literal["data"],
-            BeforeValidator(lambda value: value if value == DATA else si_value(value, own.name)),
-        ]
+    if own.name == "indentation_max":  # of a fit it may be the deepest point of its data
+        read = BeforeValidator(lambda value: value if value == "data" else si_value(value, own.name))
+        plain = Annotated[float | Literal["data"], read]
     ends = range_of(own, Annotated[number, Field(allow_inf_nan=False)])
     forms = tagged(plain=plain, list=Annotated[list[number], Field(min_length=1)], table=ends)
     return forms, said(own.about, own.value, ... if own.name in ("k", "nu") else None)

@@ -182,21 +182,27 @@ def apart(value: Any) -> tuple[Any, str]:
         return numbers, unit or str(written)
     column = getattr(getattr(value, "array", None), "quantity", None)  # pandas with pint
     value = value if column is None else column
-    for numbers, unit, base in _PACKAGES:
-        if all(hasattr(value, name) for name in (numbers, unit, base)):
-            return _in_a_known_unit(getattr(value, numbers), getattr(value, unit), base)
+    for names in _PACKAGES:
+        if all(hasattr(value, name) for name in names):
+            return _in_a_known_unit(value, *names)
     return value, written if isinstance(written, str) else ""
 
 
-def _in_a_known_unit(numbers: Any, unit: Any, base: str) -> tuple[Any, str]:
+def _in_a_known_unit(value: Any, numbers: str, unit: str, base: str) -> tuple[Any, str]:
     """Give a quantity in its own unit, or in base units where its registry means something else by it than ours."""
-    array = np.asanyarray(numbers)
+    array, own = np.asanyarray(getattr(value, numbers)), getattr(value, unit)
     if array.dtype == object:  # of decimals or fractions
         with suppress(TypeError, ValueError):
             array = array.astype(np.float64)
-    text = _text(unit)
+
+    def in_base(size: int) -> tuple[float, str]:
+        made = getattr(size * own, base)
+        made = made() if callable(made) else made
+        return float(getattr(made, numbers)), _text(getattr(made, unit))
+
+    text = _text(own)
     try:
-        (nothing, _), (scale, base_text) = (_in_base(number * unit, base) for number in (0, 1))
+        (nothing, _), (scale, base_text) = in_base(0), in_base(1)
     except (ArithmeticError, LookupError, TypeError, ValueError):
         return array, text
     if nothing or factor_between(base_text, base_text) is None:  # a scale with an offset, or a dimension of its own
@@ -205,14 +211,6 @@ def _in_a_known_unit(numbers: Any, unit: Any, base: str) -> tuple[Any, str]:
     if array.dtype.kind not in "iuf" or (known and math.isclose(float(known), scale, rel_tol=_AGREE)):
         return array, text
     return scaled(array, Decimal(f"{scale:.15g}")), base_text
-
-
-def _in_base(quantity: Any, base: str) -> tuple[float, str]:
-    """Give the number and the unit of a quantity in base units."""
-    own = getattr(quantity, base)
-    own = own() if callable(own) else own
-    number, unit = next((getattr(own, number), getattr(own, unit)) for number, unit, how in _PACKAGES if how == base)
-    return float(number), _text(unit)
 
 
 def _text(unit: Any) -> str:
