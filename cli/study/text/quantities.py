@@ -50,11 +50,6 @@ _PACKAGES: Final = (
     ("value", "units", "in_mks"),  # unyt
 )
 """What the quantities of each package have: their numbers, their unit, and themselves in base units."""
-_DIGITS: Final = 26
-"""Characters of the longest number, and a space."""
-_AGREE: Final = 1e-9
-"""Two registries mean the same by a unit where they differ by less: constants of nature are measured anew."""
-_SHARES: Final = ("percent", "%")
 _PLAIN: Final = (str, bool, int, float, type(None))
 _POWER: Final = re.compile(r"([^\W\d_])([+-]?\d)")
 """A power as UDUNITS and astropy write it, `m-2`."""
@@ -207,8 +202,8 @@ def _in_a_known_unit(value: Any, numbers: str, unit: str, base: str) -> tuple[An
         return array, text
     if nothing or factor_between(base_text, base_text) is None:  # a scale with an offset, or a dimension of its own
         return array, text
-    known = factor_between(text, base_text) if len(text) <= LONGEST - _DIGITS else None
-    if array.dtype.kind not in "iuf" or (known and math.isclose(float(known), scale, rel_tol=_AGREE)):
+    known = factor_between(text, base_text) if len(text) <= LONGEST - 26 else None  # beside the longest number
+    if array.dtype.kind not in "iuf" or (known and math.isclose(float(known), scale)):  # as constants are measured anew
         return array, text
     return scaled(array, Decimal(f"{scale:.15g}")), base_text
 
@@ -239,7 +234,7 @@ def as_written(value: Any, path: tuple[str, ...] = (), *, bare: bool = True) -> 
         return as_written(array.tolist(), path, bare=bare) if array.ndim else array.item()
     if not unit:
         return array.tolist()
-    if unit in _SHARES and path[:1] == ("uncertainty",) and len(path) == 2:
+    if unit in ("percent", "%") and path[:1] == ("uncertainty",) and len(path) == 2:
         return _with(array.tolist(), "%")
     if bare and array.dtype.kind in "iuf" and (factor := factor_between(unit, "1")):
         return scaled(array, factor).tolist()
