@@ -36,7 +36,10 @@ MOST_MISTAKES: Final = 30
 def load_study(path: str | Path, overrides: Iterable[str] = ()) -> Study:
     """Read a study from a file, with `overrides` in the form of `--set` (`"parameters.A=0.02"`).
 
-    StudyError has all mistakes: the file cannot be read, or the study is wrong.
+    Raises
+    ------
+    StudyError
+        The file cannot be read, or the study is wrong; the error has all mistakes.
     """
     return _of_scenes(read_source(Path(path), overrides))
 
@@ -48,10 +51,23 @@ def study_from(
     folder: str | Path = "",
     columns: Mapping[str, NDArray[np.float64]] | None = None,
 ) -> Study:
-    """Make a study from a mapping with the keys of a study file; lists may be arrays. StudyError has all mistakes.
+    """Make a study from a mapping with the keys of a study file.
 
-    Without a title it has the `name`; files are in the `folder`, the current directory by default. Where the `columns`
-    of the file of its points are given, in SI units, that is not read.
+    Parameters
+    ----------
+    data
+        The keys; lists may be arrays.
+    name
+        The name of the study if it has no title.
+    folder
+        The folder of the files that it names; the current directory by default.
+    columns
+        The columns of the file of its points, in SI units; the file is then not read.
+
+    Raises
+    ------
+    StudyError
+        The study is wrong; the error has all mistakes.
     """
     return _of_scenes(_source(data, name, folder), columns)
 
