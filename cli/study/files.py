@@ -129,7 +129,12 @@ def measured_in(data: Mapping[str, Any], folder: Path) -> FromFile:
     if not isinstance(table, Mapping) or not isinstance(file := table.get("file"), str) or not file:
         return FromFile()
     up_to = _up_to(table, physical.get("a_max") if isinstance(physical, Mapping) else None)
-    mistakes = [*_mistakes_beside(data)]
+    mistakes = [
+        ((key.table, key.name), "this comes from the fit of the profile; remove it, or remove file under [profile]")
+        for key in INPUTS.values()
+        if (key.gives in ("lambda_over_R", "A") or key.name == "R")
+        and value_at(data, (key.table, key.name)) is not None
+    ]
     if "up_to" not in table and up_to is None:
         words = "unless a_max is one finite length, a profile needs the distance up to which it is fitted"
         mistakes.append((("profile", "up_to"), f"{words}; write for example {line_of('profile', 'up_to')}"))
@@ -156,14 +161,6 @@ def measured_in(data: Mapping[str, Any], folder: Path) -> FromFile:
     found |= {"lambda_over_R": fit.wavelength / fit.radius, "A": fit.amplitude / fit.wavelength}
     inputs = {name: found[name] for name in gives}
     return FromFile(key=("profile",), file=file, sha256=sha256, inputs=inputs, fit=fit, dropped=dropped)
-
-
-def _mistakes_beside(data: Mapping[str, Any]) -> Iterator[Mistake]:
-    """Check that nothing that comes from the fit is given."""
-    for key in INPUTS.values():
-        own = data.get(key.table)
-        if isinstance(own, Mapping) and key.name in own and (key.gives in ("lambda_over_R", "A") or key.name == "R"):
-            yield (key.table, key.name), "this comes from the fit of the profile; remove it, or file under [profile]"
 
 
 def _up_to(table: Mapping[str, Any], rim: object) -> float | None:

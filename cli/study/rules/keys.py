@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, Final, Literal, Union, get_args, ge
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, WithJsonSchema, create_model
 
 from gradhesion.cli.study.text.quantities import ratio_sentence, si_value
-from gradhesion.core.problem.inputs import INPUTS, Input
+from gradhesion.core.problem.inputs import Input
 from gradhesion.core.problem.profile import MOST_HARMONICS
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -152,17 +152,16 @@ class Deviation:
     uniform: bool = False
 
 
-def deviation_of(value: object, name: str) -> Deviation:
+def deviation_of(value: object, own: Input) -> Deviation:
     """Read the deviation of an input; ValueError says what to write instead of what is none."""
-    own = INPUTS[name]
-    forms = f'write for example {name} = "5 %", a standard deviation in its unit, or {{ low = .., high = .. }}'
+    forms = f'write for example {own.name} = "5 %", a standard deviation in its unit, or {{ low = .., high = .. }}'
 
     def number(one: object) -> float:
         if own.table == "physical":
-            return si_value(one, name)
+            return si_value(one, own.name)
         if isinstance(one, int | float) and not isinstance(one, bool):
             return float(one)
-        raise ValueError((isinstance(one, str) and ratio_sentence(one, name)) or f"not a deviation; {forms}")
+        raise ValueError((isinstance(one, str) and ratio_sentence(one, own.name)) or f"not a deviation; {forms}")
 
     if isinstance(value, Mapping):
         if {*value} != {"low", "high"}:
@@ -182,5 +181,5 @@ def deviation_of(value: object, name: str) -> Deviation:
 def deviation_key(own: Input) -> tuple[Any, Any]:
     """Make the key of the deviation of an input."""
     schema = {"type": ["number", "string", "object"]}
-    kind = read_by(lambda value: deviation_of(value, own.name), schema, Deviation | None)
+    kind = read_by(lambda value: deviation_of(value, own), schema, Deviation | None)
     return kind, said(f"uncertainty of {own.name}: {own.about}", '"5 %"', None)
