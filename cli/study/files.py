@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from gradhesion.cli.names.outputs import OUTPUTS, SI
 from gradhesion.cli.study.rules.asked import MOST_VALUES, REQUIRED, Values, value_at
 from gradhesion.cli.study.rules.keys import File
 from gradhesion.cli.study.rules.mistakes import Mistake, line_of
@@ -30,8 +29,6 @@ HEIGHTS: Final = ("r", "height")
 """The columns of a measured profile."""
 TERMS: Final = 16
 """Harmonics that are fitted where a study does not say how many."""
-_OURS: Final = frozenset({*OUTPUTS, *(name + SI for name in OUTPUTS), "status"})
-"""Names that a dataset has, and a file of points may not."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -97,10 +94,8 @@ def points_of(
 def _mistakes(data: Mapping[str, Any], found: Columns) -> Iterator[str]:
     """Check that the columns are parameters, each given once, and that the study has points."""
     for name in found.values:
-        if name in _OURS:
-            yield f"its column {shown(name)} is an output, not a parameter; leave it out"
-        elif name not in INPUTS:
-            yield f"its column {shown(name)} is not a parameter; {did_you_mean(name, tuple(INPUTS))}"
+        if name not in INPUTS:
+            yield f"its column {shown(name)} is no parameter; leave it out or rename it: {did_you_mean(name, [*INPUTS])}"
         elif isinstance(table := data.get(INPUTS[name].table), Mapping) and name in table:
             yield f"{name} is given under [{INPUTS[name].table}] and as a column of the file; keep one of the two"
     if data.get("layout", "points") == "grid":

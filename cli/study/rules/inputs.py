@@ -1,11 +1,10 @@
 """What the inputs of a scene have to do with each other in every kind of study: each given once, and its edge."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.cli.study.rules.asked import Asked, Found, Values, home
 from gradhesion.cli.study.rules.keys import Range
@@ -16,9 +15,7 @@ from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.toughness import MOST_WAVES, violation
 
 NEEDS: Final = {
-    "profile.sha256": "profile.file",
-    "profile.terms": "profile.file",
-    "profile.up_to": "profile.file",
+    **dict.fromkeys(("profile.sha256", "profile.terms", "profile.up_to"), "profile.file"),
     "physical.work_of_adhesion_closing": "physical.work_of_adhesion",
 }
 """Keys that mean nothing without another one."""
@@ -160,24 +157,18 @@ def toughness(asked: Asked) -> Found:
         return
     key, pattern = "toughness_amplitude", table.made()
     given = (asked.values.get(key, 1.0), asked.values[length], asked.values.get(rim, math.inf))
-    for amplitude, wavelength, end in _patterns(*asked.beside(*given)):
-        radius = violation(pattern, amplitude, wavelength, end)
-        if radius is not None:
-            what = {"toughness": "toughness is negative", "work": "work of adhesion is not positive"}[pattern.of]
-            words = f"with the amplitude {amplitude:g} the {what} at {radius:.6g}{' m' if asked.units else ' R'}"
-            yield home(key) if key in asked.values else "toughness.harmonics", f"{words}; use smaller waves"
-            return
-
-
-def _patterns(*given: NDArray[np.float64]) -> Iterable[tuple[float, float, float]]:
-    """Give the amplitudes, wavelengths and rims of punches that are the worst of those in scenes."""
-    amplitudes, wavelengths, rims = given
+    amplitudes, wavelengths, rims = asked.beside(*given)
     unique = np.unique(amplitudes).tolist()
     each = len(unique) <= _MOST_AMPLITUDES
     for amplitude in unique if each else (unique[0], unique[-1]):
         own = amplitudes == amplitude if each else slice(None)
         least = float(wavelengths[own].min())
-        yield amplitude, least, float((rims[own] / wavelengths[own]).max()) * least
+        radius = violation(pattern, amplitude, least, float((rims[own] / wavelengths[own]).max()) * least)
+        if radius is not None:
+            what = {"toughness": "toughness is negative", "work": "work of adhesion is not positive"}[pattern.of]
+            words = f"with the amplitude {amplitude:g} the {what} at {radius:.6g}{' m' if asked.units else ' R'}"
+            yield home(key) if key in asked.values else "toughness.harmonics", f"{words}; use smaller waves"
+            return
 
 
 def rate(asked: Asked) -> Found:

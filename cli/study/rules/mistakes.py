@@ -113,16 +113,15 @@ def _unknown_key(path: Key, absent: Collection[str]) -> tuple[Key, str]:
     homes[()] = [name for name in homes[()] if name not in absent]
     if ("uncertainty",) in homes:
         homes["uncertainty",] = ["samples", "seed"]  # the others are inputs
-    place, near = table, nearest(key, known)
+    near = nearest(key, known)
     called = [name for name, one in INPUTS.items() if key.lower() in one.called]
     slip = (near or "").lower() == key.lower()
-    if there := [other for other, keys in homes.items() if other != table and key in keys]:
-        place, near = there[0], key
-    elif called and near not in called and not slip and table in (("parameters",), ("physical",)):
-        place, near = (INPUTS[called[0]].table,), called[0]
-    elif not table and not near:
+    found = [(other, key) for other, keys in homes.items() if other != table and key in keys]
+    if not found and called and near not in called and not slip and table in (("parameters",), ("physical",)):
+        found = [((INPUTS[called[0]].table,), called[0])]
+    if not (found or table or near):
         found = [(other, one) for other, keys in homes.items() if (one := nearest(key, keys))]
-        place, near = found[0] if found else (table, None)
+    place, near = found[0] if found else (table, near)
     if place == table:
         return (*table, near or ""), f"unknown key; {did_you_mean(key, known)}"
     where = f"under [{dotted(place)}]" if place else "at the top, before the first [table]"

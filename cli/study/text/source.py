@@ -4,6 +4,7 @@ import os
 import re
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -151,13 +152,11 @@ def _set(data: dict[str, Any], override: str) -> Key:
         raise ValueError("not of the form KEY=VALUE; write for example --set parameters.A=0.02")
     if steps[0] == "include":
         raise ValueError("a study is included by its file alone; write this at its top")
+    parsed: dict[str, Any] = {}
     if value.endswith(".nc") and '"' not in value:
-        parsed = {"value": _fitted(Path(value), steps)}
-    else:
-        try:
-            parsed = tomllib.loads(f"value = {value}")
-        except (ValueError, RecursionError):
-            parsed = {}
+        parsed["value"] = _fitted(Path(value), steps)
+    with suppress(ValueError, RecursionError):
+        parsed = parsed or tomllib.loads(f"value = {value}")
     if parsed.keys() != {"value"}:
         words = "the value is not TOML; put strings in quotes and several values in brackets"
         raise ValueError(f"""{words}, as in --set 'title="A map"' --set 'parameters.k=[0, 0.5]'""")
