@@ -95,7 +95,7 @@ def _mistakes(data: Mapping[str, Any], found: Columns) -> Iterator[str]:
     """Check that the columns are parameters, each given once, and that the study has points."""
     for name in found.values:
         if name not in INPUTS:
-            yield f"its column {shown(name)} is no parameter; leave it out or rename it: {did_you_mean(name, [*INPUTS])}"
+            yield f"column {shown(name)} is no parameter; leave it out or rename it: {did_you_mean(name, [*INPUTS])}"
         elif isinstance(table := data.get(INPUTS[name].table), Mapping) and name in table:
             yield f"{name} is given under [{INPUTS[name].table}] and as a column of the file; keep one of the two"
     if data.get("layout", "points") == "grid":
