@@ -12,10 +12,10 @@ from gradhesion.cli.errors import StudyError
 from gradhesion.cli.names.outputs import OUTPUTS, PARAMETER, PHYSICAL_PARAMETER
 from gradhesion.cli.names.scenes import SCENE, SOLVER
 from gradhesion.cli.study.reading import study_from, text_of
-from gradhesion.cli.study.rules.axes import repeated
+from gradhesion.cli.study.rules.asked import repeated
 from gradhesion.cli.study.rules.scenes import MOST_SCENES
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.study.text.foreign import as_written
+from gradhesion.cli.study.text.quantities import as_written
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
 from gradhesion.values import array_of, numbers_of

@@ -18,7 +18,7 @@ from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
 from gradhesion.cli.picture.looks import Looks, looks_of
 from gradhesion.cli.picture.picture import picture_of
 from gradhesion.cli.picture.pictured import styled
-from gradhesion.cli.study.text.foreign import as_written
+from gradhesion.cli.study.text.quantities import as_written
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.datasets import Data, data_of
 from gradhesion.names import as_keywords

@@ -6,8 +6,7 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.study.text.foreign import apart, as_written, filled
-from gradhesion.cli.study.text.quantities import factor_of, scaled, si_value
+from gradhesion.cli.study.text.quantities import apart, as_written, factor_of, filled, scaled, si_value
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
 
 

@@ -106,7 +106,7 @@ def _of(module: str, name: str, thing: Any) -> Iterator[str]:
     if called != "dataset.gr":
         yield f"```text\n{_signature(called, thing)}\n```"
     yield from _described(thing)
-    for member, value in vars(thing).items():
+    for member, value in {name: one for base in reversed(thing.__mro__) for name, one in vars(base).items()}.items():
         attribute = isinstance(value, property | cached_property)
         own = {property: "fget", cached_property: "func"}.get(type(value), "__func__")
         function = getattr(value, own, value)

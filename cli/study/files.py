@@ -10,14 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from gradhesion.cli.names.outputs import OUTPUTS, SI
-from gradhesion.cli.study.rules.asked import REQUIRED, value_at
-from gradhesion.cli.study.rules.axes import MOST_VALUES, Values
+from gradhesion.cli.study.rules.asked import MOST_VALUES, REQUIRED, Values, value_at
 from gradhesion.cli.study.rules.keys import File
 from gradhesion.cli.study.rules.mistakes import Mistake, line_of
 from gradhesion.cli.study.text.quantities import factor_of_column, scaled, si_value
-from gradhesion.cli.study.text.written import Path as Key
-from gradhesion.cli.study.text.written import value_of
+from gradhesion.cli.study.text.written import Key, value_of
 from gradhesion.cli.tables.columns import Columns, ColumnsError, changed
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.wording import did_you_mean, shown
@@ -32,8 +29,6 @@ HEIGHTS: Final = ("r", "height")
 """The columns of a measured profile."""
 TERMS: Final = 16
 """Harmonics that are fitted where a study does not say how many."""
-_OURS: Final = frozenset({*OUTPUTS, *(name + SI for name in OUTPUTS), "status"})
-"""Names that a dataset has, and a file of points may not."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -50,20 +45,11 @@ class FromFile:
     """Those that it gives, or would give, and that are not."""
     mistakes: tuple[Mistake, ...] = ()
     fit: "FittedProfile | None" = None
-    """What was fitted to heights."""
     dropped: int = 0
     """Rows without a number that were left out."""
 
-    @property
-    def unread(self) -> bool:
-        """Whether the file could not be read, so that what it would give is not missing."""
-        return bool(self.mistakes) and not self.file
-
     def beside(self, data: Mapping[str, Any]) -> dict[str, Any]:
-        """Give the keys of a study with one valid value for each input that the file gives.
-
-        So that all that is known of a key is asked of what the study gives beside the file.
-        """
+        """Give a study one valid value for each input that the file gives, so that all else can be checked."""
         whole = dict(data)
         if self.key == ("parameters", "points"):
             whole["layout"] = "points" if data.get("layout") == "grid" else data.get("layout", "points")
@@ -71,8 +57,7 @@ class FromFile:
             own = INPUTS[name]
             value = float(np.ravel(self.inputs[name])[0]) if name in self.inputs else REQUIRED.get(name, 1.0)
             written = f"{value!r} {own.unit}" if own.table == "physical" and np.isfinite(value) else value
-            table = whole.get(own.table, {})
-            if isinstance(table, Mapping):
+            if isinstance(table := whole.get(own.table, {}), Mapping):
                 whole[own.table] = {name: written, **table}
         return whole
 
@@ -91,11 +76,10 @@ def points_of(
         return FromFile(key=key, file=named.file, sha256=named.sha256, inputs=columns)
     try:
         found = read_columns(folder / named.file)
-    except ColumnsError as error:
-        return FromFile(key=key, mistakes=(Mistake(key, written, str(error)),))
-    if named.sha256 not in ("", found.sha256):
-        words = changed(found.sha256, named.sha256, f"write points = {value_of(named.file)}")
-        return FromFile(key=key, mistakes=(Mistake(key, written, words),))
+        if named.sha256 not in ("", found.sha256):
+            raise ColumnsError(changed(found.sha256, named.sha256, f"write points = {value_of(named.file)}"))
+    except ValueError as error:
+        return FromFile(key=key, mistakes=((key, str(error)),))
     sentences, own, wrong = [*_mistakes(data, found)], {}, []
     for name in (name for name in found.values if name in INPUTS):
         try:
@@ -103,23 +87,21 @@ def points_of(
         except ColumnsError as error:
             sentences.append(str(error))
             wrong.append(name)
-    mistakes = tuple(Mistake(key, written, sentence) for sentence in sentences)
+    mistakes = tuple((key, sentence) for sentence in sentences)
     return FromFile(key=key, file=named.file, sha256=found.sha256, inputs=own, wrong=tuple(wrong), mistakes=mistakes)
 
 
 def _mistakes(data: Mapping[str, Any], found: Columns) -> Iterator[str]:
     """Check that the columns are parameters, each given once, and that the study has points."""
     for name in found.values:
-        if name in _OURS:
-            yield f"its column {shown(name)} is an output, not a parameter; leave it out"
-        elif name not in INPUTS:
-            yield f"its column {shown(name)} is not a parameter; {did_you_mean(name, tuple(INPUTS))}"
+        if name not in INPUTS:
+            yield f"column {shown(name)} is no parameter; leave it out or rename it: {did_you_mean(name, [*INPUTS])}"
         elif isinstance(table := data.get(INPUTS[name].table), Mapping) and name in table:
             yield f"{name} is given under [{INPUTS[name].table}] and as a column of the file; keep one of the two"
     if data.get("layout", "points") == "grid":
         yield 'the rows of a file are points, but layout = "grid"; write layout = "points" or leave it out'
-    if found.rows > MOST_VALUES:
-        yield f"the file has {found.rows:,} rows, but at most {MOST_VALUES:,} are read; split it"
+    if (rows := next(iter(found.values.values())).size) > MOST_VALUES:
+        yield f"the file has {rows:,} rows, but at most {MOST_VALUES:,} are read; split it"
 
 
 def _column(name: str, found: Columns) -> NDArray[np.float64]:
@@ -138,17 +120,24 @@ def _column(name: str, found: Columns) -> NDArray[np.float64]:
 
 def measured_in(data: Mapping[str, Any], folder: Path) -> FromFile:
     """Fit the profile of a study, if it comes from a file, which is looked for in a folder."""
-    table = data.get("profile")
-    file = table.get("file") if isinstance(table, Mapping) else None
-    if not isinstance(table, Mapping) or not isinstance(file, str) or not file:
+    table, physical = data.get("profile"), data.get("physical")
+    if not isinstance(table, Mapping) or not isinstance(file := table.get("file"), str) or not file:
         return FromFile()
-    united = isinstance(data.get("physical"), Mapping)
-    terms, exponent, expected = table.get("terms", TERMS), table.get("exponent", 2.0), table.get("sha256", "")
-    up_to, mistakes = _up_to(data, table), [*_mistakes_beside(data, table)]
-    numbers = isinstance(terms, int) and (exponent == "fit" or isinstance(exponent, int | float))
-    told = {INPUTS[str(one.path[-1])].gives for one in mistakes if one.path[-1] in INPUTS} - {"modulus"}
-    names = ("R", "wavelength", "amplitude") if united else ("lambda_over_R", "A")
+    up_to = _up_to(table, physical.get("a_max") if isinstance(physical, Mapping) else None)
+    mistakes = [
+        ((key.table, key.name), "this comes from the fit of the profile; remove it, or remove file under [profile]")
+        for key in INPUTS.values()
+        if (key.gives in ("lambda_over_R", "A") or key.name == "R")
+        and value_at(data, (key.table, key.name)) is not None
+    ]
+    if "up_to" not in table and up_to is None:
+        words = "unless a_max is one finite length, a profile needs the distance up to which it is fitted"
+        mistakes.append((("profile", "up_to"), f"{words}; write for example {line_of('profile', 'up_to')}"))
+    told = {INPUTS[str(path[-1])].gives for path, _ in mistakes if path[-1] in INPUTS} - {"modulus"}
+    names = ("R", "wavelength", "amplitude") if isinstance(physical, Mapping) else ("lambda_over_R", "A")
     gives = tuple(name for name in names if INPUTS[name].gives not in told)
+    terms, exponent, expected = table.get("terms", TERMS), table.get("exponent", 2.0), table.get("sha256", "")
+    numbers = isinstance(terms, int) and (exponent == "fit" or isinstance(exponent, int | float))
     fit: FittedProfile | None = None
     try:
         if up_to is not None and numbers and isinstance(expected, str):  # else refused by its form, or missing
@@ -160,7 +149,7 @@ def measured_in(data: Mapping[str, Any], folder: Path) -> FromFile:
             power = None if exponent == "fit" else float(exponent)
             fit = fit_profile(r, heights, up_to=up_to, terms=terms, exponent=power)
     except ValueError as error:
-        mistakes.append(Mistake(("profile", "file"), file, str(error)))
+        mistakes.append((("profile", "file"), str(error)))
     if mistakes or fit is None:
         return FromFile(wrong=gives, mistakes=tuple(mistakes))
     found = {"R": fit.radius, "wavelength": fit.wavelength, "amplitude": fit.amplitude}
@@ -169,22 +158,8 @@ def measured_in(data: Mapping[str, Any], folder: Path) -> FromFile:
     return FromFile(key=("profile",), file=file, sha256=sha256, inputs=inputs, fit=fit, dropped=dropped)
 
 
-def _mistakes_beside(data: Mapping[str, Any], table: Mapping[str, Any]) -> Iterator[Mistake]:
-    """Check what stands beside the file: nothing that comes from the fit, and up to where it is fitted."""
-    for key in INPUTS.values():
-        own = data.get(key.table)
-        if isinstance(own, Mapping) and key.name in own and (key.gives in ("lambda_over_R", "A") or key.name == "R"):
-            sentence = "this comes from the fit of the profile; remove it, or remove file under [profile]"
-            yield Mistake((key.table, key.name), own[key.name], sentence)
-    if "up_to" not in table and _up_to(data, table) is None:
-        sentence = "unless a_max is one finite length, a profile needs the distance up to which it is fitted"
-        yield Mistake(("profile", "up_to"), None, f"{sentence}; write for example {line_of('profile', 'up_to')}")
-
-
-def _up_to(data: Mapping[str, Any], table: Mapping[str, Any]) -> float | None:
-    """Find the distance up to which a profile is fitted: that of the study, or the radius of its punch."""
-    physical = data.get("physical")
-    rim = physical.get("a_max") if isinstance(physical, Mapping) else None
+def _up_to(table: Mapping[str, Any], rim: object) -> float | None:
+    """Find the distance up to which a profile is fitted: that of its table, or the radius of the punch."""
     try:
         value = si_value(table.get("up_to", rim), "up_to" if "up_to" in table else "a_max")
     except ValueError:

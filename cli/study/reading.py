@@ -1,7 +1,7 @@
 """A study from a file or a mapping: checked as a whole, and expanded."""
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, Final
 
@@ -11,16 +11,16 @@ from numpy.typing import NDArray
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.files import measured_in, points_of
 from gradhesion.cli.study.fit.loop_file import LoopFile
-from gradhesion.cli.study.fit.rules import broken as broken_in_fit
 from gradhesion.cli.study.fit.study import FitStudy, fit_of, loops_of
+from gradhesion.cli.study.fit.study import broken as broken_in_fit
 from gradhesion.cli.study.rules.asked import Asked, checked, kind_of, value_at
 from gradhesion.cli.study.rules.form import OUTPUTS_OF, Optimum, Uncertainty
 from gradhesion.cli.study.rules.inputs import left_out, shape_of
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import Mistake
 from gradhesion.cli.study.rules.scenes import broken
-from gradhesion.cli.study.study import Method, Study
-from gradhesion.cli.study.text.foreign import as_written
+from gradhesion.cli.study.study import Method, Study, given_by
+from gradhesion.cli.study.text.quantities import as_written
 from gradhesion.cli.study.text.source import DEEP, Source, included, is_deep, read_source
 from gradhesion.cli.study.text.written import dotted, steps_of, with_fingerprints
 from gradhesion.cli.terminal.wording import shown
@@ -99,16 +99,13 @@ def _source(data: Mapping[str, Any], name: str, folder: str | Path) -> Source:
 
 
 def _of_any(source: Source) -> Study | FitStudy:
-    """Check a study of its kind and expand it."""
-    return _of_a_fit(source) if kind_of(source.data) == "fit" else _of_scenes(source)
-
-
-def _of_a_fit(source: Source) -> FitStudy:
-    """Check a fit as a whole and read its data."""
+    """Check a study of its kind as a whole, and expand it or read its data."""
+    if kind_of(source.data) != "fit":
+        return _of_scenes(source)
     asked = checked(source.data)
     mistakes = [*asked.mistakes, *_between(asked, source.data, broken_in_fit(asked))]
     loops: tuple[LoopFile, ...] = ()
-    if asked.form.data and not any("data" in (*one.path[:1], *one.meant[:1]) for one in mistakes):
+    if asked.form.data and not any("data" in path[:1] for path in (*asked.misspelt, *(path for path, _ in mistakes))):
         loops, more = loops_of(source.folder, asked)
         mistakes += more
     _refuse(source, mistakes)
@@ -122,7 +119,8 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
     points, measured = points_of(source.data, source.folder, columns), measured_in(source.data, source.folder)
     asked = checked(measured.beside(points.beside(source.data)), points.inputs)
     mistakes = [*asked.mistakes, *_between(asked, source.data, broken(asked))]
-    mistakes = [one for one in mistakes if not points.unread or one.value is not None]  # what a file would give
+    if points.mistakes and not points.file:  # nothing is missing that the file would give
+        mistakes = [(path, words) for path, words in mistakes if value_at(source.data, path) is not None]
     _refuse(source, [*points.mistakes, *measured.mistakes, *mistakes])
     form = asked.form
     absent = left_out(asked.values, with_units=form.physical is not None)
@@ -136,13 +134,9 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
     solver = tuple(form.method.solver) if asked.lists_solvers else form.method.solver[0]
     spectrum = form.profile.spectrum.made() if form.profile.spectrum else None
     profile = random_profile(spectrum, 0, float(form.profile.exponent)) if spectrum else shape_of(form.profile)
-    ranges = {name: form.entries[name] for name in asked.over}
-    searched = {name: Range(**dict(one)) for name, one in ranges.items() if isinstance(one, Range)}
-    fingerprints = {one.key: one.sha256 for one in (points, measured) if one.file}
+    ranges = ((name, form.entries[name]) for name in asked.over)
     return Study(
-        name=source.name,
-        title=form.title or source.name,
-        kind=form.kind,
+        **given_by(source, form, {one.key: one.sha256 for one in (points, measured) if one.file}),
         layout=form.layout,
         outputs=() if form.kind == "optimum" else variables_of(form.kind, form.outputs),
         parameters=parameters,
@@ -150,15 +144,12 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
         profile=measured.fit.profile if measured.fit else profile,
         spectrum=spectrum,
         loading=Loading(control=form.loading.control),
-        toughness=form.toughness.made() if form.toughness else None,
         rate=form.rate.made() if form.rate else None,
         states=tuple(form.states.contact_radius_over_R or ()),
         search=form.optimum or Optimum(),
-        searched=searched,
+        searched={name: Range(**dict(one)) for name, one in ranges if isinstance(one, Range)},
         uncertainty=form.uncertainty or Uncertainty(),
-        text=with_fingerprints(source.data, source.text, fingerprints),
         left_out=frozenset(absent.keys() - {"a_max", "a_max_over_R"}),
-        folder=source.folder,
         points=points,
         measured=measured,
     )
@@ -182,20 +173,20 @@ def variables_of(kind: str, requested: Iterable[str]) -> tuple[str, ...]:
 
 def _between(asked: Asked, written: Mapping[str, Any], found: Iterable[tuple[str, str]]) -> Iterator[Mistake]:
     """Give the mistakes between keys; none is missing that is misspelt, or in a table that is wrong."""
-    known = {path for one in asked.mistakes for path in (one.path, one.meant)}
+    known = {path for path, _ in asked.mistakes} | {*asked.misspelt}
     for key, words in found:
         path = steps_of(key)
-        value = value_at(written, path)
-        if value is not None or not (path in known or path[:1] in asked.wrong):
-            yield Mistake(path, value, words)
+        if value_at(written, path) is not None or not (path in known or path[:1] in asked.wrong):
+            yield path, words
 
 
-def _refuse(source: Source, mistakes: Sequence[Mistake]) -> None:
+def _refuse(source: Source, mistakes: Iterable[Mistake]) -> None:
     """Raise StudyError with what is wrong with a study, in the order of its lines, if anything is."""
     sentences = []
-    for mistake in mistakes:
-        value = "" if mistake.value is None else f" = {shown(mistake.value)}"
-        sentences.append(f"{source.place(mistake.path)}: {dotted(mistake.path)}{value}: {mistake.sentence}")
+    for path, words in mistakes:
+        value = value_at(source.data, path)
+        written = "" if value is None else f" = {shown(value)}"
+        sentences.append(f"{source.place(path)}: {dotted(path)}{written}: {words}")
     found = [*source.mistakes, *sorted(sentences, key=_line)]
     if len(found) > MOST_MISTAKES:
         found[MOST_MISTAKES:] = [f"... and {len(found) - MOST_MISTAKES} more mistakes; fix these first"]

@@ -20,8 +20,6 @@ def shape_in_words(profile: Profile, spectrum: Spectrum | None = None) -> str:
 
     >>> shape_in_words(Profile())
     'r^2/(2 R) + lambda A [1 - cos(2 pi x)], x = r/lambda'
-    >>> shape_in_words(Profile(exponent=1.5, harmonics=(Harmonic(n=1, cos=0.0, sin=1.0), Harmonic(n=3, cos=-0.25))))
-    'r^1.5/(1.5 R^0.5) + lambda A [sin(2 pi x) - 0.25 (1 - cos(6 pi x))], x = r/lambda'
     """
     m = profile.exponent
     power = {1.0: "", 2.0: " R"}.get(m, f" R^{m - 1.0:.15g}")
@@ -34,14 +32,7 @@ def shape_in_words(profile: Profile, spectrum: Spectrum | None = None) -> str:
 
 
 def profile_table(profile: Profile) -> str:
-    """Write the shape of a punch as the keys of a table [profile].
-
-    >>> print(profile_table(Profile(exponent=1.5)))
-    exponent  = 1.5
-    harmonics = [
-        { n = 1, cos = 1.0, sin = 0.0 },
-    ]
-    """
+    """Write the shape of a punch as the keys of a table [profile]."""
     waves = "".join(f"    {{ n = {wave.n}, cos = {wave.cos!r}, sin = {wave.sin!r} }},\n" for wave in profile.harmonics)
     return f"exponent  = {profile.exponent!r}\nharmonics = [\n{waves}]"
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +16,11 @@ from gradhesion.cli.names.outputs import PARAMETER, PHYSICAL_PARAMETER, SI, labe
 from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
 from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.files import FromFile
-from gradhesion.cli.study.rules.axes import Values
-from gradhesion.cli.study.rules.form import Optimum, Uncertainty
+from gradhesion.cli.study.rules.asked import Values
+from gradhesion.cli.study.rules.form import Form, Optimum, Uncertainty
 from gradhesion.cli.study.rules.keys import Range
+from gradhesion.cli.study.text.source import Source
+from gradhesion.cli.study.text.written import Key, with_fingerprints
 from gradhesion.cli.study.tiling import Block, Tiling, cells_of_chunk
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
 from gradhesion.core.closed.reach import depends_on_contact
@@ -43,8 +45,42 @@ class Method:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Study:
-    """A valid study, its parameters expanded: a float is fixed, an array is an axis (or, in points, a list).
+class Given:
+    """What a valid study of any kind has."""
+
+    name: str
+    title: str
+    text: str
+    """The study as TOML: reading it again gives the same study."""
+    kind: str
+    profile: Profile = field(default_factory=Profile)
+    loading: Loading = field(default_factory=Loading)
+    toughness: Toughness | None = None
+    rate: Rate | None = None
+    folder: Path = Path()
+    """The folder of the files that it names."""
+
+    @property
+    def sha256(self) -> str:
+        """The fingerprint of its text."""
+        return hashlib.sha256(self.text.encode()).hexdigest()
+
+
+def given_by(source: Source, form: Form, fingerprints: Mapping[Key, str]) -> dict[str, Any]:
+    """Make what studies of all kinds have of a form that is right, with the fingerprints of its files."""
+    return {
+        "name": source.name,
+        "title": form.title or source.name,
+        "text": with_fingerprints(source.data, source.text, fingerprints),
+        "kind": form.kind,
+        "toughness": form.toughness.made() if form.toughness else None,
+        "folder": source.folder,
+    }
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Study(Given):
+    """A valid study of scenes, its parameters expanded: a float is fixed, an array is an axis (or, in points, a list).
 
     >>> from gradhesion.cli.study import study_from
     >>> study = study_from({
@@ -56,37 +92,22 @@ class Study:
     {'k': 2, 'A': 3}
     """
 
-    name: str
-    title: str
-    text: str
-    """The study as TOML: reading it again gives the same study."""
-    kind: str
     layout: str
     outputs: tuple[str, ...]
     """What is asked for beside `status`, in the order of the dataset."""
     parameters: Mapping[str, Values]
     """A value for each parameter, under the key that gives it, in the order of the dataset's dimensions."""
     method: Method
-    profile: Profile = field(default_factory=Profile)
-    loading: Loading = field(default_factory=Loading)
-    toughness: Toughness | None = None
-    """How its toughness varies with the radius, if it does."""
-    rate: Rate | None = None
-    """How the work of its edge grows with the speed, if it does."""
     search: Optimum = field(default_factory=Optimum)
-    """What is sought in the place of values."""
     searched: Mapping[str, Range] = field(default_factory=dict)
     """The inputs that are searched for it, which are no parameters of the study."""
     uncertainty: Uncertainty = field(default_factory=Uncertainty)
-    """How far its inputs may be off."""
     states: tuple[float, ...] = ()
     """The contact radii a/R whose pressure and surface are drawn; empty: the named states of the cycle."""
     left_out: frozenset[str] = frozenset()
     """The parameters that it does not give since they have no effect; they have a value all the same."""
     chunk: int = field(default_factory=cells_of_chunk)
     """Cells of a chunk of the dataset of a map, at most; a block that is computed at a time has two."""
-    folder: Path = Path()
-    """The folder of the files that it names."""
     points: FromFile = field(default_factory=FromFile)
     """The file with its scenes, and the parameters that are columns of it."""
     measured: FromFile = field(default_factory=FromFile)
@@ -110,9 +131,8 @@ class Study:
         """The variables with the spread of its outputs, those in SI units last."""
         own = tuple(f"{name}_std" for name in self.linear)
         if self.uncertainty.samples and self.uncertainty:
-            known = [name for name in self.outputs if name in names.SPREADABLE]
-            ways = {name: [way for way in names.SPREAD if way != "std_linear" or name in self.linear] for name in known}
-            own = tuple(f"{name}_{way}" for name in known for way in ways[name])
+            ways = ((name, way) for name in self.outputs if name in names.SPREADABLE for way in names.SPREAD)
+            own = tuple(f"{name}_{way}" for name, way in ways if way != "std_linear" or name in self.linear)
         return (*own, *(name + SI for name in own if name in UNITS and "R" in self.parameters))
 
     @cached_property
@@ -258,11 +278,6 @@ class Study:
         if self.search:
             return int((2 * self.search.resolution - 1) ** len(self.searched))
         return 1 + (self.uncertainty.samples or FEW_SAMPLES) if self.uncertainty else 1
-
-    @property
-    def sha256(self) -> str:
-        """The fingerprint of its text."""
-        return hashlib.sha256(self.text.encode()).hexdigest()
 
     def shape_of(self, name: str, scenes: tuple[int, ...]) -> tuple[int, ...]:
         """Give the lengths of a variable of a map for scenes of a shape: sensitivities have one dimension more."""

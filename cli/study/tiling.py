@@ -25,14 +25,7 @@ def cells_of_chunk() -> int:
 
 @dataclass(frozen=True)
 class Tiling:
-    """A shape cut into blocks of whole chunks, so that no chunk is written twice; blocks have numbers in C order.
-
-    >>> tiling = Tiling((5, 131_072))
-    >>> len(tiling), tiling.chunk, tiling[2]
-    (3, (1, 131072), (slice(4, 5, None), slice(0, 131072, None)))
-    >>> [block[0] for block in tiling]
-    [slice(0, 2, None), slice(2, 4, None), slice(4, 5, None)]
-    """
+    """A shape cut into blocks of whole chunks, so that no chunk is written twice; blocks have numbers in C order."""
 
     shape: tuple[int, ...]
     cells: int = CHUNK

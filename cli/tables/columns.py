@@ -1,13 +1,73 @@
-"""What is read from a table of numbers: which of its columns, and what they are then."""
+"""What is read from a table of numbers: which of its columns, and what its cells and columns are then."""
 
+import math
+import re
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.tables.cells import number, whole_number, word
+from gradhesion.cli.terminal.wording import did_you_mean
+
+_NUMBER: Final = re.compile(
+    r"[+-]?(?:(?:\d+(?:\.\d*)?|\.\d+)(?:e[+-]?\d+)?|inf(?:inity)?|nan)", re.ASCII | re.IGNORECASE
+)
+"""A number as files have it: what Python reads besides (`1_000`, digits of other scripts) is a mistake there."""
+ERRORS: Final = r"#(?:N/A|DIV/0!|VALUE!|REF!|NUM!|NAME\?|NULL!)"
+"""What a spreadsheet writes where it has no number."""
+_FORM: Final = ", with a point for the decimals, nothing between thousands, and its unit in the header"
+"""How a number is written."""
+_LARGEST: Final = 2.0**53
+"""From here on not every whole number is a float."""
+
+
+def number(cell: str) -> float:
+    """Give the number in a cell; NaN if it is empty, or an error of a spreadsheet."""
+    try:
+        value = float(cell)
+        if math.isfinite(value) and "_" not in cell and cell.isascii():
+            return value
+    except ValueError:
+        pass
+    cell = cell.strip()
+    if not cell or re.fullmatch(ERRORS, cell):
+        return math.nan
+    if not _NUMBER.fullmatch(cell):
+        remedy = "write one" + (_FORM if any(map(str.isdigit, cell)) else "")
+        raise ValueError(f"is not a number; {remedy}")
+    value = float(cell)
+    if math.isinf(value) and "n" not in cell.lower():
+        raise ValueError("is beyond 1.8e308, the largest number; write it in a larger unit, or inf")
+    return value
+
+
+def is_number(cell: str) -> bool:
+    """Tell whether a cell is a number."""
+    return _NUMBER.fullmatch(cell.strip()) is not None
+
+
+def word(cell: str, words: Mapping[str, float]) -> float:
+    """Give the number for a word, or that in its place; NaN if there is none."""
+    found = cell.strip().lower()
+    if found in words:
+        return words[found]
+    value = number(found) if not found or is_number(found) else math.inf
+    if math.isnan(value) or value in words.values():
+        return value
+    raise ValueError(f"is not one of its words; {did_you_mean(found, tuple(words))}")
+
+
+def whole_number(cell: str) -> float:
+    """Give the whole number in a cell; NaN if there is none."""
+    value = number(cell)
+    if math.isinf(value) or (math.isfinite(value) and value != math.floor(value)):
+        raise ValueError("is not a whole number; write one")
+    if abs(value) >= _LARGEST:
+        raise ValueError("is a whole number of more than 15 digits; write a smaller one")
+    return value
 
 
 class ColumnsError(ValueError):
@@ -26,11 +86,7 @@ class Wanted:
     """The columns of whole numbers."""
 
     def named(self, names: Sequence[str], heads: Sequence[str] = ()) -> tuple[str, ...]:
-        """Give the columns of a file the names that are wanted of them, where they differ in case or have their unit.
-
-        >>> Wanted(only=("height", "Load (nN)")).named(["Height", "Load"], ["Height (nm)", "Load (nN)"])
-        ('height', 'Load (nN)')
-        """
+        """Give the columns of a file the names that are wanted of them, where these differ in case or have a unit."""
         found = [*names]
         for wanted in self.only or ():
             both = ((name.lower(), head.lower()) for name, head in zip(names, heads or names, strict=True))
@@ -55,29 +111,18 @@ class Columns:
     units: dict[str, str]
     """Of the columns that have one."""
     sha256: str
-    """The fingerprint of the file."""
     place: Callable[[int], str]
     """Says where a row is, counted from 0."""
     others: tuple[str, ...] = ()
     """The columns that are not read."""
 
-    @property
-    def rows(self) -> int:
-        """The number of rows."""
-        return next(iter(self.values.values())).size
+
+def tidy(units: Mapping[str, str]) -> dict[str, str]:
+    """Leave out what says that there is no unit."""
+    return {name: unit for name, unit in units.items() if unit not in ("", "1", "-")}
 
 
-def tidy(unit: str) -> str:
-    """Give a unit as it is written; nothing for what says that there is none.
-
-    >>> tidy("um"), tidy("-"), tidy("1")
-    ('um', '', '')
-    """
-    return "" if unit in ("", "1", "-") else unit
-
-
-def changed(found: str, expected: str, remedy: str, *, several: bool = False) -> str:
-    """Say that a file is not the one that a study was written for, or that several are not, by their fingerprints."""
-    what, back = ("files are not the ones", "those") if several else ("file is not the one", "that file")
+def changed(found: str, expected: str, remedy: str) -> str:
+    """Say that what a study names is not what it was written for, by the fingerprints."""
     fingerprints = f"its sha256 is {found[:12]}..., not {expected[:12]}..."
-    return f"the {what} that this study was written for: {fingerprints}; put {back} back, or {remedy}"
+    return f"this is not what the study was written for: {fingerprints}; put that back, or {remedy}"

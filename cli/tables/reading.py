@@ -1,17 +1,21 @@
-"""Read a table of numbers from a file. Its bytes are read once; its fingerprint is theirs."""
+"""Read a table of numbers from a file, a text or NetCDF. Its bytes are read once; its fingerprint is theirs."""
 
 import hashlib
 from collections.abc import Collection, Mapping
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
 
 from gradhesion.cli.files import kind_by_content, kind_of, read_at_most
-from gradhesion.cli.tables.columns import Columns, ColumnsError, Wanted
-from gradhesion.cli.tables.netcdf import MAGIC, of_netcdf
+from gradhesion.cli.tables.columns import Columns, ColumnsError, Wanted, number, tidy
 from gradhesion.cli.tables.text import of_text
 
 MOST_BYTES: Final = 2**29
 """The largest file that is read: ten million rows of some columns."""
+_MAGIC: Final = (b"\x89HDF\r\n\x1a\n", b"CDF")
+"""How such files begin."""
 
 
 def read_columns(
@@ -21,26 +25,13 @@ def read_columns(
     words: Mapping[str, Mapping[str, float]] | None = None,
     whole: Collection[str] = (),
 ) -> Columns:
-    """Read a file.
+    """Read the columns of a file that are wanted (`Wanted` has the keywords); ColumnsError says why there are none.
 
-    Parameters
-    ----------
-    path
-        Of a file in NetCDF, whose variables of one dimension are the columns; or of a text in UTF-8 (or, with a mark at
-        its beginning, UTF-16): lines that begin with # are left out, the first other one (or a comment above numbers)
-        is the header, `name` or `name [unit]` between commas, semicolons or tabs (or else spaces), or a row of names
-        and one of units; each line that follows is a row of numbers, nan and inf among them. Commas are decimal where
-        they can be nothing else.
-    only, words, whole
-        As those of `Wanted`.
-
-    Returns
-    -------
-    The columns, each of one row or more; what is missing is NaN. ColumnsError says why there are none.
-
-    Notes
-    -----
-    10^6 rows of six columns take some 3 s, three times that where there is anything but numbers.
+    The file is in NetCDF, whose variables of one dimension are the columns, or a text in UTF-8 (or, with a mark at its
+    beginning, UTF-16). Lines of that which begin with # are left out; the first other one (or a comment above numbers)
+    is the header, `name` or `name [unit]` between commas, semicolons or tabs (or else spaces), or a row of names and
+    one of units; each line that follows is a row of numbers, nan and inf among them. Commas are decimal where they can
+    be nothing else. 10^6 rows of six columns take some 3 s, three times that where there is anything but numbers.
     """
     wanted = Wanted(only=only, words=words or {}, whole=whole)
     try:
@@ -56,8 +47,55 @@ def read_columns(
     if not content.strip():
         raise ColumnsError("the file is empty; name a table with a header and a row of numbers")
     sha256 = hashlib.sha256(content).hexdigest()
-    if content.startswith(MAGIC):
-        return of_netcdf(content, sha256, wanted)
+    if content.startswith(_MAGIC):
+        return _of_netcdf(content, sha256, wanted)
     if kind := kind_by_content(content):
         raise ColumnsError(f"the file is {kind}, not a table; name a table of numbers in CSV or NetCDF")
     return of_text(content, sha256, wanted)
+
+
+def _of_netcdf(content: bytes, sha256: str, wanted: Wanted) -> Columns:
+    """Read the variables of one dimension."""
+    import netCDF4  # noqa: PLC0415 (180 ms that a table in text does not need)
+
+    try:
+        with netCDF4.Dataset("columns", memory=content) as file:
+            variables = dict(zip(wanted.named([*file.variables]), file.variables.values(), strict=True))
+            others = tuple(name for name in variables if wanted.only is not None and name not in wanted.only)
+            found = {
+                name: variable[...]
+                for name, variable in variables.items()
+                if variable.ndim == 1
+                and name not in others
+                and (getattr(variable.dtype, "kind", "") in tuple("iuf") or name in wanted.words)
+            }
+            units = tidy({name: str(getattr(variables[name], "units", "")) for name in found})
+    except (OSError, RuntimeError, ValueError, AttributeError, MemoryError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise ColumnsError(f"the file cannot be read as NetCDF ({reason}); write it again") from None
+    if not any(column.size for column in found.values()) and (found or not others):
+        raise ColumnsError("the file has no variable of numbers along one dimension; write columns into it")
+    if len({column.size for column in found.values()}) > 1:
+        sizes = ", ".join(f"{name} {column.size:,}" for name, column in list(found.items())[:8])
+        raise ColumnsError(f"the columns differ in length ({sizes}); leave one dimension in the file")
+    values = {name: _values(name, column, wanted) for name, column in found.items()}
+    return Columns(values=values, units=units, sha256=sha256, place=_place, others=others)
+
+
+def _place(row: int) -> str:
+    """Say where a row is."""
+    return f"row {row}, counted from 0"
+
+
+def _values(name: str, column: Any, wanted: Wanted) -> NDArray[np.float64]:
+    """Give the numbers of a column."""
+    read = wanted.reader(name)
+    if read is number:
+        return np.ma.filled(column.astype(np.float64), np.nan)
+    found = []
+    for row, value in enumerate(np.ma.asarray(column).tolist()):
+        try:
+            found.append(read("" if value is None else str(value)))
+        except ValueError as error:
+            raise ColumnsError(f"{_place(row)}: {name} {error}") from None
+    return np.array(found)

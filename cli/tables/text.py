@@ -4,7 +4,7 @@ import csv
 import io
 import re
 from array import array
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from typing import Final
@@ -12,17 +12,14 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.tables.cells import ERRORS, is_number, number
-from gradhesion.cli.tables.columns import Columns, ColumnsError, Wanted, tidy
+from gradhesion.cli.tables.columns import ERRORS, Columns, ColumnsError, Wanted, is_number, number, tidy
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.wording import shown
 
 LONGEST: Final = 2**15
 """Characters of a header: above any that is meant as one."""
-
 SHOWN: Final = 24
 """Characters of a cell that is shown."""
-
 _HEAD: Final = re.compile(r"\s*(.*?)\s*(?:[\[(]\s*([^\])]*?)\s*[\])])?\s*")
 """A name, and in brackets its unit."""
 _UNIT: Final = re.compile(r"[\[(]?\s*([^\W\d_][^\[\]()]{0,19}?|[%°\u2126-])\s*[\])]?")
@@ -61,7 +58,7 @@ def of_text(content: bytes, sha256: str, wanted: Wanted) -> Columns:
     header = _header_of(text, wanted)
     others = tuple(name for i, name in enumerate(header.names) if i not in header.read)
     readers = {i: wanted.reader(header.names[i]) for i in header.read}
-    plain = None if {*readers.values()} != {number} else _plain(text, header)
+    plain = _plain(text, header) if {*readers.values()} == {number} else None
     found = _read(text, header, readers) if plain is None else {i: plain[i].copy() for i in readers}
 
     def place(row: int) -> str:
@@ -86,63 +83,56 @@ def _decoded(content: bytes) -> str:
 def _lines(text: str) -> Iterator[tuple[int, str]]:
     """Give the lines that are neither empty, nor separators or a comment alone, with their numbers from 1."""
     for place, line in enumerate(io.StringIO(text, newline=None), 1):
-        own = line
-        if "#" in line:
-            found = _UNQUOTED.match(line)
-            own = found[0] if found else line
+        own = next(_UNQUOTED.finditer(line))[0] if "#" in line else line
         if own.strip(' \t\r\n,;"'):
             yield place, own
 
 
-def _cells_of(place: int, line: str, separator: str | None) -> list[str]:
-    """Cut a line into cells.
-
-    >>> _cells_of(1, '1; "2;3" ;', ";")
-    ['1', '2;3', '']
-    """
-    if '"' not in line:
-        return line.split() if separator is None else list(map(str.strip, line.split(separator)))
-    try:
-        cells = next(csv.reader([line.strip("\r\n")], delimiter=separator or " ", skipinitialspace=True))
-    except csv.Error:
-        raise ColumnsError(f"line {place} has a cell of more than 131,072 characters; shorten it") from None
-    return [cell.strip() for cell in cells if cell or separator]
+def _cells_of(place: int, line: str, separator: str | None, count: int) -> list[str]:
+    """Cut a line into cells, without empty ones at its end beyond a number of columns."""
+    cells = line.split(separator)
+    if '"' in line:
+        try:
+            cells = next(csv.reader([line.strip("\r\n")], delimiter=separator or " ", skipinitialspace=True))
+        except csv.Error:
+            raise ColumnsError(f"line {place} has a cell of more than 131,072 characters; shorten it") from None
+        cells = [cell for cell in cells if cell or separator]
+    cells = [*map(str.strip, cells)]
+    while len(cells) > count and not cells[-1]:
+        cells.pop()
+    return cells
 
 
 def _header_of(text: str, wanted: Wanted) -> Header:
     """Read the names and units of the columns, and find what separates them."""
     lines = _lines(text)
     place, line = next(lines, (0, ""))
-    given = re.fullmatch(r"sep=([;,|\t])\s*", line)  # as spreadsheets write it
-    if given:
+    if given := re.fullmatch(r"sep=([;,|\t])\s*", line):  # as spreadsheets write it
         place, line = next(lines, (0, ""))
     if not place:
         raise ColumnsError("the file has comments only; name a table with a header and a row of numbers")
     if len(line) > LONGEST:
         raise ColumnsError(f"line {place} is too long for a header, {len(line):,} characters; name a table of numbers")
     cells, separator = _heads_of(place, line, given[1] if given else None)
-    last = place
     if all(is_number(cell) for cell in cells if cell):
         place, cells = _names_in_a_comment(text, place, len(cells), separator)
-        last = place
+    last = place
     heads = [_HEAD.fullmatch(cell) for cell in cells]
     names = wanted.named([head[1] if head else cell for head, cell in zip(heads, cells, strict=True)], cells)
-    units = {name: tidy(head[2] or "") for name, head in zip(names, heads, strict=True) if head}
+    units = tidy({name: head[2] or "" for name, head in zip(names, heads, strict=True) if head})
     read = tuple(i for i, name in enumerate(names) if wanted.only is None or name in wanted.only)
     rows = [row for row in islice(_lines(text), 4) if row[0] > place]
     if not rows:
         raise ColumnsError(f"the header on line {place} has no row of numbers below it; add one")
-    if len(rows) > 1 and not any(units.values()):
-        below = _units_below(_cells_of(*rows[0], separator), names, read, wanted)
-        units, last = (below, rows[0][0]) if below else (units, last)
-    line = f"the header on line {place}"
+    if len(rows) > 1 and not units:
+        below = _units_below(_cells_of(*rows[0], separator, len(names)), names, read, wanted)
+        units, last = (units, last) if below is None else (below, rows[0][0])
     for i in read:
         if not names[i]:
-            raise ColumnsError(f"column {i + 1} of {line} has no name; name it or remove it")
+            raise ColumnsError(f"column {i + 1} of the header on line {place} has no name; name it or remove it")
         if (first := names.index(names[i])) < i:
-            words = f"columns {first + 1} and {i + 1} of {line} have one name, {shown(names[i])}"
+            words = f"columns {first + 1} and {i + 1} of the header on line {place} have one name, {shown(names[i])}"
             raise ColumnsError(f"{words}; rename one")
-    units = {name: unit for name, unit in units.items() if unit}
     return Header(names=names, units=units, separator=separator, read=read, last=last)
 
 
@@ -151,11 +141,9 @@ def _heads_of(place: int, line: str, separator: str | None) -> tuple[list[str], 
     bare = _CLOSED.sub("", line)
     most = max(";\t,", key=bare.count)
     separator = separator or (most if most in bare else None)
-    cells = _cells_of(place, line, separator)
+    cells = _cells_of(place, line, separator, 0)
     if separator is None and len(cells) > 1 and any(cell[0] in "[(" for cell in cells):  # a unit after a space
         cells = re.findall(r"[^\s\[(]+\s*(?:[\[(][^\])]*[\])])?", line)
-    while cells and not cells[-1]:
-        cells.pop()
     return cells, separator
 
 
@@ -170,17 +158,15 @@ def _names_in_a_comment(text: str, before: int, columns: int, separator: str | N
     raise ColumnsError(f"{words}; add a header line above it")
 
 
-def _units_below(cells: list[str], names: tuple[str, ...], read: tuple[int, ...], wanted: Wanted) -> dict[str, str]:
-    """Read a row of units below the names; nothing if it is none."""
-    while len(cells) > len(names) and not cells[-1]:
-        cells.pop()
+def _units_below(cells: list[str], names: Sequence[str], read: Sequence[int], wanted: Wanted) -> dict[str, str] | None:
+    """Read a row of units below the names; None if it is none."""
     if len(cells) != len(names) or any(is_number(cell) for cell in cells):
-        return {}
-    if any(cells[i].lower() in words for i in read if (words := wanted.words.get(names[i], {}))):
-        return {}
+        return None
+    if any(cells[i].lower() in wanted.words.get(names[i], {}) for i in read):
+        return None
     own = {names[i]: cells[i] for i in read if cells[i] and names[i] not in (*wanted.words, *wanted.whole)}
-    units = {name: tidy(unit[1]) for name, cell in own.items() if (unit := _UNIT.fullmatch(cell))}
-    return units if len(units) == len(own) else {}
+    units = {name: unit[1] for name, cell in own.items() if (unit := _UNIT.fullmatch(cell))}
+    return tidy(units) if own and len(units) == len(own) else None
 
 
 def _rows(text: str, header: Header) -> Iterator[tuple[int, list[str]]]:
@@ -189,9 +175,7 @@ def _rows(text: str, header: Header) -> Iterator[tuple[int, list[str]]]:
     for place, line in _lines(text):
         if place <= header.last:
             continue
-        cells = _cells_of(place, line, header.separator)
-        while len(cells) > count and not cells[-1]:
-            cells.pop()
+        cells = _cells_of(place, line, header.separator, count)
         if len(cells) != count:
             remedy = "give each row one value per column, separated as the header is"
             whole = sum(bool(cell and _WHOLE.fullmatch(cell)) for cell in cells)
@@ -237,16 +221,15 @@ def _shown(header: Header, column: int, cell: str) -> str:
 
 def _has_decimal_commas(text: str, header: Header, columns: list[int]) -> bool:
     """Tell whether the numbers of a table have decimal commas."""
-    points = commas = sure = 0
-    first = ""
+    points = commas = 0
+    first, sure = "", False
     for place, cells in _rows(text, header):
         for i in columns:
             if "." in cells[i] and is_number(cells[i]):
                 points = points or place
             elif "," in cells[i] and _COMMA.fullmatch(cells[i]):
-                sure = sure or (0 if _THOUSANDS.fullmatch(cells[i]) else place)
-                first = first or _shown(header, i, cells[i])
-                commas = commas or place
+                commas, first = commas or place, first or _shown(header, i, cells[i])
+                sure = sure or not _THOUSANDS.fullmatch(cells[i])
     remedy = "write points for the decimals, and nothing between thousands"
     if commas and points:
         raise ColumnsError(f"line {commas} has a comma and line {points} a point in a number; {remedy}")

@@ -144,7 +144,7 @@ def test_rows_without_a_number_are_counted_and_left_out(gradhesion: Call, folder
     measured(folder, [*ROWS[:30], "nan,1.0", "2.0,nan", *ROWS[30:]])
     result = gradhesion("validate", "fit.toml")
     assert result.exit_code == 0
-    assert "force_curve.csv: 2 rows without a number were left out" in result.stderr
+    assert "force_curve.csv: 2 rows without a number left out" in result.stderr
     assert "a fit of 600 points" in result.stdout
 
 

@@ -14,8 +14,7 @@ from gradhesion.cli.names.fits import FIT, FIT_POINTS, PARAMETER_UNITS
 from gradhesion.cli.names.outputs import BEST, OUTPUTS, SI
 from gradhesion.cli.names.scenes import REALISATION, SOLVER
 from gradhesion.cli.names.units import unit_of
-from gradhesion.cli.study.text.foreign import apart, filled
-from gradhesion.cli.study.text.quantities import factor_between, scaled
+from gradhesion.cli.study.text.quantities import apart, factor_between, filled, scaled
 from gradhesion.cli.study.tiling import CHUNK, Tiling
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.names import TURNS

@@ -8,7 +8,6 @@ where it is positive. The machine has moved by minus the height, and the depth i
 import hashlib
 import logging
 import warnings
-from dataclasses import dataclass, replace
 from pathlib import Path, PurePath
 from typing import Any, Final
 
@@ -46,24 +45,14 @@ class LoopFileError(ValueError):
         super().__init__(sentence)
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Raw:
-    """The rows of a file, as they come; NaN where a number is missing."""
-
-    depth: NDArray[np.float64]
-    load: NDArray[np.float64]
-    sha256: str
-    branch: NDArray[np.float64] | None = None
-    """0 loading, 1 unloading, 2 a pause."""
-    cycle: NDArray[np.float64] | None = None
-    of: str = ""
-    """Which of the loops of a file it is; empty for the only one."""
+Rows = dict[str, NDArray[np.float64]]
+"""Depth and load as they come, NaN where a number is missing; and `branch` (0, 1, or a pause) and `cycle`, if any."""
 
 
-def read_raw(path: Path, table: DataTable, *, through_machine: bool) -> list[Raw]:
-    """Read the loop of a table, or those of an instrument's file; LoopFileError where there is none."""
+def read_raw(path: Path, table: DataTable, *, through_machine: bool) -> tuple[str, dict[str, Rows]]:
+    """Give the fingerprint of a file and its loops, by their numbers if it has several; LoopFileError without one."""
     if not is_force_file(table.model_copy(update={"file": path.name})):
-        return [_of_table(path, table)]
+        return _of_table(path, table)
     try:
         import afmformats  # noqa: PLC0415 (not there without the extra)
         from afmformats.errors import AFMFileFormatError, MissingMetaDataError  # noqa: PLC0415
@@ -76,7 +65,7 @@ def read_raw(path: Path, table: DataTable, *, through_machine: bool) -> list[Raw
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             curves = afmformats.load_data(path, modality="force-distance")
-            found = [_of_curve(curve, table, sha256, through_machine=through_machine) for curve in curves]
+            found = {str(curve.enum): _of_curve(curve, table, through_machine=through_machine) for curve in curves}
     except LoopFileError:
         raise
     except (AFMFileFormatError, MissingMetaDataError, Exception) as error:  # noqa: BLE001 (the first two are none)
@@ -87,20 +76,16 @@ def read_raw(path: Path, table: DataTable, *, through_machine: bool) -> list[Raw
         log.disabled = silent
     if not found:
         raise LoopFileError("file", "the file has no force curves; name one with approach and retraction")
-    return [replace(found[0], of="")] if len(found) == 1 else found
+    return sha256, {"": next(iter(found.values()))} if len(found) == 1 else found
 
 
 def is_force_file(table: DataTable) -> bool:
-    """Tell whether a file is an instrument's, by its name and whether columns are named.
-
-    >>> is_force_file(DataTable(file="curve.jpk-force")), is_force_file(DataTable(file="curve.csv"))
-    (True, False)
-    """
+    """Tell whether a file is an instrument's, by its name and whether columns are named."""
     suffix = PurePath(table.file).suffix.lower()
     return suffix in INSTRUMENTS or (suffix in EITHER and not (table.depths or table.load))
 
 
-def _of_curve(curve: Any, table: DataTable, sha256: str, *, through_machine: bool) -> Raw:
+def _of_curve(curve: Any, table: DataTable, *, through_machine: bool) -> Rows:
     """Give depth (or displacement), load and branch of a force curve."""
 
     def known(name: str) -> NDArray[np.float64]:
@@ -116,7 +101,7 @@ def _of_curve(curve: Any, table: DataTable, sha256: str, *, through_machine: boo
             raise LoopFileError(key, f"the file has no column {shown(requested.column)}; {near}")
         unit = "N" if requested.column == "force" else "m"  # afmformats has SI units
         found = {requested.column: known(requested.column)}
-        return _in_si(Columns(values=found, units=dict.fromkeys(found, unit), sha256=sha256, place=str), key, requested)
+        return _in_si(Columns(values=found, units=dict.fromkeys(found, unit), sha256="", place=str), key, requested)
 
     load = column("load") if table.load else known("force")
     height = next((name for name in _HEIGHTS if name in curve), _HEIGHTS[0])
@@ -132,11 +117,11 @@ def _of_curve(curve: Any, table: DataTable, sha256: str, *, through_machine: boo
     else:
         remedy = 'name a column of depths, indentation = { column = "tip position", sign = -1 }, or calibrate it'
         raise LoopFileError("file", f"the file has no spring constant, and so no deflection; {remedy}")
-    branch = np.minimum(known("segment"), PAUSE) if "segment" in curve else None
-    return Raw(depth=depth, load=load, branch=branch, sha256=sha256, of=str(curve.enum))
+    branch = {"branch": np.minimum(known("segment"), PAUSE)} if "segment" in curve else {}
+    return {"depth": depth, "load": load, **branch}
 
 
-def _of_table(path: Path, table: DataTable) -> Raw:
+def _of_table(path: Path, table: DataTable) -> tuple[str, dict[str, Rows]]:
     """Read the columns of a loop from a table."""
     depth, load = getattr(table, table.depths), table.load
     assert load is not None  # noqa: S101 (the rules of a fit ask for it)
@@ -146,8 +131,8 @@ def _of_table(path: Path, table: DataTable) -> Raw:
         sentence = "back names the columns of unloading, of depths and of loads, and then there is no branch or cycle"
         raise LoopFileError("load" if depth.back else table.depths, f"{sentence}; write all of them so")
     wanted = {depth.column: table.depths, load.column: "load", depth.back: table.depths, load.back: "load"}
-    wanted |= {name: key for name, key in ((table.branch, "branch"), (table.cycle, "cycle")) if name}
-    wanted.pop("", None)  # where nothing stands back
+    wanted |= {table.branch or "": "branch", table.cycle or "": "cycle"}
+    wanted.pop("", None)  # what is not named
     pauses = dict.fromkeys((*PAUSES, *(word.strip().lower() for word in table.leave_out)), PAUSE)
     words = {table.branch: BRANCHES | pauses} if table.branch else {}
     try:
@@ -160,18 +145,17 @@ def _of_table(path: Path, table: DataTable) -> Raw:
             raise LoopFileError(key, f"the file has no column {shown(name)}; {did_you_mean(name, there)}")
     columns = ((table.depths, depth), ("load", load))
     rows = np.array([_in_si(found, *one) for one in columns])
-    if not depth.back:
-        branch, cycle = (found.values[name] if name else None for name in (table.branch, table.cycle))
-        return Raw(depth=rows[0], load=rows[1], branch=branch, cycle=cycle, sha256=found.sha256)
-    backs = ((key, one.model_copy(update={"column": one.back})) for key, one in columns)
-    ways = [rows, np.array([_in_si(found, *one) for one in backs])]
-    for back, points in enumerate(ways):  # unloading behind loading, in the order of a cycle; the shorter is padded
-        points = points[:, ~np.isnan(points).all(axis=0)]
-        falls = points.size > 0 and points[0, -1] < points[0, 0]
-        ways[back] = points if falls == bool(back) else points[:, ::-1]
-    branch = np.repeat([0.0, 1.0], [way.shape[1] for way in ways])
-    both = np.concatenate(ways, axis=1)
-    return Raw(depth=both[0], load=both[1], branch=branch, sha256=found.sha256)
+    ways = {key: found.values[name] for name, key in wanted.items() if key in ("branch", "cycle")}
+    if depth.back:
+        backs = ((key, one.model_copy(update={"column": one.back})) for key, one in columns)
+        both = [rows, np.array([_in_si(found, *one) for one in backs])]
+        for back, points in enumerate(both):  # unloading behind loading, in the order of a cycle; the shorter is padded
+            points = points[:, ~np.isnan(points).all(axis=0)]
+            falls = points.size > 0 and points[0, -1] < points[0, 0]
+            both[back] = points if falls == bool(back) else points[:, ::-1]
+        ways = {"branch": np.repeat([0.0, 1.0], [points.shape[1] for points in both])}
+        rows = np.concatenate(both, axis=1)
+    return found.sha256, {"": {"depth": rows[0], "load": rows[1], **ways}}
 
 
 def _in_si(found: Columns, key: str, requested: ColumnTable) -> NDArray[np.float64]:

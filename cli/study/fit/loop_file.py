@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.study.fit.columns import PAUSE, LoopFileError, Raw, read_raw
+from gradhesion.cli.study.fit.columns import PAUSE, LoopFileError, Rows, read_raw
 from gradhesion.cli.study.rules.fit_form import DataTable
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.loops.measured import points as loop_points
@@ -49,7 +49,7 @@ class LoopFile:
     """Rows without a number that were left out."""
     paused: int = 0
     """Rows of pauses that were left out."""
-    noise: tuple[float, float] = field(default=(0.0, 0.0))
+    noise: tuple[float, float] = (0.0, 0.0)
     """Standard deviations of depth and load of a point of the file, estimated from the points."""
     problem: str = ""
     """Why it cannot be fitted, where it is one of several; it has no points then."""
@@ -69,10 +69,8 @@ class LoopFile:
         """What was left out of it, and what was averaged."""
         if self.problem:
             return [f"{self.file}: {self.problem}"]
-        sentences = []
-        for count, what in ((self.dropped, "without a number"), (self.paused, "of pauses")):
-            if count:
-                sentences.append(f"{counted(count, 'row')} {what} {'was' if count == 1 else 'were'} left out")
+        left_out = ((self.dropped, "without a number left out"), (self.paused, "of pauses left out"))
+        sentences = [f"{counted(count, 'row')} {what}" for count, what in left_out if count]
         if self.points > self.depth.size:
             sentences.append(f"{counted(self.points, 'point')} averaged along the path; {self.depth.size:,} kept")
         return [f"{self.file}: {sentence}" for sentence in sentences]
@@ -94,8 +92,9 @@ def read_loops(
     errors: list[LoopFileError] = []
     for name in names:
         try:
-            raws = read_raw(folder / name, table, through_machine=through_machine)
-            loops += [_loop(raw, name, table, fitted, average=average) for raw in raws]
+            sha256, found = read_raw(folder / name, table, through_machine=through_machine)
+            files = ((f"{name}#{of}" if of else name, rows) for of, rows in found.items())
+            loops += [_loop(rows, file, sha256, table, fitted, average=average) for file, rows in files]
         except LoopFileError as error:
             errors.append(error)
             loops.append(LoopFile(file=name, problem=str(error), sha256=_digest(folder / name)))
@@ -107,11 +106,7 @@ def read_loops(
 
 
 def _names_of(folder: Path, file: str) -> list[str]:
-    """Name the files that a pattern means, sorted; a file that has the name is meant itself.
-
-    >>> _names_of(Path("no such folder"), "loop.csv"), _names_of(Path("no such folder"), "*.csv")
-    (['loop.csv'], [])
-    """
+    """Name the files that a pattern means, sorted; a file that has the name is meant itself."""
     if not any(mark in file for mark in "*?[") or (folder / file).exists():
         return [file]
     found = glob(file, root_dir=folder, recursive=True)  # noqa: PTH207 (patterns may be absolute)
@@ -134,19 +129,18 @@ def fingerprint(loops: Iterable[LoopFile]) -> str:
     return hashlib.sha256("".join(f"{name} {sha256}\n" for name, sha256 in own.items()).encode()).hexdigest()
 
 
-def _loop(raw: Raw, file: str, table: DataTable, fitted: list[str], *, average: bool) -> LoopFile:
+def _loop(rows: Rows, file: str, sha256: str, table: DataTable, fitted: list[str], *, average: bool) -> LoopFile:
     """Leave rows out, tell the branches, average, and refuse what is no loop."""
-    branch = np.zeros(raw.depth.size) if raw.branch is None else raw.branch
-    numbers = np.zeros(raw.depth.size) if raw.cycle is None else raw.cycle
+    branch, numbers = (rows.get(name, np.zeros(rows["depth"].size)) for name in ("branch", "cycle"))
     paused = branch == PAUSE
-    sound = np.isfinite(raw.depth) & np.isfinite(raw.load) & np.isfinite(branch) & np.isfinite(numbers)
+    sound = np.all([np.isfinite(row) for row in (rows["depth"], rows["load"], branch, numbers)], axis=0)
     use = sound & ~paused
     if not use.any():
         why = "every row belongs to a pause" if sound.any() else "no row has numbers in all of its columns"
         raise LoopFileError("file", f"{why}; name a file with some")
-    depth, load, cycle = raw.depth[use], raw.load[use], numbers[use].astype(np.int64)
-    rank = None if raw.cycle is None else np.unique(cycle, return_inverse=True)[1].astype(np.int32)
-    if raw.branch is not None:
+    depth, load, cycle = rows["depth"][use], rows["load"][use], numbers[use].astype(np.int64)
+    rank = None if "cycle" not in rows else np.unique(cycle, return_inverse=True)[1].astype(np.int32)
+    if "branch" in rows:
         unloading = branch[use] == 1.0
         rank = np.ones(depth.size, np.int32) if rank is None else rank
     elif loop_points.has_order(depth, rank):
@@ -156,7 +150,7 @@ def _loop(raw: Raw, file: str, table: DataTable, fitted: list[str], *, average: 
         what = f"the order of the points does not tell the branches ({turns:,} turns of {depth.size:,} points)"
         remedy = 'name a column that has them, branch = "branch", or sort the rows as they were measured'
         raise LoopFileError("file", f"{what}; {remedy}")
-    cycle = rank.astype(np.int64) if raw.cycle is None else cycle
+    cycle = cycle if "cycle" in rows else rank.astype(np.int64)
     if table.which is not None:
         own = unloading == (table.which == "unloading")
         if not own.any():
@@ -173,19 +167,18 @@ def _loop(raw: Raw, file: str, table: DataTable, fitted: list[str], *, average: 
         unloading=kept.unloading,
         cycle=cycle,
         counts=kept.counts,
-        file=f"{file}#{raw.of}" if raw.of else file,
-        sha256=raw.sha256,
+        file=file,
+        sha256=sha256,
         dropped=int(np.count_nonzero(~sound & ~paused)),
         paused=int(np.count_nonzero(paused)),
         noise=kept.noise,
     )
-    _refuse_faults(loop, table)
-    _refuse_few(loop, fitted)
+    _refuse(loop, table, fitted)
     return loop
 
 
-def _refuse_faults(loop: LoopFile, table: DataTable) -> None:
-    """Refuse points without contact, and with a sign that is wrong."""
+def _refuse(loop: LoopFile, table: DataTable, fitted: list[str]) -> None:
+    """Refuse points without contact, with a wrong sign, too few for what is fitted, or all the same."""
     fault = fault_of(loop.depth, loop.load, loop.noise[1] / np.sqrt(loop.counts), loop.unloading)
     if fault == "straight":
         raise LoopFileError("load", "the data show no contact, but a linear load; name another file or column")
@@ -195,10 +188,6 @@ def _refuse_faults(loop: LoopFile, table: DataTable) -> None:
         name = getattr(table, key).column if getattr(table, key) else "..."
         remedy = f'{key} = {{ column = "{name}", sign = -1 }} with its unit'
         raise LoopFileError(key, f"{words}; write {remedy}, or without sign where it is -1")
-
-
-def _refuse_few(loop: LoopFile, fitted: list[str]) -> None:
-    """Refuse points that are too few for what is fitted, or all the same."""
     if loop.depth.size <= len(fitted):
         words = f"{loop.depth.size} points are too few for {len(fitted)} fitted values ({', '.join(fitted)})"
         raise LoopFileError("file", f"{words}; measure more points, or fix some")

@@ -1,36 +1,38 @@
 """A study as its rules look at it: what is right of it, expanded, and which keys are there."""
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from gradhesion.cli.study.rules.axes import Values, expanded, range_mistakes
 from gradhesion.cli.study.rules.form import KINDS, Entry, Form
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import Mistake, mistakes_of, required
-from gradhesion.cli.study.text.written import Path, dotted, steps_of
+from gradhesion.cli.study.text.written import Key, steps_of
 from gradhesion.cli.terminal.wording import nearest
 from gradhesion.core.problem.inputs import INPUTS
 
 Found = Iterator[tuple[str, str]]
 """Dotted keys, and what is wrong with each."""
+Values = float | NDArray[np.float64]
+"""The values of a parameter: a float is fixed, an array is an axis."""
+MOST_VALUES: Final = 10_000_000
+"""Values of one axis: it is held in memory, and so are its kin."""
+_DIGITS: Final = 12
+"""Significant digits of the decimals that the values of a range are moved to, where these are within rounding."""
 REQUIRED: Final = {"k": 0.5, "nu": 0.3}
 """The parameters that a form needs, with valid values: they stand for wrong ones, so that all else can be read."""
-_SCENES: Final = ("map", "curve", "optimum")
 _KINDS_OF: Final = {
     "outputs": ("map", "curve"),
-    "layout": _SCENES,
-    "states": _SCENES,
-    "method": _SCENES,
+    **dict.fromkeys(("layout", "states", "method"), ("map", "curve", "optimum")),
     "optimum": ("optimum",),
     "uncertainty": ("map",),
-    "data": ("fit",),
-    "fit": ("fit",),
+    **dict.fromkeys(("data", "fit"), ("fit",)),
 }
 """The kinds of study that have a key, where not all have it."""
 
@@ -43,17 +45,16 @@ class Asked:
     """The study, but for what is wrong."""
     data: Mapping[str, Any]
     """The study with something valid in the place of what files give, and without keys of other kinds."""
+    kind: str
+    """The kind that is meant."""
     mistakes: list[Mistake]
     """What is wrong with each key for itself."""
-    wrong: Collection[Path]
+    wrong: Collection[Key]
     """The keys that are wrong or missing: the key itself, where an item of its value is."""
+    misspelt: Collection[Key]
+    """The keys that were meant where others stand."""
     values: dict[str, Values]
     """Of the inputs that are right; the two ends of those that are searched."""
-
-    @cached_property
-    def kind(self) -> str:
-        """The kind that is meant."""
-        return kind_of(self.data)
 
     @cached_property
     def over(self) -> tuple[str, ...]:
@@ -94,8 +95,7 @@ class Asked:
 
     def meant(self, *names: str) -> bool:
         """Report whether one of some inputs is there, perhaps misspelt or in the wrong table."""
-        there = {mistake.meant for mistake in self.mistakes}
-        return bool(self.given(*names)) or any(steps_of(home(name)) in there for name in names)
+        return bool(self.given(*names)) or any(steps_of(home(name)) in self.misspelt for name in names)
 
     def of(self, group: str) -> list[str]:
         """List the inputs of a group that are there."""
@@ -103,8 +103,14 @@ class Asked:
 
     def right(self, *keys: str) -> bool:
         """Report whether nothing is wrong with some keys or tables, within them or above."""
-        paths = [f"{dotted(path)}." for path in self.wrong]
-        return not any(path.startswith(f"{key}.") or f"{key}.".startswith(path) for path in paths for key in keys)
+        return not any(own[: len(path)] == path[: len(own)] for path in self.wrong for own in map(steps_of, keys))
+
+    def beside(self, *values: Values) -> Sequence[NDArray[np.float64]]:
+        """Give values of inputs as they meet in scenes, in a grid their extremes; none where lists differ in length."""
+        own = [np.atleast_1d(one) for one in values]
+        if not self.points:
+            return np.meshgrid(*([one.min(), one.max()] for one in own))
+        return np.broadcast_arrays(*own) if len({one.size for one in own} - {1}) < 2 else [np.zeros(0)] * len(own)
 
     @property
     def waved(self) -> list[str]:
@@ -133,40 +139,38 @@ def checked(data: Mapping[str, Any], columns: Mapping[str, Values] | None = None
     kind = kind_of(data)
     foreign = {key: kinds[0] for key, kinds in _KINDS_OF.items() if kind not in kinds}
     words = f'a study of kind "{kind}" does not have this; remove it, or write kind = '
-    mistakes = [Mistake((key,), data[key], f'{words}"{other}"') for key, other in foreign.items() if key in data]
+    mistakes: list[Mistake] = [((key,), f'{words}"{foreign[key]}"') for key in foreign if key in data]
     own, form = {key: value for key, value in data.items() if key not in foreign}, None
-    lacking = _without_num(own) if kind in ("map", "curve") else ()
-    found = [Mistake(path, None, required(*path)) for path in lacking]
+    found = {path: required(*path) for path in (_without_num(own) if kind in ("map", "curve") else ())}
+    misspelt: set[Key] = set()
     try:
         form = Form.model_validate(own)
     except ValidationError as error:
-        found += mistakes_of(error, own, foreign)
-    meant = {one.meant for one in found}
-    mistakes += [one for one in found if one.value is not None or one.path not in meant]
-    wrong = {one.path[:2] if len(one.path) > 1 and isinstance(one.path[1], str) else one.path[:1] for one in found}
+        more, misspelt = mistakes_of(error, own, foreign)
+        found |= more
+    mistakes += [
+        (path, words) for path, words in found.items() if path not in misspelt or value_at(own, path) is not None
+    ]
+    wrong = {path[:2] if len(path) > 1 and isinstance(path[1], str) else path[:1] for path in found}
     try:
         form = form or Form.model_validate(_without(own, wrong))
     except ValidationError as error:  # tables that lack what is wrong
         wrong |= {(str(one["loc"][0]),) for one in error.errors()}
         form = Form.model_validate(_without(own, wrong))
-    asked = Asked(form=form, data=own, mistakes=mistakes, wrong=wrong, values={})
+    values: dict[str, Values] = {}
     for name, entry in form.entries.items():
-        if entry != "data" and not {(INPUTS[name].table,), (INPUTS[name].table, name)} & wrong:
-            _expand(asked, name, entry, columns or {})
-    return asked
+        if entry == "data" or {(INPUTS[name].table,), (INPUTS[name].table, name)} & wrong:
+            continue
+        if kind == "fit" and isinstance(entry, Range):  # searched, whatever else it has is refused
+            values[name] = np.array(entry.ends)
+        elif amiss := [*range_mistakes(name, entry)]:
+            mistakes += [(steps_of(key), sentence) for key, sentence in amiss]
+        else:
+            values[name] = expanded(entry) if columns is None or name not in columns else columns[name]
+    return Asked(form=form, data=own, kind=kind, mistakes=mistakes, wrong=wrong, misspelt=misspelt, values=values)
 
 
-def _expand(asked: Asked, name: str, entry: Entry, columns: Mapping[str, Values]) -> None:
-    """Expand an input whose form is right, or say what is wrong with it as a whole."""
-    if asked.kind == "fit" and isinstance(entry, Range):  # searched, whatever else it has is refused
-        asked.values[name] = np.array(entry.ends)
-    elif amiss := [*range_mistakes(name, entry)]:
-        asked.mistakes.extend(Mistake(steps_of(key), asked.at(key), sentence) for key, sentence in amiss)
-    else:
-        asked.values[name] = columns.get(name, expanded(entry))
-
-
-def _without_num(data: Mapping[str, Any]) -> Iterator[Path]:
+def _without_num(data: Mapping[str, Any]) -> Iterator[Key]:
     """Give the keys of the numbers of values that ranges lack."""
     for name, own in INPUTS.items():
         entry = value_at(data, (own.table, name))
@@ -174,7 +178,7 @@ def _without_num(data: Mapping[str, Any]) -> Iterator[Path]:
             yield (own.table, name, "num")
 
 
-def value_at(data: Mapping[str, Any], path: Path) -> Any:
+def value_at(data: Mapping[str, Any], path: Key) -> Any:
     """Give what is written at a path; None if it is not there."""
     value: Any = data
     for step in path:
@@ -183,7 +187,7 @@ def value_at(data: Mapping[str, Any], path: Path) -> Any:
     return value
 
 
-def _without(data: Mapping[str, Any], wrong: Iterable[Path]) -> dict[str, Any]:
+def _without(data: Mapping[str, Any], wrong: Iterable[Key]) -> dict[str, Any]:
     """Leave out the keys that are wrong, but for those that a form needs."""
     sound = {key: {**value} if isinstance(value, Mapping) else value for key, value in data.items()}
     for path in wrong:
@@ -203,3 +207,58 @@ def kind_of(data: Mapping[str, Any]) -> str:
 def home(name: str) -> str:
     """Write an input with its table."""
     return f"{INPUTS[name].table}.{name}"
+
+
+def expanded(entry: Entry) -> Values:
+    """Expand a valid input of a study; a range begins and ends at exactly its `start` and `stop`."""
+    if not isinstance(entry, Range):
+        return np.array(entry, dtype=np.float64) + 0.0 if isinstance(entry, list) else float(entry) + 0.0
+    if entry.num is None:  # searched
+        return np.array(entry.ends)
+    ends = np.array([entry.start, entry.stop]) + 0.0  # no negative zeros
+    spaced = np.geomspace if entry.spacing == "log" else np.linspace
+    values = spaced(ends[0], ends[1], entry.num)
+    values = _shortest(values, np.abs(values) if entry.spacing == "log" else np.abs(ends).max())
+    values = np.clip(values, ends.min(), ends.max())
+    values[0], values[-1] = ends
+    return np.asarray(values + 0.0)
+
+
+def _shortest(values: NDArray[np.float64], size: NDArray[np.float64] | float) -> NDArray[np.float64]:
+    """Move values to decimals of a few digits within the rounding of a range of this `size`."""
+    with np.errstate(all="ignore"):
+        places = np.clip(_DIGITS - 1 - np.floor(np.log10(size)), -22, 22)
+        power = 10.0 ** np.abs(places)  # exact to 10^22
+        decimals = np.where(places >= 0, np.rint(values * power) / power, np.rint(values / power) * power)
+        near = np.abs(decimals - values) <= 4 * np.finfo(float).eps * size  # of a few roundings in making the range
+    moved = np.where(near & np.isfinite(decimals), decimals, values)
+    return moved if np.unique(moved).size == np.unique(values).size else values
+
+
+def range_mistakes(name: str, entry: Entry) -> Iterator[tuple[str, str]]:
+    """Check that a range makes sense as a whole, and that an axis can be held in memory."""
+    at = home(name)
+    if isinstance(entry, list) and len(entry) > MOST_VALUES:
+        yield at, f"more than {MOST_VALUES:,} values in one list; split the study"
+    if not isinstance(entry, Range):
+        return
+    if entry.num and entry.num > MOST_VALUES:
+        yield f"{at}.num", f"more than {MOST_VALUES:,} values in one axis; split the study"
+    elif entry.num == 1 and entry.start != entry.stop:
+        yield f"{at}.num", "one value cannot be at both start and stop; use num = 2 or more, or a list of one value"
+    elif entry.start == entry.stop and entry.num != 1:
+        yield at, "start and stop are the same; write another stop, or a number"
+    elif entry.spacing == "log" and entry.ends[0] <= 0.0:
+        end = "start" if entry.start <= 0.0 else "stop"
+        yield f"{at}.{end}", 'log spacing needs values > 0; raise it, or use spacing = "linear"'
+
+
+def repeated(name: str, values: Values) -> Iterator[tuple[str, str]]:
+    """Check that an axis has no value twice."""
+    unique, counts = np.unique(values, return_counts=True)
+    if counts.max(initial=1) > 1:
+        value = float(unique[counts.argmax()])
+        first, second, *_ = np.flatnonzero(values == value).tolist()
+        unit = "" if INPUTS[name].unit == "1" else f" {INPUTS[name].unit}"
+        words = f"the axis repeats the value {value!r}{unit} (items {first} and {second}); remove one"
+        yield home(name), words

@@ -9,7 +9,7 @@ from dataclasses import fields
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, get_args
 
-from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, create_model
 
 from gradhesion.cli.names.outputs import OF_LINEAR, SI
 from gradhesion.cli.study.rules.fit_form import DataTable, FitTable
@@ -21,7 +21,6 @@ from gradhesion.cli.study.rules.keys import (
     Table,
     deviation_key,
     input_key,
-    named,
     quantity,
     range_of,
     said,
@@ -76,9 +75,9 @@ else:
         {one.name: input_key(one) for one in INPUTS.values() if one.table == name}
         for name in ("parameters", "physical")
     )
-    Parameters = named("Parameters", **_parameters, points=_points)
-    Physical = named("Physical", **_physical)
-    Deviations = named("Deviations", **{one.name: deviation_key(one) for one in INPUTS.values()})
+    Parameters = create_model("Parameters", __base__=Table, **_parameters, points=_points)
+    Physical = create_model("Physical", __base__=Table, **_physical)
+    Deviations = create_model("Deviations", __base__=Table, **{one.name: deviation_key(one) for one in INPUTS.values()})
     Shape, SpectrumTable, ToughnessTable = table_of(Profile), table_of(Spectrum), table_of(Toughness)
     LoadingTable = table_of(Loading, machine_stiffness=input_key(INPUTS["machine_stiffness"]))
     RateTable = table_of(Rate, exponent=(_powers, said(fields(Rate)[0].metadata["about"], "0.6")))

@@ -1,13 +1,12 @@
 """What the inputs of a scene have to do with each other in every kind of study: each given once, and its edge."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.cli.study.rules.asked import Asked, Found, home
-from gradhesion.cli.study.rules.axes import Values
+from gradhesion.cli.study.rules.asked import Asked, Found, Values, home
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import line_of
 from gradhesion.cli.study.text.written import steps_of
@@ -16,9 +15,7 @@ from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.toughness import MOST_WAVES, violation
 
 NEEDS: Final = {
-    "profile.sha256": "profile.file",
-    "profile.terms": "profile.file",
-    "profile.up_to": "profile.file",
+    **dict.fromkeys(("profile.sha256", "profile.terms", "profile.up_to"), "profile.file"),
     "physical.work_of_adhesion_closing": "physical.work_of_adhesion",
 }
 """Keys that mean nothing without another one."""
@@ -46,11 +43,8 @@ def together(asked: Asked) -> Found:
             yield key, f"this cannot be combined with {beside}; remove one of the two"
     if asked.form.profile.exponent == "fit" and not asked.has("profile.file"):
         yield "profile.exponent", "there is no file to fit it to; write a number, for example exponent = 2.0"
-    k, nu = (np.atleast_1d(asked.axes.get(name, 0.5)) for name in ("k", "nu"))
-    soft = bool(np.any(k == 1.0) and np.any(nu != 0.5))
-    if asked.points and soft:  # in one scene, unless the lists differ in length
-        soft = (1 in (k.size, nu.size) or k.size == nu.size) and bool(np.any((k == 1.0) & (nu != 0.5)))
-    if soft:
+    k, nu = asked.beside(*(asked.axes.get(name, 0.5) for name in ("k", "nu")))
+    if np.any((k == 1.0) & (nu != 0.5)):
         words = "with k = 1 and nu other than 0.5 the surface has no stiffness; use nu = 0.5, or k below 1"
         yield "parameters.k", words
 
@@ -99,11 +93,7 @@ def _ways(asked: Asked, own: Input, kin: list[str]) -> Found:
 
 
 def left_out(values: Mapping[str, Values], *, with_units: bool) -> dict[str, float]:
-    """Give the inputs that a valid study leaves out, with the values that they then have.
-
-    >>> left_out({"k": 0.0, "nu": 0.3, "modulus": 500.0, "A": 0.1, "lambda_over_R": 0.2}, with_units=False)
-    {'a_max_over_R': inf, 'c0_over_R': 1.0}
-    """
+    """Give the inputs that a valid study leaves out, with the values that they then have."""
     given = {INPUTS[name].gives for name in values}
     rim = {} if "a_max_over_R" in given else {"a_max" if with_units else "a_max_over_R": math.inf}
     idle = (name for name, own in INPUTS.items() if name not in given and is_zero(own.idle_without, values))
@@ -137,18 +127,10 @@ def waves(asked: Asked) -> Found:
 def works(asked: Asked) -> Found:
     """Check that no edge closes at more work than it opens at."""
     key, other = "work_of_adhesion_closing", "work_of_adhesion"
-    if not {key, other} <= asked.values.keys() or asked.given("closing_ratio"):
-        return
-    closing, opening = (np.atleast_1d(asked.values[name]) for name in (key, other))
-    if asked.points:
-        together = 1 in (closing.size, opening.size) or closing.size == opening.size
-        above = together and bool(np.any(closing > opening))
-    elif asked.kind == "fit":
-        above = closing.min() > opening.max()
-    else:
-        above = closing.max() > opening.min()
-    if above:
-        yield home(key), "an edge cannot close at more work than it opens at; lower it, or raise work_of_adhesion"
+    if {key, other} <= asked.values.keys() and not asked.given("closing_ratio"):
+        closing, opening = asked.beside(asked.values[key], asked.values[other])
+        if (np.all if asked.kind == "fit" else np.any)(closing > opening):
+            yield home(key), "an edge cannot close at more work than it opens at; lower it, or raise work_of_adhesion"
 
 
 def _needs_table(asked: Asked, table: str) -> Found:
@@ -171,31 +153,22 @@ def toughness(asked: Asked) -> Found:
     if table is None or len({wave.n for wave in table.harmonics}) < len(table.harmonics):
         return
     length, rim = ("toughness_wavelength", "a_max") if asked.units else ("toughness_wavelength_over_R", "a_max_over_R")
+    if length not in asked.values:
+        return
     key, pattern = "toughness_amplitude", table.made()
-    given = (asked.values.get(key, 1.0), asked.values.get(length, math.nan), asked.values.get(rim, math.inf))
-    for amplitude, wavelength, end in _patterns(asked, *map(np.atleast_1d, given)):
-        radius = violation(pattern, amplitude, wavelength, end)
+    given = (asked.values.get(key, 1.0), asked.values[length], asked.values.get(rim, math.inf))
+    amplitudes, wavelengths, rims = asked.beside(*given)
+    unique = np.unique(amplitudes).tolist()
+    each = len(unique) <= _MOST_AMPLITUDES
+    for amplitude in unique if each else (unique[0], unique[-1]):
+        own = amplitudes == amplitude if each else slice(None)
+        least = float(wavelengths[own].min())
+        radius = violation(pattern, amplitude, least, float((rims[own] / wavelengths[own]).max()) * least)
         if radius is not None:
             what = {"toughness": "toughness is negative", "work": "work of adhesion is not positive"}[pattern.of]
             words = f"with the amplitude {amplitude:g} the {what} at {radius:.6g}{' m' if asked.units else ' R'}"
             yield home(key) if key in asked.values else "toughness.harmonics", f"{words}; use smaller waves"
             return
-
-
-def _patterns(asked: Asked, *given: np.ndarray) -> Iterable[tuple[float, float, float]]:
-    """Give the amplitudes, wavelengths and rims of punches that are the worst of a study."""
-    amplitudes, wavelengths, rims = given
-    if np.isnan(wavelengths).any() or (asked.points and len({one.size for one in given} - {1}) > 1):
-        return  # which is said of the wavelength, or of the lists
-    if asked.points:
-        amplitudes, wavelengths, rims = np.broadcast_arrays(*given)
-    unique = np.unique(amplitudes)
-    each = asked.points and unique.size <= _MOST_AMPLITUDES
-    for amplitude in unique.tolist() if each else {*unique[[0, -1]].tolist()}:
-        own = amplitudes == amplitude if each else slice(None)
-        least = float(wavelengths[own].min())
-        count = (rims[own] / wavelengths[own]).max() if asked.points else rims.max() / least
-        yield amplitude, least, float(count) * least
 
 
 def rate(asked: Asked) -> Found:

@@ -9,11 +9,9 @@ from typing import Annotated, Any, ClassVar, Final, Literal, Union, get_args, ge
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, WithJsonSchema, create_model
 
 from gradhesion.cli.study.text.quantities import ratio_sentence, si_value
-from gradhesion.core.problem.inputs import INPUTS, Input
+from gradhesion.core.problem.inputs import Input
 from gradhesion.core.problem.profile import MOST_HARMONICS
 
-DATA: Final = "data"
-"""What stands for the deepest point of the data of a fit, where the cycle turns."""
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 _PERCENTAGE: Final = re.compile(r"\s*([+-]?(?:\d{1,20}\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*%\s*")
 
@@ -27,11 +25,6 @@ class Table(BaseModel):
 def said(about: str | None, example: str, default: Any = ..., **limits: Any) -> Any:
     """Declare a key: what it is about, a value that would do, as TOML has it, and what holds where it is left out."""
     return Field(default, description=about, examples=[example], **limits)
-
-
-def named(name: str, **keys: Any) -> Any:
-    """Make a table of keys, each with its type and what is said of it."""
-    return create_model(name, __base__=Table, **keys)
 
 
 def read_by(read: Any, schema: Mapping[str, Any], kind: Any = Any) -> Any:
@@ -130,19 +123,14 @@ def range_of(own: Input, number: Any) -> Any:
 
 def input_key(own: Input) -> tuple[Any, Any]:
     """Make the key of an input: a number, a list of numbers, or a range table; quantities become numbers in SI."""
-    number: Any
+    limits: dict[str, Any] = {"strict": True, "allow_inf_nan": own.infinite, **own.bounds}
+    number: Any = Annotated[float, Field(**limits)]
     if own.table == "physical":
-        schema = Field(json_schema_extra={"type": ["string", "number"]})
-        number = Annotated[float, BeforeValidator(lambda value: si_value(value, own.name)), schema]
-    else:
-        limits: dict[str, Any] = {"strict": True, "allow_inf_nan": own.infinite, **own.bounds}
-        number = Annotated[float, Field(**limits)]
+        number = read_by(lambda value: si_value(value, own.name), {"type": ["string", "number"]}, float)
     plain = number
-    if own.name == "indentation_max":
-        plain = Annotated[
-            float | Literal["data"],
-            BeforeValidator(lambda value: value if value == DATA else si_value(value, own.name)),
-        ]
+    if own.name == "indentation_max":  # of a fit it may be the deepest point of its data
+        read = BeforeValidator(lambda value: value if value == "data" else si_value(value, own.name))
+        plain = Annotated[float | Literal["data"], read]
     ends = range_of(own, Annotated[number, Field(allow_inf_nan=False)])
     forms = tagged(plain=plain, list=Annotated[list[number], Field(min_length=1)], table=ends)
     return forms, said(own.about, own.value, ... if own.name in ("k", "nu") else None)
@@ -164,24 +152,16 @@ class Deviation:
     uniform: bool = False
 
 
-def deviation_of(value: object, name: str) -> Deviation:
-    """Read the deviation of an input; ValueError says what to write instead of what is none.
-
-    >>> deviation_of("5 %", "modulus").deviation, deviation_of("20 nm", "c0").deviation
-    (0.05, 2e-08)
-    >>> nu = deviation_of({"low": 0.28, "high": 0.32}, "nu")
-    >>> nu.uniform, nu.low, nu.high
-    (True, 0.28, 0.32)
-    """
-    own = INPUTS[name]
-    forms = f'write for example {name} = "5 %", a standard deviation in its unit, or {{ low = .., high = .. }}'
+def deviation_of(value: object, own: Input) -> Deviation:
+    """Read the deviation of an input; ValueError says what to write instead of what is none."""
+    forms = f'write for example {own.name} = "5 %", a standard deviation in its unit, or {{ low = .., high = .. }}'
 
     def number(one: object) -> float:
         if own.table == "physical":
-            return si_value(one, name)
+            return si_value(one, own.name)
         if isinstance(one, int | float) and not isinstance(one, bool):
             return float(one)
-        raise ValueError((isinstance(one, str) and ratio_sentence(one, name)) or f"not a deviation; {forms}")
+        raise ValueError((isinstance(one, str) and ratio_sentence(one, own.name)) or f"not a deviation; {forms}")
 
     if isinstance(value, Mapping):
         if {*value} != {"low", "high"}:
@@ -201,5 +181,5 @@ def deviation_of(value: object, name: str) -> Deviation:
 def deviation_key(own: Input) -> tuple[Any, Any]:
     """Make the key of the deviation of an input."""
     schema = {"type": ["number", "string", "object"]}
-    kind = read_by(lambda value: deviation_of(value, own.name), schema, Deviation | None)
+    kind = read_by(lambda value: deviation_of(value, own), schema, Deviation | None)
     return kind, said(f"uncertainty of {own.name}: {own.about}", '"5 %"', None)

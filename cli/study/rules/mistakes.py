@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final, get_args
 
@@ -12,38 +11,35 @@ from pydantic_core import ErrorDetails
 from gradhesion.cli.study.rules.form import Form
 from gradhesion.cli.study.rules.keys import Table
 from gradhesion.cli.study.text.quantities import ratio_sentence
-from gradhesion.cli.study.text.written import Path, dotted
+from gradhesion.cli.study.text.written import Key, dotted
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
 from gradhesion.core.problem.inputs import INPUTS
 
+Mistake = tuple[Key, str]
+"""A key, and what is wrong with it and what to do about it."""
 _STEPS: Final = ("step", "by", "increment", "delta")
 """What a range does not have."""
 
 
-@dataclass(frozen=True)
-class Mistake:
-    """What is wrong at a key, and what to do about it."""
-
-    path: Path
-    value: Any
-    sentence: str
-    meant: Path = ()
-    """The key that was meant, where another stands in its place."""
-
-
-def mistakes_of(error: ValidationError, data: Mapping[str, Any], absent: Collection[str]) -> list[Mistake]:
-    """Turn what pydantic found in a study into mistakes, one a key; its kind has no keys that are `absent`."""
-    found: dict[Path, Mistake] = {}
+def mistakes_of(
+    error: ValidationError, data: Mapping[str, Any], absent: Collection[str]
+) -> tuple[dict[Key, str], set[Key]]:
+    """Say what pydantic found in a study, by its keys, and which were meant; its kind has none that is `absent`."""
+    found: dict[Key, str] = {}
+    meant: set[Key] = set()
     for detail in error.errors(include_url=False):
         path = _path(detail, data)
-        unknown = detail["type"] == "extra_forbidden"
-        meant, sentence = _unknown_key(path, absent) if unknown else ((), _sentence(detail, path))
-        value = None if detail["type"] == "missing" else detail["input"]
-        found.setdefault(path, Mistake(path, value, sentence, meant))
-    return [*found.values()]
+        if path in found:
+            continue
+        if detail["type"] == "extra_forbidden":
+            other, found[path] = _unknown_key(path, absent)
+            meant.add(other)
+        else:
+            found[path] = _sentence(detail, path)
+    return found, meant
 
 
-def _path(detail: ErrorDetails, data: Mapping[str, Any]) -> Path:
+def _path(detail: ErrorDetails, data: Mapping[str, Any]) -> Key:
     """Take the names of forms (plain, list, table) out of pydantic's path: what is left is in the study, or missing."""
     path: list[str | int] = []
     value: Any = data
@@ -56,7 +52,7 @@ def _path(detail: ErrorDetails, data: Mapping[str, Any]) -> Path:
 
 
 @cache
-def tables_of(kind: Any, above: Path = ()) -> dict[Path, type[Table]]:
+def tables_of(kind: Any, above: Key = ()) -> dict[Key, type[Table]]:
     """Find the tables in a type by their keys, that of a table itself under the empty one."""
     if not (isinstance(kind, type) and issubclass(kind, Table)):
         return {path: own for one in get_args(kind) for path, own in tables_of(one, above).items()}
@@ -81,7 +77,7 @@ def required(*path: str | int) -> str:
     return f"this key is required; write for example {line_of(*path)}"
 
 
-def _sentence(detail: ErrorDetails, path: Path) -> str:
+def _sentence(detail: ErrorDetails, path: Key) -> str:
     """Say what pydantic found in the words of a study."""
     kind, value = detail["type"], detail["input"]
     in_a_table_of_inputs = len(path) > 1 and path[0] in ("parameters", "physical", "loading")
@@ -105,7 +101,7 @@ def _sentence(detail: ErrorDetails, path: Path) -> str:
     return f"{words.replace('dictionary', 'table')}{limits}; write for example {line_of(*path)}"
 
 
-def _unknown_key(path: Path, absent: Collection[str]) -> tuple[Path, str]:
+def _unknown_key(path: Key, absent: Collection[str]) -> tuple[Key, str]:
     """Report which key was meant, and say so."""
     table, key = path[:-1], str(path[-1])
     keys_of = {place: [*one.model_fields] for place, one in tables_of(Form).items()}
@@ -115,20 +111,21 @@ def _unknown_key(path: Path, absent: Collection[str]) -> tuple[Path, str]:
         return (*table, "num"), f'{sentence}, evenly spaced unless spacing = "log"'
     homes = {place: keys for place, keys in keys_of.items() if len(place) < 2 and not {*place} & {*absent}}
     homes[()] = [name for name in homes[()] if name not in absent]
-    homes |= {place: ["samples", "seed"] for place in homes if place == ("uncertainty",)}  # the others are inputs
-    place, near = table, nearest(key, known)
+    if ("uncertainty",) in homes:
+        homes["uncertainty",] = ["samples", "seed"]  # the others are inputs
+    near = nearest(key, known)
     called = [name for name, one in INPUTS.items() if key.lower() in one.called]
     slip = (near or "").lower() == key.lower()
-    if there := [other for other, keys in homes.items() if other != table and key in keys]:
-        place, near = there[0], key
-    elif called and near not in called and not slip and table in (("parameters",), ("physical",)):
-        place, near = (INPUTS[called[0]].table,), called[0]
-    elif not table and not near:
+    found = [(other, key) for other, keys in homes.items() if other != table and key in keys]
+    if not found and called and near not in called and not slip and table in (("parameters",), ("physical",)):
+        found = [((INPUTS[called[0]].table,), called[0])]
+    if not (found or table or near):
         found = [(other, one) for other, keys in homes.items() if (one := nearest(key, keys))]
-        place, near = found[0] if found else (table, None)
+    place, near = found[0] if found else (table, near)
     if place == table:
         return (*table, near or ""), f"unknown key; {did_you_mean(key, known)}"
     where = f"under [{dotted(place)}]" if place else "at the top, before the first [table]"
-    words = f'unknown key; did you mean "{near}", {where}?'
     path = (*place, str(near))
-    return path, f"this key belongs {where}; move it there, as {dotted(path)}" if near == key else words
+    if near == key:
+        return path, f"this key belongs {where}; move it there, as {dotted(path)}"
+    return path, f'unknown key; did you mean "{near}", {where}?'

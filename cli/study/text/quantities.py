@@ -1,10 +1,14 @@
-"""Numbers with units: `"50 kPa"` as the number of pascals that it is.
+"""Numbers with units: `"50 kPa"` as the number of pascals that it is, and values of other packages as a study has them.
 
 Units are those of pint. Numbers are converted in decimal arithmetic and rounded once, so that "1 um" is the double next
-to 10^-6, as if it had been written in metres.
+to 10^-6, as if it had been written in metres. Quantities of pint, astropy and unyt, and arrays of xarray and pandas are
+known by what they have, so that none of these packages is imported; a unit is never dropped.
 """
 
+import math
 import re
+from collections.abc import Mapping
+from contextlib import suppress
 from decimal import Decimal
 from functools import cache
 from typing import TYPE_CHECKING, Any, Final
@@ -40,16 +44,19 @@ WORDS: Final = {
 _QUANTITY: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,4})?|[+-]?inf|nan)\s*\*?\s*(.*)")
 _COMMA: Final = re.compile(r"\s*[+-]?\d+,\d")
 _NO_COMMA: Final = "a comma in a number; write a point before the decimals, and nothing between thousands, as 1234.5"
+_PACKAGES: Final = (
+    ("magnitude", "units", "to_base_units"),  # pint
+    ("value", "unit", "si"),  # astropy
+    ("value", "units", "in_mks"),  # unyt
+)
+"""What the quantities of each package have: their numbers, their unit, and themselves in base units."""
+_PLAIN: Final = (str, bool, int, float, type(None))
 _POWER: Final = re.compile(r"([^\W\d_])([+-]?\d)")
 """A power as UDUNITS and astropy write it, `m-2`."""
 
 
 def si_value(value: object, name: str) -> float:
-    """Give a quantity in its unit in SI; an infinite one needs no unit. ValueError says what to write instead.
-
-    >>> si_value("1 um", "R"), si_value("20 mJ/m^2", "work_of_adhesion"), si_value("20 mN m-1", "work_of_adhesion")
-    (1e-06, 0.02, 0.02)
-    """
+    """Give a quantity in its unit in SI; an infinite one needs no unit. ValueError says what to write instead."""
     key = QUANTITIES[name]
     number, written = _parts_of(str(value) if isinstance(value, str | float) else "")
     plain = isinstance(value, int | float) and not isinstance(value, bool)
@@ -121,9 +128,6 @@ def scaled(numbers: NDArray[Any], factor: Decimal) -> NDArray[np.float64]:
     """Multiply numbers, as the shortest decimals that they are, by a factor; each product is rounded once.
 
     So that 25 um is 2.5e-05 m, which the product of 25.0 and 1e-06 is not.
-
-    >>> scaled(np.array([1.0, 25.0]), Decimal("1e-6"))
-    array([1.0e-06, 2.5e-05])
     """
     given = np.asarray(numbers, dtype=np.float64)
     if factor == 1:
@@ -160,3 +164,90 @@ def factor_between(written: str, unit: str) -> Decimal | None:
         except Exception:  # noqa: BLE001, S112 (whatever pint raises where it is given no unit)
             continue
     return None
+
+
+def apart(value: Any) -> tuple[Any, str]:
+    """Take what has a unit apart: its numbers, and the unit as pint reads it; of all else there is none."""
+    if isinstance(value, _PLAIN):
+        return value, ""
+    attributes = getattr(value, "attrs", None)
+    written = attributes.get("units", "") if isinstance(attributes, Mapping) else getattr(value, "units", "")
+    if hasattr(value, "dims") and hasattr(value, "coords"):  # xarray
+        numbers, unit = apart(value.data)
+        return numbers, unit or str(written)
+    column = getattr(getattr(value, "array", None), "quantity", None)  # pandas with pint
+    value = value if column is None else column
+    for names in _PACKAGES:
+        if all(hasattr(value, name) for name in names):
+            return _in_a_known_unit(value, *names)
+    return value, written if isinstance(written, str) else ""
+
+
+def _in_a_known_unit(value: Any, numbers: str, unit: str, base: str) -> tuple[Any, str]:
+    """Give a quantity in its own unit, or in base units where its registry means something else by it than ours."""
+    array, own = np.asanyarray(getattr(value, numbers)), getattr(value, unit)
+    if array.dtype == object:  # of decimals or fractions
+        with suppress(TypeError, ValueError):
+            array = array.astype(np.float64)
+
+    def in_base(size: int) -> tuple[float, str]:
+        made = getattr(size * own, base)
+        made = made() if callable(made) else made
+        return float(getattr(made, numbers)), _text(getattr(made, unit))
+
+    text = _text(own)
+    try:
+        (nothing, _), (scale, base_text) = in_base(0), in_base(1)
+    except (ArithmeticError, LookupError, TypeError, ValueError):
+        return array, text
+    if nothing or factor_between(base_text, base_text) is None:  # a scale with an offset, or a dimension of its own
+        return array, text
+    known = factor_between(text, base_text) if len(text) <= LONGEST - 26 else None  # beside the longest number
+    if array.dtype.kind not in "iuf" or (known and math.isclose(float(known), scale)):  # as constants are measured anew
+        return array, text
+    return scaled(array, Decimal(f"{scale:.15g}")), base_text
+
+
+def _text(unit: Any) -> str:
+    """Write a unit so that pint reads it."""
+    return (f"{unit:C}" if hasattr(unit, "dimensionality") else str(unit)) or "dimensionless"
+
+
+def as_written(value: Any, path: tuple[str, ...] = (), *, bare: bool = True) -> Any:
+    """Turn a value made in Python, at a path in a study, into what TOML would give: quantities are texts, as "25 um".
+
+    Quantities without a dimension become numbers if `bare`.
+    """
+    if type(value) in _PLAIN:
+        return value
+    if isinstance(value, Mapping):
+        return {str(key): as_written(item, (*path, str(key)), bare=bare) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [as_written(item, path, bare=bare) for item in value]
+    numbers, unit = apart(value)
+    if not unit and not hasattr(numbers, "__array__"):
+        return value
+    array = filled(numbers)
+    if array.dtype.kind in "mM":
+        return array.astype(str if array.dtype.kind == "m" else "M8[us]").tolist()  # and no bare integers
+    if array.dtype == object:
+        return as_written(array.tolist(), path, bare=bare) if array.ndim else array.item()
+    if not unit:
+        return array.tolist()
+    if unit in ("percent", "%") and path[:1] == ("uncertainty",) and len(path) == 2:
+        return _with(array.tolist(), "%")
+    if bare and array.dtype.kind in "iuf" and (factor := factor_between(unit, "1")):
+        return scaled(array, factor).tolist()
+    return _with(array.tolist(), unit)
+
+
+def filled(numbers: Any) -> NDArray[Any]:
+    """Give an array whose missing values are NaN, which is out of range."""
+    if not np.ma.isMaskedArray(numbers):
+        return np.asarray(numbers)
+    return np.ma.filled(numbers if numbers.dtype == object else numbers.astype(float), np.nan)
+
+
+def _with(value: Any, unit: str) -> Any:
+    """Write numbers with a unit."""
+    return [_with(item, unit) for item in value] if isinstance(value, list) else f"{value!r} {unit}"

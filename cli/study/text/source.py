@@ -4,6 +4,7 @@ import os
 import re
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -11,8 +12,7 @@ from typing import Any, Final
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.files import kind_of
-from gradhesion.cli.study.text.written import Path as Key
-from gradhesion.cli.study.text.written import lines_of
+from gradhesion.cli.study.text.written import Key, lines_of
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, FAILED, POOR_FIT
 
@@ -78,14 +78,21 @@ def read_source(path: Path, overrides: Iterable[str]) -> Source:
 
 def _read(path: Path, above: tuple[Path, ...]) -> tuple[dict[str, Any], dict[Path, str]]:
     """Read the keys of a file and of what it includes, and the texts of both, its own last."""
-    text = _text(path)
     try:
+        with path.open("rb") as file:
+            content = file.read(MOST_BYTES + 1)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise StudyError(f"{path}: cannot be read ({reason}); name a study in TOML") from None
+    if len(content) > MOST_BYTES:
+        raise StudyError(f"{path}: larger than {MOST_BYTES >> 20} MiB, too large for a study; name a study in TOML")
+    try:
+        text = content.decode("utf-8-sig")
         data = None if _DOTS.search(text) else tomllib.loads(text)
     except RecursionError:
         data = None
     except ValueError as error:
-        _check_kind(path)
-        raise StudyError(_syntax_sentence(path, text, str(error))) from None
+        raise StudyError(_no_toml(path, content, error)) from None
     if data is None or is_deep(data):
         raise StudyError(f"{path}: not a study, tables or lists are {DEEP}")
     if "include" not in data:
@@ -118,42 +125,23 @@ def included(
     return found | own | {key: {**found[key], **own[key]} for key in tables}, texts
 
 
-def _text(path: Path) -> str:
-    """Read the text of a study file."""
-    try:
-        with path.open("rb") as file:
-            content = file.read(MOST_BYTES + 1)
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise StudyError(f"{path}: cannot be read ({reason}); name a study in TOML") from None
-    if len(content) > MOST_BYTES:
-        raise StudyError(f"{path}: larger than {MOST_BYTES >> 20} MiB, too large for a study; name a study in TOML")
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        _check_kind(path)
-        line = content[: error.start].count(b"\n") + 1
-        raise StudyError(f"{path}:{line}: not text in UTF-8; name a study in TOML, saved as UTF-8") from None
-
-
-def _check_kind(path: Path) -> None:
-    """Say what a file is that is no study, if that can be seen."""
+def _no_toml(path: Path, content: bytes, error: ValueError) -> str:
+    """Say where a file is no TOML, and show the line of what is meant as a study: any other file may hold secrets."""
     kind = kind_of(path)
     if kind and path.suffix.lower() != ".toml":
         remedy = ", which `gradhesion info` and `gradhesion.open` read" if kind.startswith("a dataset") else ""
-        raise StudyError(f"{path}: is {kind}{remedy}, not a study; name a study in TOML") from None
-
-
-def _syntax_sentence(path: Path, text: str, problem: str) -> str:
-    """Say where a text is not TOML, and show the line of what is meant as a study: any other file may hold secrets."""
-    at = _AT.search(problem)
-    if not at:  # Python's own limit on integers
+        return f"{path}: is {kind}{remedy}, not a study; name a study in TOML"
+    if isinstance(error, UnicodeDecodeError):
+        line = content[: error.start].count(b"\n") + 1
+        return f"{path}:{line}: not text in UTF-8; name a study in TOML, saved as UTF-8"
+    problem = str(error)
+    if not (at := _AT.search(problem)):  # Python's own limit on integers
         return f"{path}: not valid TOML, a number of more than 4,300 digits; write it with an exponent, as 1e6"
-    lines = text.rstrip().split("\n")
+    lines = content.decode("utf-8-sig").rstrip().split("\n")
     number = min(int(at[1] or len(lines)), len(lines))
-    line = f" in {shown(lines[number - 1].strip())}" if path.suffix == ".toml" else ""
+    own = f" in {shown(lines[number - 1].strip())}" if path.suffix == ".toml" else ""
     remedy = "fix this line: strings are in quotes, decimals have a point, and each key and table stands once"
-    return f"{path}:{number}: not valid TOML, {problem[: at.start()]}{line}; {remedy}"
+    return f"{path}:{number}: not valid TOML, {problem[: at.start()]}{own}; {remedy}"
 
 
 def _set(data: dict[str, Any], override: str) -> Key:
@@ -164,11 +152,15 @@ def _set(data: dict[str, Any], override: str) -> Key:
         raise ValueError("not of the form KEY=VALUE; write for example --set parameters.A=0.02")
     if steps[0] == "include":
         raise ValueError("a study is included by its file alone; write this at its top")
+    parsed: dict[str, Any] = {}
     if value.endswith(".nc") and '"' not in value:
-        parsed = _fitted(Path(value), steps[-1], "standard_deviation" if steps[0] == "uncertainty" else "value")
-    else:
-        parsed = _parsed(value)
-    if len(steps) > _DEEPEST or is_deep(parsed):
+        parsed["value"] = _fitted(Path(value), steps)
+    with suppress(ValueError, RecursionError):
+        parsed = parsed or tomllib.loads(f"value = {value}")
+    if parsed.keys() != {"value"}:
+        words = "the value is not TOML; put strings in quotes and several values in brackets"
+        raise ValueError(f"""{words}, as in --set 'title="A map"' --set 'parameters.k=[0, 0.5]'""")
+    if len(steps) > _DEEPEST or is_deep(parsed["value"]):
         raise ValueError(DEEP)
     table: Any = data
     for depth, step in enumerate(steps[:-1], 1):
@@ -176,31 +168,18 @@ def _set(data: dict[str, Any], override: str) -> Key:
         if not isinstance(table, dict):
             parent = ".".join(steps[:depth])
             raise ValueError(f"{parent} is not a table; set it as a whole, --set '{parent}=...'")  # noqa: TRY004
-    table[steps[-1]] = parsed
+    table[steps[-1]] = parsed["value"]
     return steps
 
 
-def _parsed(value: str) -> Any:
-    """Parse the value of an override; ValueError where it is no TOML."""
-    try:
-        found = tomllib.loads(f"value = {value}")
-    except (ValueError, RecursionError):
-        found = {}
-    if found.keys() != {"value"}:
-        remedy = "put strings in quotes and several values in brackets"
-        raise ValueError(
-            f"""the value is not TOML; {remedy}, as in --set 'title="A map"' --set 'parameters.k=[0, 0.5]'"""
-        )
-    return found["value"]
-
-
-def _fitted(path: Path, key: str, variable: str) -> float | str:
+def _fitted(path: Path, steps: tuple[str, ...]) -> float | str:
     """Give the value of a fitted key, or its standard deviation, as a study writes it: in its unit if it has one.
 
     ValueError where the file is no fit of one loop, or the fit has no such key, or is flagged.
     """
     import netCDF4  # noqa: PLC0415 (180 ms, which other studies do without)
 
+    key, variable = steps[-1], "standard_deviation" if steps[0] == "uncertainty" else "value"
     try:
         with netCDF4.Dataset(path) as file:
             if not {"value", "parameter_units", "chi_square"} <= file.variables.keys():
@@ -209,28 +188,21 @@ def _fitted(path: Path, key: str, variable: str) -> float | str:
                 one = f"`gradhesion select {path} --at loop=0 -o one.nc`"
                 raise ValueError(f"fits of several loops; take one with {one}")
             names, units = (list(map(str, file[name][:])) for name in ("parameter", "parameter_units"))
-            values, status, converged = (
-                file[variable][:].tolist(),
-                int(file["status"][...]),
-                int(file["converged"][...]),
-            )
+            values, sound = file[variable][:].tolist(), bool(file["converged"][...])
+            sound = sound and not int(file["status"][...]) & (FAILED | POOR_FIT | ANOTHER_MINIMUM)
     except OSError as error:
         what = kind_of(path) or error.strerror or "it cannot be read"
         raise ValueError(f"not the dataset of a fit ({what}); name one, or give a value") from None
     if key not in names:
         raise ValueError(f"the fit has no {key}; {did_you_mean(key, names)}")
-    if status & (FAILED | POOR_FIT | ANOTHER_MINIMUM) or not converged:
+    if not sound:
         raise ValueError("the fit is flagged, as `gradhesion info` reports; give the value as a number if it will do")
     value, unit = values[names.index(key)], units[names.index(key)]
     return value if unit == "1" else f"{value!r} {unit}"
 
 
 def is_deep(data: Any, levels: int = _DEEPEST) -> bool:
-    """Check whether tables and lists are nested more deeply than in any study.
-
-    >>> is_deep({"parameters": {"k": [0.0, 0.5]}}), is_deep(eval(40 * '[' + 40 * ']'))
-    (False, True)
-    """
+    """Check whether tables and lists are nested more deeply than in any study."""
     items = data.values() if isinstance(data, Mapping) else data if isinstance(data, list) else ()
     nested = (item for item in items if isinstance(item, Mapping | list))
     return levels == 0 or any(is_deep(item, levels - 1) for item in nested)

@@ -6,7 +6,7 @@ import tomllib
 from collections.abc import Mapping
 from typing import Any, Final
 
-Path = tuple[str | int, ...]
+Key = tuple[str | int, ...]
 """A key as the steps to it: `("parameters", "k", 3)` is item 3 of `parameters.k`."""
 
 _VALUE: Final = re.compile(r"""(?<==)\s*("[^"\\]*"|'[^']*')""")
@@ -21,32 +21,20 @@ _ENTRY: Final = re.compile(rf"{_KEY}=")
 _STEPS: Final = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
 
 
-def dotted(path: Path) -> str:
-    """Write a path as a message shows it.
-
-    >>> dotted(("parameters", "k", 3))
-    'parameters.k[3]'
-    """
+def dotted(path: Key) -> str:
+    """Write a path as a message shows it."""
     return "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in path).removeprefix(".")
 
 
-def steps_of(path: str) -> Path:
-    """Take a dotted key apart.
-
-    >>> steps_of("parameters.k[3]")
-    ('parameters', 'k', 3)
-    """
+def steps_of(path: str) -> Key:
+    """Take a dotted key apart."""
     return tuple(int(item) if item else name for name, item in _STEPS.findall(path))
 
 
-def lines_of(text: str) -> dict[Path, int]:
-    r"""Find the line (from 1) of each table and key of a valid TOML text; those within a value are at its beginning.
-
-    >>> lines_of("layout = 'grid'\n[parameters]\nk = [\n  0.1,\n  0.2,\n]\nA = 0.3\n")
-    {('layout',): 1, ('parameters',): 2, ('parameters', 'k'): 3, ('parameters', 'A'): 7}
-    """
-    found: dict[Path, int] = {}
-    table: Path = ()
+def lines_of(text: str) -> dict[Key, int]:
+    """Find the line (from 1) of each table and key of a valid TOML text; those within a value are at its beginning."""
+    found: dict[Key, int] = {}
+    table: Key = ()
     depth = 0
     for number, line in enumerate(_VEILED.sub(lambda veiled: "\n" * veiled[0].count("\n"), text).split("\n"), 1):
         header, entry = (_HEADER.match(line), _ENTRY.match(line)) if depth == 0 else (None, None)
@@ -80,15 +68,10 @@ def toml_of(data: Mapping[str, Any]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def with_fingerprints(data: Mapping[str, Any], text: str, files: Mapping[Path, str]) -> str:
-    r"""Write a valid study as TOML with the SHA-256 of each file that it names, in its own text if it has one.
+def with_fingerprints(data: Mapping[str, Any], text: str, files: Mapping[Key, str]) -> str:
+    """Write a valid study as TOML with the SHA-256 of each file that it names, in its own text if it has one.
 
     Each path is that of a key with the name of a file, which becomes a table, or of a table with a key `file`.
-
-    >>> with_fingerprints({"data": {"file": "a.csv"}}, "[data]\nfile = 'a.csv' # x", {("data",): "0a"})
-    '[data]\nfile = \'a.csv\' # x\nsha256 = "0a"'
-    >>> with_fingerprints({"a": {"b": "c.csv"}}, "[a]\nb = 'c.csv' # x", {("a", "b"): "0a"})
-    '[a]\nb = { file = "c.csv", sha256 = "0a" } # x'
     """
     if text and not files:
         return text

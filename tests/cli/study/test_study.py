@@ -12,7 +12,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from gradhesion.cli.study.reading import load_study, study_from
-from gradhesion.cli.study.rules.axes import expanded
+from gradhesion.cli.study.rules.asked import expanded
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.text.written import lines_of
