@@ -13,7 +13,7 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
 from gradhesion.cli.names.symbols import SYMBOLS
 from gradhesion.cli.picture.labels import effective, equations
-from gradhesion.cli.picture.looks import Looks, Span
+from gradhesion.cli.picture.looks import Looks, limits_of
 from gradhesion.core.problem.inputs import INPUTS
 
 PANELS: Final = 3
@@ -133,13 +133,13 @@ def within(dataset: xarray.Dataset, plan: Plan, looks: Looks) -> xarray.Dataset:
     return dataset
 
 
-def _seen(dataset: xarray.Dataset, axis: str, span: Span) -> xarray.Dataset:
+def _seen(dataset: xarray.Dataset, axis: str, span: str) -> xarray.Dataset:
     """Keep what is between the limits of an axis, and one value beyond each, so that lines run to the frame."""
     values = np.asarray(dataset[axis].values, dtype=float)
     finite = np.unique(values[np.isfinite(values)])
     if not span or not finite.size:
         return dataset
-    low, high = span.limits(axis, finite[0], finite[-1], log=is_log(finite))
+    low, high = limits_of(span, axis, finite[0], finite[-1], log=is_log(finite))
     first = finite[max(0, int(np.searchsorted(finite, low, side="right")) - 1)]
     last = finite[min(finite.size - 1, int(np.searchsorted(finite, high)))] if np.isfinite(high) else np.inf
     return dataset.isel({axis: (values >= first) & (values <= last)})

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read.selection import is_log
 from gradhesion.cli.picture.labels import Unit, label, unit_for
-from gradhesion.cli.picture.looks import ALL, Span
+from gradhesion.cli.picture.looks import limits_of
 
 Side = Literal["x", "y"]
 Places = NDArray[np.float64]
@@ -59,10 +59,10 @@ def dress(
         axes.set(**{f"{side}lim": tuple(end if np.isfinite(end) else None for end in limits)})
 
 
-def suit(axes: Axes, side: Side, name: str, span: Span = ALL) -> None:
+def suit(axes: Axes, side: Side, name: str, span: str = "") -> None:
     """Name an axis of a picture after a variable, and let its unit suit the limits: those chosen, if some are."""
     low, high = sorted(getattr(axes, f"get_{side}lim")())
-    limits = span.limits(name, low, high)
+    limits = limits_of(span, name, low, high)
     seen = max(low, limits[0]) if limits[0] > -np.inf else low, min(high, limits[1]) if limits[1] < np.inf else high
     unit = unit_for(name, seen)
     dress(axes, side, unit, seen, limits)
@@ -108,7 +108,7 @@ class Scale:
             axis.set_ticks([*kept, float(self.positions[-1])], [*self.unit.numbers(kept), r"$\infty$"])
 
 
-def scale(values: Places, name: str = "", span: Span = ALL) -> Scale:
+def scale(values: Places, name: str = "", span: str = "") -> Scale:
     """Choose the scale of an axis of a name: logarithmic where its values are nearer to that than to an even spacing.
 
     Its values rise. Of a span of it, ticks and the unit suit what is seen.
@@ -123,7 +123,7 @@ def scale(values: Places, name: str = "", span: Span = ALL) -> Scale:
         beyond = finite[-1] * (finite[-1] / finite[0]) ** (1 / steps)
     elif infinite.any():
         beyond = finite[-1] + ((finite[-1] - finite[0]) / steps or finite[-1])
-    low, high = span.limits(name, log=log)
+    low, high = limits_of(span, name, log=log)
     return Scale(
         name=name,
         positions=np.where(infinite, beyond, values),

@@ -15,10 +15,9 @@ from gradhesion.cli.dataset.read.sensitivities import parameters_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import SI, SPREADS
 from gradhesion.cli.names.symbols import SYMBOLS
-from gradhesion.cli.names.units import unit_of
 from gradhesion.cli.picture.doubts import END, Marks, among, marks_of
 from gradhesion.cli.picture.labels import PLAIN, Unit, label, unit_for
-from gradhesion.cli.picture.looks import Looks, value_in
+from gradhesion.cli.picture.looks import Looks, between, limits_of, value_in
 from gradhesion.cli.picture.plan import Plan
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.answers.flags import FLAGS
@@ -113,7 +112,7 @@ def shown_of(dataset: xarray.Dataset, name: str, plan: Plan, selection: Selectio
     band, band_words = ((), "") if plan.is_map or plan.is_dense else _band_of(dataset, name, plan, selection, looks)
     all_of_it = np.stack([values, *band])
     least, greatest = float(np.nanmin(all_of_it)), float(np.nanmax(all_of_it))
-    limits = (-np.inf, np.inf) if plan.is_map else looks.ylim.limits(shown.name, *padded(least, greatest))
+    limits = (-np.inf, np.inf) if plan.is_map else limits_of(looks.ylim, shown.name, *padded(least, greatest))
     ends = least if np.isinf(limits[0]) else limits[0], greatest if np.isinf(limits[1]) else limits[1]
     log = ends[0] > 0.0 and ends[1] >= (WIDE if plan.is_map else FAR) * ends[0]
     unit = unit_for(shown.name, ends, log=log)
@@ -159,8 +158,8 @@ def levels_of(shown: Shown, looks: Looks) -> tuple[Values, Values, Normalize]:
         listed = np.unique([value_in(word, shown.name, option) for word in looks.levels])
         inner = listed[(listed >= least) & (listed <= greatest)]
         if not inner.size:
-            between = f"{least:.4g} to {greatest:.4g} {unit_of(shown.name)}".removesuffix(" 1")
-            raise DatasetError(f"{option}: none is among the values, which are {between}; choose some between")
+            values = between(least, greatest, shown.name)
+            raise DatasetError(f"{option}: none is among what is drawn, {values}; choose some between")
         levels = np.unique([*listed, least, greatest])
         log = levels[0] > 0.0 and levels[-1] > WIDE * levels[0]
         return levels, inner, (LogNorm if log else Normalize)(levels[0], levels[-1])
