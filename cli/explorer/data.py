@@ -14,8 +14,7 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.plain import plain, symbol, title
 from gradhesion.cli.names.curves import INTEGERS, curve_of
 from gradhesion.cli.names.scenes import SCENE, SOLVER, SOLVERS
-from gradhesion.cli.picture.labels import Unit, unit_for
-from gradhesion.cli.picture.scales import scale
+from gradhesion.cli.picture.labels import Unit, scale, unit_for
 from gradhesion.core import FAILED
 from gradhesion.core.answers.flags import FLAG_WORDS, FLAGS
 from gradhesion.core.problem.inputs import INPUTS

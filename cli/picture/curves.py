@@ -20,10 +20,9 @@ from gradhesion.cli.names.outputs import SI
 from gradhesion.cli.names.scenes import SCENE
 from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.picture.doubts import CROSS, DOUBTS, Doubt, doubts_in, entries
-from gradhesion.cli.picture.labels import equations, fixed, given
+from gradhesion.cli.picture.labels import equations, fixed, given, suit
 from gradhesion.cli.picture.looks import Looks
 from gradhesion.cli.picture.pictured import MARKERS, finish, stacked, styled
-from gradhesion.cli.picture.scales import suit
 from gradhesion.cli.picture.states import draw_states
 from gradhesion.cli.picture.tracks import (
     JUMP,

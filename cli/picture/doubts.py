@@ -1,8 +1,7 @@
 """Scenes whose value is there and may not hold, and how a picture shows them: by hatches in maps, by open markers."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 import xarray
@@ -23,17 +22,13 @@ CROSS: Final = "0.6"
 """The colours of scenes that have no value, in a map and as crosses."""
 
 
-@dataclass(frozen=True)
-class Doubt:
-    """What makes a value doubtful, with its looks."""
+class Doubt(NamedTuple):
+    """What makes a value doubtful: its pattern in a map, and its open marker, of a size that shows inside others."""
 
     words: str
     hatch: str
-    """Its pattern in a map."""
     mark: str
-    """Its open marker in a line or among points."""
     size: float
-    """That of the marker: all can be seen one in the other."""
     bit: int = 0
     """Its flag, if it is one."""
 
@@ -50,11 +45,9 @@ _OF_FLAGS: Final = (
     ("||||", "p", 8.0),
 )
 _OF_LIMITS: Final = (("oo", "P", 6.0), ("OO", "X", 6.0), ("++", "*", 6.0), ("..", "h", 6.0), ("**", "8", 6.0))
-_FLAGS: Final = {name: bit for name, bit in FLAGS.items() if bit & model_range.DOUBTS}
+_FLAGS: Final = {FLAG_WORDS[name]: bit for name, bit in FLAGS.items() if bit & model_range.DOUBTS}
 
-DOUBTS: Final = tuple(
-    Doubt(FLAG_WORDS[name], *look, bit) for (name, bit), look in zip(_FLAGS.items(), _OF_FLAGS, strict=True)
-)
+DOUBTS: Final = [Doubt(words, *look, bit) for (words, bit), look in zip(_FLAGS.items(), _OF_FLAGS, strict=True)]
 """Every flag that makes values doubtful."""
 
 BEYOND: Final = {
@@ -63,10 +56,8 @@ BEYOND: Final = {
 """How scenes are shown that leave the range of the model, by the validity number that says so."""
 
 BOUND: Final = Doubt("optimum at a bound of its range", "//..", ">", 6.0)
-"""How an optimum is shown that would be better beyond a bound of what was searched, perhaps."""
-
 END: Final = Doubt("extreme at an end of its axis: it may lie beyond", "....", "^", 4.5)
-"""How the place of an extreme is shown that is no extreme of a wider axis, perhaps."""
+"""How an optimum, and the place of an extreme, is shown that may be beyond what was searched."""
 
 Marks = list[tuple[Doubt, xarray.DataArray]]
 """Doubts, each with the scenes that have it."""
@@ -88,8 +79,11 @@ def marks_of(dataset: xarray.Dataset, values: xarray.DataArray, status: xarray.D
     found = [(doubt, (status & doubt.bit) != 0) for doubt in there]
     limits = {number: beyond_by(number, dataset) for number in BEYOND if name not in BEYOND or number == name}
     found += [(BEYOND[number], flags) for number, flags in limits.items() if flags is not None]
-    if ON_BOUND in dataset and name.startswith(BEST):
-        found.append((BOUND, _at_bound(dataset[ON_BOUND], name)))
+    if ON_BOUND in dataset and name.startswith(BEST):  # of a parameter that was searched its own, else any
+        meanings = str(dataset[ON_BOUND].attrs["flag_meanings"]).split()
+        own = [one for one in meanings if one.startswith(f"{name.removeprefix(BEST)}_at_its_")] or meanings
+        bits = sum(1 << meanings.index(one) for one in own)
+        found.append((BOUND, (dataset[ON_BOUND].astype(int) & bits) != 0))
     return [(doubt, own) for doubt, flags in found if bool((own := among(flags, values)).any())]
 
 
@@ -99,24 +93,12 @@ def among(flags: xarray.DataArray, values: xarray.DataArray) -> xarray.DataArray
     return (flags.drop_vars([*flags.coords]) & values.notnull()).transpose(*values.dims)
 
 
-def _at_bound(flags: xarray.DataArray, name: str) -> xarray.DataArray:
-    """Report which scenes have an optimum at a bound: of a parameter that was searched at its own, else at any."""
-    meanings = str(flags.attrs["flag_meanings"]).split()
-    own = [one for one in meanings if one.startswith(f"{name.removeprefix(BEST)}_at_its_")] or meanings
-    return (flags.astype(int) & sum(1 << meanings.index(one) for one in own)) != 0
-
-
 def entries(doubts: Sequence[Doubt], *, in_map: bool = False, gaps: bool = False) -> list[Patch | Line2D]:
     """Make the entries of a legend: the doubts, and scenes without a value if there are such gaps."""
-    hatched: dict[str, Any] = {"facecolor": "none", "edgecolor": INK, "lw": 0.0}
-    made: list[Patch | Line2D] = [
-        Patch(hatch=doubt.hatch, label=doubt.words, **hatched)
-        if in_map
-        else Line2D([], [], label=doubt.words, **doubt.marker(INK))
-        for doubt in doubts
-    ]
-    if gaps:
-        words = "no finite value"
-        cross = Line2D([], [], ls="", marker="x", ms=4, mec=CROSS, label=words)
-        made.append(Patch(facecolor=GREY, label=words) if in_map else cross)
-    return made
+    words = "no finite value"
+    if in_map:
+        hatched: dict[str, Any] = {"facecolor": "none", "edgecolor": INK, "lw": 0.0}
+        patches = [Patch(hatch=doubt.hatch, label=doubt.words, **hatched) for doubt in doubts]
+        return [*patches, *([Patch(facecolor=GREY, label=words)] if gaps else [])]
+    marks = [Line2D([], [], label=doubt.words, **doubt.marker(INK)) for doubt in doubts]
+    return [*marks, *([Line2D([], [], ls="", marker="x", ms=4, mec=CROSS, label=words)] if gaps else [])]

@@ -15,10 +15,9 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.fits import LOOP
 from gradhesion.cli.names.outputs import PARAMETER
 from gradhesion.cli.names.symbols import SYMBOLS
-from gradhesion.cli.picture.labels import Unit, number, unit_for
+from gradhesion.cli.picture.labels import Unit, number, suit, unit_for
 from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.pictured import finish, styled
-from gradhesion.cli.picture.scales import suit
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.messages import printable
 from gradhesion.core.answers.profile_fit import FittedProfile

@@ -104,7 +104,8 @@ def limits_of(
     if log and (high <= 0.0 or -math.inf < low <= 0.0):
         raise DatasetError(f"{span}: the axis is logarithmic; choose limits above 0")
     if low >= greatest or high <= least:
-        raise DatasetError(f"{span}: outside what is drawn, {between(least, greatest, name)}; choose limits that meet it")
+        drawn = between(least, greatest, name)
+        raise DatasetError(f"{span}: outside what is drawn, {drawn}; choose limits that meet it")
     return low, high
 
 

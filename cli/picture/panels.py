@@ -11,11 +11,10 @@ from matplotlib.contour import QuadContourSet
 from matplotlib.path import Path
 
 from gradhesion.cli.picture.doubts import CROSS, GREY, INK
-from gradhesion.cli.picture.labels import equations
+from gradhesion.cli.picture.labels import Scale, dress, equations
 from gradhesion.cli.picture.looks import Looks
 from gradhesion.cli.picture.plan import Plan
-from gradhesion.cli.picture.scales import Scale, dress
-from gradhesion.cli.picture.shown import Shown, Values, levels_of, padded
+from gradhesion.cli.picture.shown import Shown, Values, padded
 
 DASHES: Final[tuple[Any, ...]] = ("-", "--", "-.", ":", (0, (8, 4)), (0, (6, 1.5, 1, 1.5, 1, 1.5)))
 """What distinguishes lines where colours do not print; the gaps of those on top show what is below."""
@@ -48,8 +47,8 @@ def draw_map(axes: Axes, shown: Shown, x: Scale, y: Scale, looks: Looks) -> tupl
         colours = looks.colours.resampled(len(shown.names))
         looks_of_cells: Any = {"cmap": colours, "vmin": -0.5, "vmax": len(shown.names) - 0.5, "edgecolors": "face"}
         filled = axes.pcolormesh(x.edges(), y.edges(), values, **looks_of_cells)
-    elif np.isfinite(values).any():
-        levels, inner, norm = levels_of(shown, looks)
+    elif shown.levels and np.isfinite(values).any():
+        levels, inner, norm = shown.levels
         filled = axes.contourf(x.positions, y.positions, values, levels=levels, norm=norm, cmap=looks.colours)
         filled.set_edgecolor("face")  # no white seams between the bands
         if inner.size:

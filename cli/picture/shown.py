@@ -1,8 +1,8 @@
 """What is drawn of one variable: its values with their doubts and their spread, and between which levels."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import xarray
@@ -16,13 +16,15 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import SI, SPREADS
 from gradhesion.cli.names.symbols import SYMBOLS
 from gradhesion.cli.picture.doubts import END, Marks, among, marks_of
-from gradhesion.cli.picture.labels import PLAIN, Unit, label, unit_for
+from gradhesion.cli.picture.labels import Unit, label, unit_for
 from gradhesion.cli.picture.looks import Looks, between, limits_of, value_in
 from gradhesion.cli.picture.plan import Plan
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.answers.flags import FLAGS
 
 Values = NDArray[np.float64]
+Levels = tuple[Values, Values, Normalize]
+"""All levels of a map, those that have lines, and what gives their colours."""
 
 FAR: Final = 50.0
 WIDE: Final = 8.0
@@ -50,36 +52,33 @@ _STEPS: Final = (
 class Shown:
     """What is drawn of a variable, over rows and columns of panels and their two sides, as far as there are such."""
 
-    name: str
-    """That of the variable whose unit the values have."""
     values: xarray.DataArray
     """NaN where there is none; of categories their places among the names."""
     marks: Marks
     label: str
-    unit: Unit = PLAIN
-    names: tuple[str, ...] = ()
-    """What the places 0, 1, 2, ... of categories stand for."""
+    caption: Sequence[str]
+    """What is to be known of the values."""
+    gaps: bool
+    """Whether a scene has no value."""
+    names: Sequence[str] = ()
+    """What the places 0, 1, 2, ... of categories stand for; what follows is of values that are none."""
+    unit: Unit | None = None
     ends: tuple[float, float] = (0.0, 1.0)
     """The least and the greatest value."""
     limits: tuple[float, float] = (-np.inf, np.inf)
     """Between which values lines and points are drawn; all of them where they are infinite."""
     log: bool = False
     """Whether they are drawn over a logarithm."""
-    band: tuple[xarray.DataArray, ...] = ()
+    levels: Levels | None = None
+    """Those of a map."""
+    band: Sequence[xarray.DataArray] = ()
     """The lower and the upper edge of a band, if there is one."""
     band_words: str = ""
-    gaps: bool = False
-    """Whether a scene has no value."""
-    whole: bool = False
-    """Whether they are counts."""
-    caption: tuple[str, ...] = ()
-    """What is to be known of the values."""
 
     def at(self, place: Mapping[str, int]) -> "Shown":
         """Take what is in one panel."""
         marks = [(doubt, flags.isel(place)) for doubt, flags in self.marks]
-        band = tuple(edge.isel(place) for edge in self.band)
-        return replace(self, values=self.values.isel(place), marks=marks, band=band)
+        return replace(self, values=self.values.isel(place), marks=marks, band=[one.isel(place) for one in self.band])
 
 
 def shown_of(dataset: xarray.Dataset, name: str, plan: Plan, selection: Selection, looks: Looks) -> Shown:
@@ -87,39 +86,38 @@ def shown_of(dataset: xarray.Dataset, name: str, plan: Plan, selection: Selectio
     taken = selection.taken(dataset[name], dataset["status"])
     values = _over(taken.values, plan)
     values = values.where(np.isfinite(values))
-    finite = values.values[np.isfinite(values.values)]
+    there = int(values.notnull().sum())
     axis, how = next(((axis, how) for axis, how in selection.over.items() if how.startswith("arg")), ("", ""))
-    if not finite.size:
-        equal = f"its values along {axis} are equal, so that no place is that of {how}; draw them instead"
-        none = "no value in any scene drawn; `gradhesion info` reports why"
-        raise DatasetError(f"{name}: {equal if taken.flat and axis else none}")
+    if not there:
+        equal = f", or values that are equal along {axis}, so that no place is that of {how}" if axis else ""
+        raise DatasetError(f"{name}: no value in any scene drawn{equal}; `gradhesion info` reports why")
     marks = marks_of(dataset, values, _over(taken.status, plan), name)
     if taken.at_end is not None and bool(taken.at_end.any()):
         marks.append((END, among(taken.at_end, values)))
-    notes = {f"{counted(taken.left_out, 'failed scene')} left out": taken.left_out}
-    notes[f"{taken.flat:,} left out where all values are equal"] = taken.flat
-    shown = Shown(
-        name=axis or name,
-        values=values,
-        marks=marks,
-        label=label(name),
-        gaps=finite.size + taken.flat < values.size,
-        whole=dataset[name].dtype.kind == "i" and bool((finite == np.round(finite)).all()),
-        caption=tuple(note for note, number in notes.items() if number),
-    )
+    caption = [f"{counted(taken.left_out, 'failed scene')} left out"] if taken.left_out else []
+    caption += [f"{taken.flat:,} left out where all values are equal"] if taken.flat else []
+    own: dict[str, Any] = {"marks": marks, "caption": caption, "gaps": there + taken.flat < values.size}
     if name == "status" or parameters_of(dataset[name]):
-        return _categories(shown, dataset[name], finite, plan, looks)
+        if not plan.is_map:
+            looks.refuse(["ylim"], f"{name} is drawn as categories")
+        places, names = _categories(values, parameters_of(dataset[name]))
+        return Shown(values=places, names=names, label=label(name), **own)
     band, band_words = ((), "") if plan.is_map or plan.is_dense else _band_of(dataset, name, plan, selection, looks)
     all_of_it = np.stack([values, *band])
     least, greatest = float(np.nanmin(all_of_it)), float(np.nanmax(all_of_it))
-    limits = (-np.inf, np.inf) if plan.is_map else limits_of(looks.ylim, shown.name, *padded(least, greatest))
+    unit_from = axis or name
+    limits = (-np.inf, np.inf) if plan.is_map else limits_of(looks.ylim, unit_from, *padded(least, greatest))
     ends = least if np.isinf(limits[0]) else limits[0], greatest if np.isinf(limits[1]) else limits[1]
     log = ends[0] > 0.0 and ends[1] >= (WIDE if plan.is_map else FAR) * ends[0]
-    unit = unit_for(shown.name, ends, log=log)
-    words = label(shown.name, unit)
+    unit = unit_for(unit_from, ends, log=log)
+    words = label(unit_from, unit)
     if axis:
         words += f" at {'maximum' if how == 'argmax' else 'minimum'} {SYMBOLS[name].split(' $')[0]}"
-    return replace(shown, label=words, unit=unit, ends=ends, limits=limits, log=log, band=band, band_words=band_words)
+    if plan.is_map:
+        whole = dataset[name].dtype.kind == "i" and bool((values.fillna(0.0) % 1.0 == 0.0).all())
+        own["levels"] = _levels_of(unit_from, ends, looks, log=log, whole=whole)
+    own |= {"ends": ends, "limits": limits, "log": log, "band": band, "band_words": band_words}
+    return Shown(values=values, label=words, unit=unit, **own)
 
 
 def _over(values: xarray.DataArray, plan: Plan) -> xarray.DataArray:
@@ -128,15 +126,12 @@ def _over(values: xarray.DataArray, plan: Plan) -> xarray.DataArray:
     return values.squeeze([axis for axis in values.dims if axis not in places]).transpose(*places)
 
 
-def _categories(shown: Shown, variable: xarray.DataArray, finite: Values, plan: Plan, looks: Looks) -> Shown:
-    """Give the strongest of some parameters, or sets of flags, places with names."""
-    if not plan.is_map:
-        looks.refuse(["ylim"], f"{variable.name} is drawn as categories")
-    codes, labels = np.unique(finite).astype(int), parameters_of(variable)
-    places = shown.values.copy(data=np.searchsorted(codes, shown.values.values)).where(shown.values.notnull())
-    flags = [[name.replace("_", " ") for name, bit in FLAGS.items() if code & bit] for code in codes]
-    names = [SYMBOLS[labels[code]] for code in codes] if labels else ["\n+ ".join(own) for own in flags]
-    return replace(shown, values=places, names=tuple(name or "nothing to report" for name in names))
+def _categories(values: xarray.DataArray, labels: Sequence[str]) -> tuple[xarray.DataArray, list[str]]:
+    """Give places and names to the strongest of some parameters, or without any, to sets of flags."""
+    codes = np.unique(values.values[values.notnull()]).astype(int)
+    flags = ["\n+ ".join(name.replace("_", " ") for name, bit in FLAGS.items() if code & bit) for code in codes]
+    names = [SYMBOLS[labels[code]] for code in codes] if labels else [own or "nothing to report" for own in flags]
+    return values.copy(data=np.searchsorted(codes, values.values)).where(values.notnull()), names
 
 
 def padded(least: float, greatest: float) -> tuple[float, float]:
@@ -147,35 +142,35 @@ def padded(least: float, greatest: float) -> tuple[float, float]:
     return least - pad, greatest + pad
 
 
-def levels_of(shown: Shown, looks: Looks) -> tuple[Values, Values, Normalize]:
+def _levels_of(name: str, ends: tuple[float, float], looks: Looks, *, log: bool, whole: bool) -> Levels:
     """Choose round contour levels, rising by ratios where values differ much, those that have lines, and their colours.
 
     Those that are listed are taken as they are, with the ends of the values beyond them.
     """
-    least, greatest = padded(*shown.ends)
+    least, greatest = padded(*ends)
     if isinstance(looks.levels, tuple):
         option = f"--levels {','.join(looks.levels)}"
-        listed = np.unique([value_in(word, shown.name, option) for word in looks.levels])
+        listed = np.unique([value_in(word, name, option) for word in looks.levels])
         inner = listed[(listed >= least) & (listed <= greatest)]
         if not inner.size:
-            values = between(least, greatest, shown.name)
-            raise DatasetError(f"{option}: none is among what is drawn, {values}; choose some between")
+            drawn = between(least, greatest, name)
+            raise DatasetError(f"{option}: none is among what is drawn, {drawn}; choose some between")
         levels = np.unique([*listed, least, greatest])
         log = levels[0] > 0.0 and levels[-1] > WIDE * levels[0]
         return levels, inner, (LogNorm if log else Normalize)(levels[0], levels[-1])
-    if shown.log:
+    if log:
         steps = next(steps for most, steps in _STEPS if greatest < most * least)
         decades = 10.0 ** np.arange(np.floor(np.log10(least)), np.ceil(np.log10(greatest)) + 1.0)
         rising = np.outer(decades, steps).ravel()
     else:
-        finest = MaxNLocator(looks.levels or 11, steps=[1, 2, 2.5, 5, 10], integer=shown.whole)
+        finest = MaxNLocator(looks.levels or 11, steps=[1, 2, 2.5, 5, 10], integer=whole)
         rising = np.asarray(finest.tick_values(least, greatest))
     first = max(0, int(np.searchsorted(rising, least, side="right")) - 1)
     levels = rising[first : int(np.searchsorted(rising, greatest)) + 1]
     if looks.levels and levels.size > looks.levels + 1:  # ratios have steps of their own
         levels = levels[np.unique(np.linspace(0, levels.size - 1, looks.levels + 1).round().astype(int))]
     inner = levels[1:-1][1::2] if levels.size > 7 else levels[1:-1]  # the others show as edges of the bands
-    return levels, inner, (LogNorm if shown.log else Normalize)(levels[0], levels[-1])
+    return levels, inner, (LogNorm if log else Normalize)(levels[0], levels[-1])
 
 
 def _band_of(

@@ -13,10 +13,9 @@ from gradhesion.cli.dataset.read.model_range import slope_warnings
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.curves import STATE
 from gradhesion.cli.names.outputs import SI
-from gradhesion.cli.picture.labels import fixed, number
+from gradhesion.cli.picture.labels import fixed, number, suit
 from gradhesion.cli.picture.looks import Looks
 from gradhesion.cli.picture.pictured import finish, finite, stacked, styled
-from gradhesion.cli.picture.scales import suit
 
 PANELS: Final = {"pressure": ("pressure_radius", "pressure"), "surface": ("surface_radius", "surface_displacement")}
 """What each curve has along and up."""

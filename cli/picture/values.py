@@ -19,12 +19,11 @@ from gradhesion.cli.dataset.read.sensitivities import parts_of, spread, with_inf
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import BEST, ON_BOUND, PARETO_POINT, SI
 from gradhesion.cli.picture.doubts import INK, entries
-from gradhesion.cli.picture.labels import PLAIN, effective, equations
+from gradhesion.cli.picture.labels import Scale, Unit, effective, equations, locator, numbers, scale, suit
 from gradhesion.cli.picture.looks import Looks
 from gradhesion.cli.picture.panels import FEW, LIGHT, MARKS, draw_density, draw_lines, draw_map, number_contours
 from gradhesion.cli.picture.pictured import MARKERS, finish, stacked, styled
 from gradhesion.cli.picture.plan import Plan, caption_of, planned, some_of, within
-from gradhesion.cli.picture.scales import Numbers, Scale, locator, scale, suit
 from gradhesion.cli.picture.shown import Shown, shown_of
 from gradhesion.cli.terminal.wording import did_you_mean
 from gradhesion.core.problem.inputs import INPUTS
@@ -178,7 +177,7 @@ def _add_bar(figure: Figure, panels: Any, coloured: Sequence[Any], shown: Shown,
             cells.set_norm(LogNorm(1.0, greatest))
         bar.set_label("scenes in a cell")
         bar.locator = locator(1.0, greatest, log=True)
-        bar.formatter = Numbers(PLAIN)
+        bar.formatter = numbers(Unit())
 
 
 def _entries(shown: Sequence[Shown], lines: Sequence[Artist], plan: Plan, size: int) -> list[Artist]:
