@@ -1,7 +1,6 @@
 """The panels of a picture of values: a map, lines, points or their density, each drawn into axes that are given."""
 
 import itertools
-from collections.abc import Iterator, Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -9,9 +8,10 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.contour import QuadContourSet
 from matplotlib.path import Path
+from scipy.spatial import KDTree
 
 from gradhesion.cli.picture.doubts import CROSS, GREY, INK
-from gradhesion.cli.picture.labels import Scale, dress, equations
+from gradhesion.cli.picture.labels import Scale, Unit, dress, equations
 from gradhesion.cli.picture.looks import Looks
 from gradhesion.cli.picture.plan import Plan
 from gradhesion.cli.picture.shown import Shown, Values, padded
@@ -44,9 +44,8 @@ def draw_map(axes: Axes, shown: Shown, x: Scale, y: Scale, looks: Looks) -> tupl
     values = shown.values.values.astype(float)
     axes.set_facecolor(GREY)
     if shown.names:
-        colours = looks.colours.resampled(len(shown.names))
-        looks_of_cells: Any = {"cmap": colours, "vmin": -0.5, "vmax": len(shown.names) - 0.5, "edgecolors": "face"}
-        filled = axes.pcolormesh(x.edges(), y.edges(), values, **looks_of_cells)
+        own: Any = {"cmap": looks.colours.resampled(len(shown.names)), "vmin": -0.5, "vmax": len(shown.names) - 0.5}
+        filled = axes.pcolormesh(x.edges(), y.edges(), values, edgecolors="face", **own)
     elif shown.levels and np.isfinite(values).any():
         levels, inner, norm = shown.levels
         filled = axes.contourf(x.positions, y.positions, values, levels=levels, norm=norm, cmap=looks.colours)
@@ -62,8 +61,9 @@ def draw_map(axes: Axes, shown: Shown, x: Scale, y: Scale, looks: Looks) -> tupl
 
 def _hatch(axes: Axes, shown: Shown, x: Scale, y: Scale, dark: Any) -> None:
     """Hatch what is in doubt, in white where the colours are dark, and draw a line around it."""
+    gaps = shown.values.isnull().values
     for doubt, marked in shown.marks:
-        flags, gaps = marked.values, shown.values.isnull().values
+        flags = marked.values
         for shade, part in (("white", flags & dark), (INK, flags & ~dark)):
             if part.any():
                 own = np.where(gaps, np.nan, part)
@@ -79,8 +79,8 @@ def _lightness(colours: Any) -> Any:
     return np.asarray(colours)[..., :3] @ (0.299, 0.587, 0.114)
 
 
-def number_contours(lines: QuadContourSet, shown: Shown) -> None:
-    """Put a number on each line, on the longest piece that has room for it; the layout must stand.
+def number_contours(lines: QuadContourSet, unit: Unit) -> None:
+    """Put a number on each line, on the longest piece that has room for it, near its middle; the layout must stand.
 
     On a steep flank, where lines crowd, there is none: it would hide the lines beside.
     """
@@ -91,28 +91,18 @@ def number_contours(lines: QuadContourSet, shown: Shown) -> None:
     ]
     taken: list[Any] = []
     for i, own in enumerate(pieces):
-        others = np.vstack([np.empty((0, 2)), *itertools.chain(*pieces[:i], *pieces[i + 1 :])])
-        for place in _middles(own, 0.5 * inch):
-            inside = all(frame.contains(*(place + side * 0.125 * inch)) for side in (-1.0, 1.0))
-            if inside and _clear(place, taken, 0.4 * inch) and _clear(place, others, 0.1 * inch):
-                taken.append(place)
+        others = KDTree(np.vstack([np.empty((0, 2)), *itertools.chain(*pieces[:i], *pieces[i + 1 :])]))
+        numbers = KDTree(np.reshape(taken, (-1, 2)))
+        for piece in sorted(own, key=lambda piece: -np.ptp(piece, axis=0).max()):
+            inside = np.minimum(piece - frame.min, frame.max - piece).min(axis=1) / 0.125
+            room = np.min([inside, others.query(piece)[0] / 0.1, numbers.query(piece)[0] / 0.4], axis=0)
+            free = np.flatnonzero(room > inch)
+            if free.size and np.ptp(piece, axis=0).max() > 0.5 * inch:
+                taken.append(piece[free[np.argmin(np.abs(free - len(piece) // 2))]])
                 break
     if taken:
         places = transform.inverted().transform(taken).tolist()
-        lines.clabel(manual=places, fmt=shown.unit.number, fontsize="x-small", inline_spacing=2)
-
-
-def _middles(pieces: Sequence[Any], least: float) -> Iterator[Any]:
-    """Give places along pieces of a line that extend to `least`: the longest first, and of each the middle first."""
-    extents = [float(np.ptp(piece, axis=0).max()) for piece in pieces]
-    for i in np.argsort(extents)[::-1]:
-        if extents[i] >= least:
-            yield from (pieces[i][int(share * (len(pieces[i]) - 1))] for share in (0.5, 0.35, 0.65, 0.2, 0.8))
-
-
-def _clear(place: Any, others: Any, distance: float) -> bool:
-    """Report whether a place is farther from all others than a distance."""
-    return bool(np.hypot(*(np.reshape(others, (-1, 2)) - place).T).min(initial=np.inf) > distance)
+        lines.clabel(manual=places, fmt=unit.number, fontsize="x-small", inline_spacing=2)
 
 
 def draw_lines(axes: Axes, shown: Shown, x: Scale, plan: Plan, looks: Looks) -> None:
@@ -163,10 +153,9 @@ def _draw_band(axes: Axes, x: Scale, low: Values, high: Values, colour: Any, *, 
 
 def draw_density(axes: Axes, shown: Shown, x: Scale, looks: Looks) -> PolyCollection:
     """Colour each cell of a panel by the number of points in it; empty cells stay white."""
-    values = shown.values.values.astype(float)
-    there = ~np.isnan(values)
+    there = shown.values.notnull().values
     scales: Any = {"xscale": "log" if x.log else "linear", "yscale": "log" if shown.log else "linear"}
-    places = x.positions[there], values[there]
+    places = x.positions[there], shown.values.values[there].astype(float)
     cells = axes.hexbin(*places, gridsize=(60, 34), mincnt=1, cmap=looks.colours, linewidths=0.1, **scales)
     _dress(axes, shown, x)
     axes.grid(visible=False)
@@ -177,10 +166,10 @@ def _dress(axes: Axes, shown: Shown, x: Scale) -> None:
     """Give a panel of lines or points its scales, or the names of categories."""
     x.dress(axes, "x")
     axes.grid(color="0.9", lw=0.5)
-    if shown.names:
-        axes.set_ylim(-0.5, len(shown.names) - 0.5)
-        axes.set_yticks(range(len(shown.names)), shown.names, fontsize="small")
-    else:
+    if shown.unit:
         flat = padded(*shown.ends) != shown.ends
         limits = padded(*shown.ends) if flat and not np.isfinite(shown.limits).any() else shown.limits
         dress(axes, "y", shown.unit, shown.ends, limits, log=shown.log)
+    else:
+        axes.set_ylim(-0.5, len(shown.names) - 0.5)
+        axes.set_yticks(range(len(shown.names)), shown.names, fontsize="small")

@@ -79,7 +79,7 @@ def drawn(
             laid_out=bool(numbered),
         )
         for lines, one in numbered:
-            number_contours(lines, one)
+            number_contours(lines, one.unit or Unit())
     return figure
 
 
