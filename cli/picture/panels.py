@@ -8,7 +8,6 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.contour import QuadContourSet
 from matplotlib.path import Path
-from scipy.spatial import KDTree
 
 from gradhesion.cli.picture.doubts import CROSS, GREY, INK
 from gradhesion.cli.picture.labels import Scale, Unit, dress, equations
@@ -91,18 +90,22 @@ def number_contours(lines: QuadContourSet, unit: Unit) -> None:
     ]
     taken: list[Any] = []
     for i, own in enumerate(pieces):
-        others = KDTree(np.vstack([np.empty((0, 2)), *itertools.chain(*pieces[:i], *pieces[i + 1 :])]))
-        numbers = KDTree(np.reshape(taken, (-1, 2)))
+        others = np.vstack([np.empty((0, 2)), *itertools.chain(*pieces[:i], *pieces[i + 1 :])])
         for piece in sorted(own, key=lambda piece: -np.ptp(piece, axis=0).max()):
-            inside = np.minimum(piece - frame.min, frame.max - piece).min(axis=1) / 0.125
-            room = np.min([inside, others.query(piece)[0] / 0.1, numbers.query(piece)[0] / 0.4], axis=0)
-            free = np.flatnonzero(room > inch)
-            if free.size and np.ptp(piece, axis=0).max() > 0.5 * inch:
-                taken.append(piece[free[np.argmin(np.abs(free - len(piece) // 2))]])
+            places = piece[[int(share * (len(piece) - 1)) for share in (0.5, 0.35, 0.65, 0.2, 0.8)]]
+            inside = np.minimum(places - frame.min, frame.max - places).min(axis=1)
+            room = np.min([inside / 0.125, _apart(places, others) / 0.1, _apart(places, taken) / 0.4], axis=0)
+            if np.ptp(piece, axis=0).max() >= 0.5 * inch and room.max() > inch:
+                taken.append(places[np.argmax(room > inch)])
                 break
     if taken:
         places = transform.inverted().transform(taken).tolist()
         lines.clabel(manual=places, fmt=unit.number, fontsize="x-small", inline_spacing=2)
+
+
+def _apart(places: Values, others: Any) -> Values:
+    """Give the distance of each place from the nearest of others."""
+    return np.hypot(*(np.reshape(others, (-1, 1, 2)) - places).T).min(axis=1, initial=np.inf)
 
 
 def draw_lines(axes: Axes, shown: Shown, x: Scale, plan: Plan, looks: Looks) -> None:
