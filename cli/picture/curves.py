@@ -133,7 +133,7 @@ def drawn_curves(
             _draw_panel(axes, plane, tracks, scenes, points, looks)
         used = [track for track in known if any(track in tracks for tracks in panels.values())]
         handles = [*_handles(scenes, used, looks), *([Line2D([], [], **points.looks)] if points else [])]
-        finish(figure, looks, dataset=dataset, caption=caption, entries=handles, size=size, rows=below, panels=grid)
+        finish(figure, dataset, looks, grid, caption, handles, size=size, rows=below)
     return figure
 
 

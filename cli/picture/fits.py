@@ -90,7 +90,7 @@ def _draw_fit(dataset: xarray.Dataset, looks: Looks) -> Figure:
         top.set(xlabel="", ylabel=top.get_ylabel().replace(" $P$", ""))
         top.legend()
         bottom.axhline(0.0, color="0.3", lw=0.6)
-        finish(figure, looks, dataset=dataset, caption=_found(dataset), size=(4.8, 4.4), panels=[top, bottom])
+        finish(figure, dataset, looks, [top, bottom], _found(dataset), size=(4.8, 4.4))
     return figure
 
 
@@ -167,8 +167,7 @@ def _draw_loops(dataset: xarray.Dataset, looks: Looks) -> Figure:
         caption = [counted(sound.size, "loop"), "bars: 95 % intervals" if few else "dashed: median"]
         caption += [f"red: {counted(poor, 'fit')} in doubt"] if poor else []
         caption += [f"{counted(missing, 'loop')} without a fit"] if missing else []
-        size = (2.6 * across + 1.0, 2.2 * down)
-        finish(figure, looks, dataset=dataset, caption=caption, size=size, rows=down, panels=panels)
+        finish(figure, dataset, looks, panels, caption, size=(2.6 * across + 1.0, 2.2 * down), rows=down)
     return figure
 
 

@@ -56,14 +56,14 @@ def stacked(count: int, narrow: float, looks: Looks) -> int:
 
 def finish(
     figure: Figure,
-    looks: Looks,
-    *,
     dataset: xarray.Dataset,
-    caption: Iterable[str],
+    looks: Looks,
     panels: Iterable[Axes],
+    caption: Iterable[str],
+    entries: Sequence[Artist] = (),
+    *,
     size: tuple[float, float],
     rows: int = 1,
-    entries: Sequence[Artist] = (),
     laid_out: bool = False,
 ) -> None:
     """Size a picture, and put the words around its panels: title and caption above, a legend below.

@@ -42,10 +42,9 @@ def draw_states(dataset: xarray.Dataset, chosen: Sequence[str], looks: Looks) ->
         for axes, (x, y) in zip(grid, panels, strict=True):
             si = SI if x + SI in scene and y + SI in scene else ""
             _draw(axes, scene, x + si, y + si, "surface_gap" + si, looks)
-        caption = [*fixed(dataset), *slope_warnings(dataset)]
-        entries = grid[-1].get_legend_handles_labels()[0]
+        caption, (handles, _) = [*fixed(dataset), *slope_warnings(dataset)], grid[-1].get_legend_handles_labels()
         size = looks.width or 4.0 * len(panels), 2.5 * below + 0.2
-        finish(figure, looks, dataset=dataset, caption=caption, entries=entries, size=size, rows=below, panels=grid)
+        finish(figure, dataset, looks, grid, caption, handles, size=size, rows=below)
     return figure
 
 

@@ -53,33 +53,27 @@ def drawn(
     width, height = (2.1, 1.8) if columns > 1 else (3.6, 2.9)
     room = 2.2 if any(one.names for one in shown) else 1.2
     size = beside * (width * columns + room), below * (height * rows + 0.6)
-    words = [*caption_of(part, narrow, plan, selection), *(words for one in shown for words in one.caption)]
+    caption = dict.fromkeys(
+        [*caption_of(part, narrow, plan, selection), *(note for one in shown for note in one.caption)]
+    )
     with styled(looks):
         figure = Figure(layout="constrained")
         grid = figure.subplots(rows * below, columns * beside, squeeze=False)
         parts = [half for band in np.split(grid, below) for half in np.split(band, beside, axis=1)]
         for axes in [axes for empty in parts[len(names) :] for axes in empty.flat]:
             axes.remove()
-        numbered: list[tuple[QuadContourSet, Shown]] = []
+        numbered: list[tuple[QuadContourSet, Unit]] = []
         for one, panels in zip(shown, parts, strict=False):
-            coloured, contours = _draw(panels, one, along, up, plan, looks)
-            numbered += [(lines, one) for lines in contours if looks.labels]
-            if coloured:
+            found = _draw(panels, one, along, up, plan, looks)
+            numbered += [(lines, one.unit) for _, lines in found if lines and one.unit and looks.labels]
+            if coloured := [filled for filled, _ in found if filled]:
                 numbers = int((looks.height or size[1]) / below / 0.2)
                 _add_bar(figure, panels, coloured, one, looks.clabel, numbers)
-        finish(
-            figure,
-            looks,
-            dataset=dataset,
-            caption=dict.fromkeys(words),
-            entries=_entries(shown, grid[0, 0].get_legend_handles_labels()[0], plan, along.positions.size),
-            size=size,
-            rows=len(grid),
-            panels=[axes for panels in parts[: len(names)] for axes in panels.flat],
-            laid_out=bool(numbered),
-        )
-        for lines, one in numbered:
-            number_contours(lines, one.unit or Unit())
+        used = [axes for panels in parts[: len(names)] for axes in panels.flat]
+        handles = _entries(shown, grid[0, 0].get_legend_handles_labels()[0], plan, along.positions.size)
+        finish(figure, dataset, looks, used, caption, handles, size=size, rows=len(grid), laid_out=bool(numbered))
+        for lines, unit in numbered:
+            number_contours(lines, unit)
     return figure
 
 
@@ -126,9 +120,9 @@ def _beside(count: int, columns: int, looks: Looks) -> int:
 
 def _draw(
     panels: Any, shown: Shown, x: Scale, y: Scale | None, plan: Plan, looks: Looks
-) -> tuple[list[Any], list[QuadContourSet]]:
-    """Draw a variable into its panels; what has its colours is returned, for a bar, and contours, for their numbers."""
-    coloured, contours = [], []
+) -> list[tuple[Any, QuadContourSet | None]]:
+    """Draw a variable into its panels; of each what has colours is returned, for a bar, and contours, for numbers."""
+    drawn: list[tuple[Any, QuadContourSet | None]] = []
     titles = {axis: equations(axis, shown.values[axis].values) for axis in (plan.columns, plan.rows) if axis}
     up = shown.label.replace(" $", "\n$", 1) if len(panels) > 1 else shown.label  # a row may be lower than it is long
     narrow = (looks.width or np.inf) < NARROW * panels.shape[1]
@@ -138,11 +132,9 @@ def _draw(
             axes.sharey(panels[0, 0])
         one = shown.at({axis: item for axis, item in ((plan.rows, i), (plan.columns, j)) if axis})
         if y:
-            filled, lines = draw_map(axes, one, x, y, looks)
-            coloured += [filled] if filled else []
-            contours += [lines] if lines else []
+            drawn.append(draw_map(axes, one, x, y, looks))
         elif plan.is_dense and not shown.names:
-            coloured.append(draw_density(axes, one, x, looks))
+            drawn.append((draw_density(axes, one, x, looks), None))
         else:
             draw_lines(axes, one, x, plan, looks)
         last, first = i == len(panels) - 1, j == 0
@@ -155,7 +147,7 @@ def _draw(
             axes.set_title(titles[plan.columns][j])
         if plan.rows and j == panels.shape[1] - 1:
             axes.annotate(titles[plan.rows][i], (1.03, 0.5), xycoords="axes fraction", rotation=-90, va="center")
-    return coloured, contours
+    return drawn
 
 
 def _add_bar(figure: Figure, panels: Any, coloured: Sequence[Any], shown: Shown, name: str | None, most: int) -> None:
@@ -170,7 +162,7 @@ def _add_bar(figure: Figure, panels: Any, coloured: Sequence[Any], shown: Shown,
         step = -(-levels.size // max(2, most))
         some = [*levels[: levels.size - step : step], levels[-1]]
         bar.set_label(name or shown.label)
-        bar.ax.set_yticks(some, shown.unit.numbers(some))
+        bar.ax.set_yticks(some, (shown.unit or Unit()).numbers(some))
     else:
         greatest = max(2.0, *(max(cells.get_array(), default=0.0) for cells in coloured))
         for cells in coloured:
@@ -209,14 +201,14 @@ def draw_fronts(
     count = flat.sizes["line"]
     if count > FRONTS:
         raise DatasetError(f"{count} scenes are too many lines for one picture; choose some with --at")
-    words = [equations(name, flat[name].values) for name in scenes]
+    words = [", ".join(own) for own in zip(*(equations(name, flat[name].values) for name in scenes), strict=True)]
     with styled(looks):
         figure = Figure(layout="constrained")
         axes = figure.subplots()
         for i in range(count):
             line = flat[[along, up]].isel(line=i, drop=True).reset_coords(drop=True).dropna(PARETO_POINT)
             own: dict[str, Any] = {"marker": MARKERS[i % len(MARKERS)], "ms": 3.5 if line[up].size <= MARKS else 2.0}
-            own |= {"color": looks.colours(0.85 * i / max(1, count - 1)), "label": ", ".join(one[i] for one in words)}
+            own |= {"color": looks.colours(0.85 * i / max(1, count - 1)), "label": words[i] if words else ""}
             axes.plot(line[along], line[up], ls="", mew=0.0, **own)  # there is nothing in a gap
         suit(axes, "x", along, looks.xlim)
         suit(axes, "y", up, looks.ylim)
@@ -227,7 +219,7 @@ def draw_fronts(
             axes.legend(markerscale=1.5)
         caption = [equations(name, narrow[name].item())[0] for name in effective(narrow) if narrow[name].size == 1]
         caption += slope_warnings(narrow)
-        finish(figure, looks, dataset=dataset, caption=caption, size=(4.2, 3.0), panels=[axes])
+        finish(figure, dataset, looks, [axes], caption, size=(4.2, 3.0))
     return figure
 
 
