@@ -17,7 +17,7 @@ from gradhesion.cli.names.outputs import PARAMETER
 from gradhesion.cli.names.symbols import SYMBOLS
 from gradhesion.cli.picture.labels import Unit, number, suit, unit_for
 from gradhesion.cli.picture.looks import PLAIN, Looks
-from gradhesion.cli.picture.pictured import finish, styled
+from gradhesion.cli.picture.pictured import finish, make_room, styled
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.messages import printable
 from gradhesion.core.answers.profile_fit import FittedProfile
@@ -81,8 +81,7 @@ def _draw_fit(dataset: xarray.Dataset, looks: Looks) -> Figure:
             if own.any():
                 top.plot(depth[own], load[own], color=COLOURS[way], **DOTS, label=f"measured, {words}")
                 bottom.plot(depth[own], dataset["residual"].values[own], color=COLOURS[way], **DOTS)
-        margin = 0.08 * float(np.ptp(depth))
-        top.set_xlim(float(depth.min()) - margin, float(depth.max()) + margin)
+        make_room(top, "x", depth)
         suit(top, "x", ALONG, looks.xlim)
         suit(top, "y", UP, looks.ylim)
         words = "displacement of the machine" if dataset.attrs.get("control") == "machine" else "depth"

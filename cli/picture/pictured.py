@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import Final
+from typing import Final, Literal
 
 import matplotlib.style
 import numpy as np
@@ -15,7 +15,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.mathtext import MathTextParser
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.picture.looks import PLAIN, STYLE, Looks
@@ -43,10 +43,12 @@ def save(figure: Figure, file: Path, form: str, looks: Looks = PLAIN) -> None:
         figure.savefig(file, format=form, metadata=undated.get(form))
 
 
-def finite(values: ArrayLike) -> NDArray[np.float64]:
-    """Take values as numbers, NaN where they have no place on an axis: they leave a gap."""
-    numbers = np.asarray(values, dtype=float)
-    return np.where(np.isfinite(numbers), numbers, np.nan)
+def make_room(axes: Axes, side: Literal["x", "y"], values: NDArray[np.float64]) -> None:
+    """Set the limits of an axis to some values, with a margin beyond both ends."""
+    there = values[np.isfinite(values)]
+    if there.size:
+        margin = 0.08 * float(np.ptp(there)) or 1.0
+        axes.set(**{f"{side}lim": (float(there.min()) - margin, float(there.max()) + margin)})
 
 
 def stacked(count: int, narrow: float, looks: Looks) -> int:

@@ -1,4 +1,4 @@
-"""The lines of a dataset of curves, and measured points: which there are, how each looks, how it is drawn."""
+"""What a picture of curves draws: lines, of which scenes, and measured points; how each looks and is drawn."""
 
 from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -11,9 +11,14 @@ from matplotlib.axes import Axes
 from matplotlib.colors import Colormap, to_rgb
 from numpy.typing import NDArray
 
+from gradhesion.cli.dataset.read.model_range import slope_warnings
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import SI
-from gradhesion.cli.picture.pictured import finite
+from gradhesion.cli.names.scenes import SCENE
+from gradhesion.cli.picture.doubts import CROSS, Doubt, doubts_in
+from gradhesion.cli.picture.labels import equations, fixed, given
+from gradhesion.cli.picture.looks import Looks
+from gradhesion.cli.picture.pictured import MARKERS
 from gradhesion.cli.study.text.quantities import factor_of_column, scaled
 from gradhesion.cli.tables.columns import Columns, ColumnsError
 from gradhesion.cli.tables.reading import read_columns
@@ -26,13 +31,9 @@ Colour = tuple[float, float, float]
 Dash = str | tuple[float, tuple[float, ...]]
 Plane = tuple[str, str]
 
-QUANTITIES: Final = ("contact_radius", "indentation", "load")
-"""What a panel may have along or up."""
-
 JUMP: Final[Dash] = (0, (3, 2))
 THIN: Final = 0.8
 """The dash of a jump, and its width in points."""
-
 ARROW: Final = 0.06
 FEWEST: Final = 0.1
 """The length of an arrow on a line, and of the part of a line that has room for one, over the side of a panel."""
@@ -44,9 +45,9 @@ def faded(colour: Colour) -> Colour:
     return red, green, blue
 
 
-def unloads(scene: xarray.Dataset, count: int) -> Steps:
-    """Report which of the points of a path are on unloading; none if the dataset does not know."""
-    return scene["path_unloading"].values == 1 if "path_unloading" in scene else np.zeros(count, bool)
+def flagged(scene: xarray.Dataset, name: str, count: int = 1) -> Steps:
+    """Report which of the points of a curve have a flag; none if the dataset does not know."""
+    return scene[name].values == 1 if name in scene else np.zeros(count, bool)
 
 
 @dataclass(frozen=True)
@@ -79,26 +80,21 @@ class Track:
 
     def points(self, scene: xarray.Dataset, plane: Plane) -> Values:
         """Give its points in a plane, along and up; NaN where there is none."""
-        return np.stack([finite(scene[self.variables[quantity]].values) for quantity in plane])
+        return np.stack([scene[self.variables[quantity]].values for quantity in plane])
 
     def falls(self, scene: xarray.Dataset) -> Steps:
         """Report which steps from point to point are unstable: the depth of an equilibrium falls."""
         name = self.variables["indentation"]
         known = self.curve.endswith("equilibrium") and name in scene
-        return np.diff(finite(scene[name].values)) < 0.0 if known else np.zeros(1, bool)
-
-    def jumps(self, scene: xarray.Dataset) -> Steps:
-        """Report which steps from point to point are jumps; none if the dataset does not know."""
-        flag = f"{self.curve}_jump"
-        return scene[flag].values[1:] == 1 if flag in scene else np.zeros(1, bool)
+        return np.diff(scene[name].values) < 0.0 if known else np.zeros(1, bool)
 
     def draw(self, axes: Axes, scene: xarray.Dataset, plane: Plane, colour: Colour) -> None:
         """Draw one line of a scene; its jumps are thin and dashed, its unstable parts light."""
         points = self.points(scene, plane)
-        jumps, falls = self.jumps(scene), self.falls(scene)
+        jumps, falls = flagged(scene, f"{self.curve}_jump", points.shape[1])[1:], self.falls(scene)
         own = np.ones(points.shape[1] - 1, bool)
         if self.unloading is not None and "path_unloading" in scene:
-            own = unloads(scene, 0)[1:] == self.unloading
+            own = flagged(scene, "path_unloading")[1:] == self.unloading
         for steps, dash, width, tone in (
             (own & jumps, JUMP, THIN, colour),
             (own & falls & ~jumps, self.dash, self.width, faded(colour)),
@@ -114,8 +110,7 @@ class Track:
         The limits of the panel must stand. An arrow gives way to those of `taken`, the places in the panel of others.
         """
         places = (axes.transData - axes.transAxes).transform(self.points(scene, plane).T)
-        ways = unloads(scene, len(places))[1:]
-        jumps = np.broadcast_to(self.jumps(scene), ways.shape)
+        ways, jumps = (flagged(scene, name, len(places))[1:] for name in ("path_unloading", f"{self.curve}_jump"))
         looks = {"arrowstyle": "-|>", "color": colour, "lw": 0.0, "shrinkA": 0.0, "shrinkB": 0.0, "mutation_scale": 8.0}
         for run in np.split(np.arange(ways.size), np.flatnonzero(np.diff(ways) | jumps[1:] | jumps[:-1]) + 1):
             line = places[run[0] : run[-1] + 2]
@@ -156,31 +151,74 @@ def tracks_in(names: Container[Any], tracks: Sequence[Track], *, si: bool) -> li
     return [track for track in known if sum(name in names for name in track.variables.values()) > 1]
 
 
-COLUMNS: Final = {
+SCENES: Final = len(MARKERS)
+"""Scenes in one picture: more could not be distinguished."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Scene:
+    """One scene of a dataset: its colour (None: each line has its own), what makes it doubtful, and its marker."""
+
+    label: str
+    colour: Colour | None
+    values: xarray.Dataset
+    doubts: Sequence[Doubt]
+    item: int
+
+    @property
+    def marker(self) -> dict[str, Any]:
+        """Give what distinguishes it in a grey print."""
+        return {"marker": MARKERS[self.item], "ms": 3.2, "mew": 0.0}
+
+
+def scenes_of(dataset: xarray.Dataset, looks: Looks) -> tuple[list[Scene], list[str]]:
+    """Choose the scenes to draw, along the last axis with more than one value, and write what they have in common."""
+    dims = [str(axis) for axis in dataset["status"].dims]
+    last = next((axis for axis in reversed(dims) if dataset.sizes[axis] > 1), None)
+    some = dataset.isel({axis: 0 for axis in dims if axis != last})
+    varying = [last] if last else []
+    if last == SCENE:
+        varying = [name for name in given(some.coords) if np.unique(some[name].values).size > 1]
+    caption = fixed(dataset.drop_vars(varying, errors="ignore"))
+    size = dataset.sizes[last] if last else 1
+    items = np.unique(np.linspace(0, size - 1, min(size, SCENES)).round().astype(int)).tolist()
+    scenes = []
+    for place, item in enumerate(items):
+        scene = finite(some.isel({last: item}) if last else some)
+        colour = to_rgb(looks.colours(0.75 * place / (len(items) - 1))) if last else None
+        label = ", ".join(equations(name, scene[name].item())[0] for name in varying[:2]) or f"scene {item}"
+        names = [name + end for track in TRACKS for name in track.variables.values() for end in ("", SI)]
+        if not any(np.isfinite(scene[name].values).any() for name in names if name in scene):
+            label, colour = f"{label} (no value)", to_rgb(CROSS)
+        doubts = doubts_in(scene["status"].values, "path", scene)
+        scenes.append(Scene(label=label, colour=colour, values=scene, doubts=doubts, item=place))
+    caption += [f"{SCENES} of {size} scenes"] if size > SCENES else []
+    return scenes, [*caption, *slope_warnings(dataset)]
+
+
+def finite(scene: xarray.Dataset) -> xarray.Dataset:
+    """Load a scene, with NaN where a value has no place on an axis: it leaves a gap."""
+    return scene.load().map(lambda one: one.where(np.isfinite(one)) if one.dtype.kind == "f" else one)
+
+
+QUANTITIES: Final = {
     "contact_radius": ("contact_radius", "radius", "a"),
     "indentation": ("indentation", "depth", "delta"),
     "load": ("load", "force", "P"),
 }
-"""What a column of each quantity may be called."""
-
-KEYS: Final = {"contact_radius": "c0", "indentation": "indentation", "load": "load"}
-"""For each quantity a key of its dimension."""
-
+"""What a panel may have along or up, and what a column of measured points may be called."""
 FEW: Final = 60
 """Points that are circles on top of the lines; more are grey dots below them, which would hide the lines."""
-
 CIRCLES: Final[dict[str, Any]] = {"mfc": "white", "mec": "0.1", "mew": 0.5, "ms": 2.8, "zorder": 3}
 DOTS: Final[dict[str, Any]] = {"mfc": "0.6", "mec": "none", "ms": 2.6, "zorder": 1.8, "rasterized": True}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Points:
-    """Measured points."""
+    """Measured points, by the quantity, in SI units or as the curves have them; and what was left out."""
 
     values: Mapping[str, Values]
-    """By the quantity, in SI units or, of a picture without, as the dataset has them."""
-    notes: tuple[str, ...] = ()
-    """What was left out."""
+    left_out: str
 
     @property
     def looks(self) -> dict[str, Any]:
@@ -189,7 +227,7 @@ class Points:
         return {"ls": "", "marker": "o", "label": "measured"} | (CIRCLES if few else DOTS)
 
 
-def read_points(file: Path, planes: Sequence[tuple[str, str]], *, si: bool) -> Points:
+def read_points(file: Path, planes: Sequence[Plane], *, si: bool) -> Points:
     """Read measured points for a picture with some planes, from a table (CSV or NetCDF).
 
     It has two or more of the columns indentation, load (positive presses) and contact_radius; other columns are left
@@ -197,8 +235,8 @@ def read_points(file: Path, planes: Sequence[tuple[str, str]], *, si: bool) -> P
     P/(1.5 pi R dgamma) and a/R.
     """
     try:
-        found = read_columns(file, only=[word for own in COLUMNS.values() for word in own])
-        there = {quantity: word for quantity, own in COLUMNS.items() for word in reversed(own) if word in found.values}
+        found = read_columns(file, only=[word for own in QUANTITIES.values() for word in own])
+        there = {one: word for one, own in QUANTITIES.items() for word in reversed(own) if word in found.values}
         values = {quantity: _scaled(found, quantity, word, si=si) for quantity, word in there.items()}
     except ColumnsError as error:
         raise DatasetError(f"--data {file}: {error}") from None
@@ -209,15 +247,16 @@ def read_points(file: Path, planes: Sequence[tuple[str, str]], *, si: bool) -> P
     sound = np.isfinite([*values.values()]).all(axis=0)
     if not sound.any():
         raise DatasetError(f"--data {file}: no row has numbers in all of {', '.join(there.values())}; add some")
-    left_out = int(np.count_nonzero(~sound))
-    note = f"{file}: {counted(left_out, 'row')} left out, without a number in each column"
-    return Points(values={name: row[sound] for name, row in values.items()}, notes=(note,) if left_out else ())
+    count = int(np.count_nonzero(~sound))
+    left_out = f"{file}: {counted(count, 'row')} left out, without a number in each column" if count else ""
+    return Points(values={name: row[sound] for name, row in values.items()}, left_out=left_out)
 
 
 def _scaled(found: Columns, quantity: str, word: str, *, si: bool) -> Values:
-    """Give a column in the units of the dataset."""
+    """Give a column in the units of the dataset; a radius is a length as a depth is."""
     if si:
-        return scaled(found.values[word], factor_of_column(found, word, KEYS[quantity]))
+        key = "load" if quantity == "load" else "indentation"
+        return scaled(found.values[word], factor_of_column(found, word, key))
     if unit := found.units.get(word):
         remedy = "give the study its units, or write the ratio without one"
         raise ColumnsError(f"{word} [{unit}] has a unit, and the curves have none; {remedy}")
