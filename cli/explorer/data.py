@@ -32,7 +32,6 @@ WIDTH: Final = 1.5
 UNLOADING: Final = [9, 6]
 """The dash of unloading, in pixels: what is below it, loading on the same curve, shows in its gaps."""
 _LEAST, _GREATEST = (float(bound) for bound in (np.finfo(np.float32).tiny, np.finfo(np.float32).max))
-
 Entry = dict[str, Any]
 
 

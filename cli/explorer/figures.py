@@ -11,13 +11,10 @@ from bokeh.plotting import figure
 INK: Final = "#333333"
 QUIET: Final = "#888888"
 FONT: Final = "12px"
-
 BAR: Final = 66
 BARE: Final = 16
 """Pixels to the right of frames, on a page with bars of colours and without: frames stand in line."""
-
 TOOLS: Final = "pan,wheel_zoom,box_zoom,reset,save"
-
 Part = dict[str, Any]
 
 

@@ -33,7 +33,6 @@ from gradhesion.core.problem.inputs import INPUTS
 
 MOST: Final = 20_000_000
 """Values in a page: it is 110 MB then, and takes a browser some seconds to open."""
-
 _SCRIPTS: Final = ("numbers", "scene", "controls", "maps", "sections", "curves", "address", "downloads", "explorer")
 """The script of a page, in the order in which its parts need each other."""
 

@@ -16,7 +16,6 @@ from gradhesion.core.answers.flags import FLAG_WORDS, FLAGS
 
 INK: Final = "0.25"
 """The colour of marks in a legend."""
-
 GREY: Final = "0.8"
 CROSS: Final = "0.6"
 """The colours of scenes that have no value, in a map and as crosses."""
@@ -46,19 +45,15 @@ _OF_FLAGS: Final = (
 )
 _OF_LIMITS: Final = (("oo", "P", 6.0), ("OO", "X", 6.0), ("++", "*", 6.0), ("..", "h", 6.0), ("**", "8", 6.0))
 _FLAGS: Final = {FLAG_WORDS[name]: bit for name, bit in FLAGS.items() if bit & model_range.DOUBTS}
-
 DOUBTS: Final = [Doubt(words, *look, bit) for (words, bit), look in zip(_FLAGS.items(), _OF_FLAGS, strict=True)]
 """Every flag that makes values doubtful."""
-
 BEYOND: Final = {
     name: Doubt(limit.words, *look) for (name, limit), look in zip(LIMITS.items(), _OF_LIMITS, strict=True)
 }
 """How scenes are shown that leave the range of the model, by the validity number that says so."""
-
 BOUND: Final = Doubt("optimum at a bound of its range", "//..", ">", 6.0)
 END: Final = Doubt("extreme at an end of its axis: it may lie beyond", "....", "^", 4.5)
 """How an optimum, and the place of an extreme, is shown that may be beyond what was searched."""
-
 Marks = list[tuple[Doubt, xarray.DataArray]]
 """Doubts, each with the scenes that have it."""
 

@@ -17,16 +17,12 @@ from gradhesion.cli.picture.shown import Shown, Values, padded
 
 DASHES: Final[tuple[Any, ...]] = ("-", "--", "-.", ":", (0, (8, 4)), (0, (6, 1.5, 1, 1.5, 1, 1.5)))
 """What distinguishes lines where colours do not print; the gaps of those on top show what is below."""
-
 POINTS: Final = ("o", "^", "s")
 """What distinguishes series of points."""
-
 MARKS: Final = 40
 """Markers along a line, about: more would hide it."""
-
 FEW: Final = 20
 """Values along an axis up to which a band is drawn as bars: between them nothing is known."""
-
 LIGHT: Final = 0.2
 """How opaque a band is."""
 

@@ -25,7 +25,6 @@ from gradhesion.core import Profile
 
 MARKERS: Final = ("o", "s", "D", "P", "X")
 """What distinguishes scenes where colours do not print."""
-
 LOWEST: Final = 1.25
 """The height of a row of panels with what is written at them, in inches: a lower one could not be read."""
 

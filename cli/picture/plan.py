@@ -18,13 +18,10 @@ from gradhesion.core.problem.inputs import INPUTS
 
 PANELS: Final = 3
 """Panels along a row or a column: the ends of an axis and its middle."""
-
 LINES: Final = 6
 """An axis of no more values than this is a set of lines rather than a side of a map; more lines look alike."""
-
 MOST: Final = 1000
 """Values along a side of a panel: more are finer than paper."""
-
 DENSE: Final = 2000
 """Points that can still be seen one by one; more are drawn as their number in small cells."""
 

@@ -25,20 +25,16 @@ from gradhesion.core.answers.flags import FLAGS
 Values = NDArray[np.float64]
 Levels = tuple[Values, Values, Normalize]
 """All levels of a map, those that have lines, and what gives their colours."""
-
 FAR: Final = 50.0
 WIDE: Final = 8.0
 """The ratio of the greatest value to the least from which lines, and contours, are drawn over a logarithm."""
-
 FLAT: Final = 1e-9
 """Values that differ by less, over their size, are drawn as equal: what is left is rounding."""
-
 BANDS: Final = {
     "quantiles": (("_p05", "_p95"), "5 % to 95 % of samples"),
     "std": (("_std",), "a standard deviation on each side"),
 }
 """What a band of uncertain values may be: the ends of the names of its variables, and what a legend says of it."""
-
 _STEPS: Final = (
     (30.0, (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)),
     (1e3, (1.0, 1.5, 2.0, 3.0, 5.0, 7.0)),

@@ -30,7 +30,6 @@ Steps = NDArray[np.bool_]
 Colour = tuple[float, float, float]
 Dash = str | tuple[float, tuple[float, ...]]
 Plane = tuple[str, str]
-
 JUMP: Final[Dash] = (0, (3, 2))
 THIN: Final = 0.8
 """The dash of a jump, and its width in points."""
@@ -137,7 +136,6 @@ TRACKS: Final = (
     Track("path", "unloading", "path_", "-", 1.3, 0.0, unloading=True),
 )
 """Every line of a single scene, those on top last: loading is wider, so that unloading does not hide it."""
-
 TRACKS_OF_MANY: Final = (
     *(replace(track, width=0.75 * track.width) for track in TRACKS if track.curve != "path"),
     Track("path", "path", "path_", "-", 1.2, 0.0),

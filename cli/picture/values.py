@@ -30,7 +30,6 @@ from gradhesion.core.problem.inputs import INPUTS
 
 NARROW: Final = 1.5
 """Inches along a panel and its numbers below which the numbers stand upright: they would run into each other."""
-
 FRONTS: Final = 10
 """Pareto fronts in one picture: more could not be distinguished."""
 
