@@ -1,6 +1,6 @@
 """Which axis of a dataset of values goes where in its picture, which of them are drawn, and what is said of others."""
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, Literal
 
@@ -28,14 +28,13 @@ DENSE: Final = 2000
 
 @dataclass(frozen=True, kw_only=True)
 class Plan:
-    """Which axis of a dataset goes where in its picture."""
+    """Which axis of a dataset goes where in its picture; the second is the lines of a panel or a side of a map."""
 
     x: str
     second: str | None = None
-    """The other side of a map, or what distinguishes the lines of a panel."""
     columns: str | None = None
     rows: str | None = None
-    middle: tuple[str, ...] = ()
+    middle: Sequence[str] = ()
     """Axes with no place of their own: they stay at their middle value."""
     is_map: bool = False
     points: int = 0
@@ -123,23 +122,18 @@ def plan_of(
 
 def within(dataset: xarray.Dataset, plan: Plan, looks: Looks) -> xarray.Dataset:
     """Put values into rising order along the sides of a panel, and keep those between the limits."""
-    for axis, span in ((plan.x, looks.xlim), (plan.second, looks.ylim)):
-        if axis and axis != SOLVER:
-            dataset = dataset.isel({axis: np.argsort(dataset[axis].values, kind="stable")})
-            dataset = _seen(dataset, axis, span) if axis == plan.x or plan.is_map else dataset
+    for axis, span in ((plan.x, looks.xlim), (plan.second, looks.ylim if plan.is_map else "")):
+        if not axis or axis == SOLVER:
+            continue
+        dataset = dataset.isel({axis: np.argsort(dataset[axis].values, kind="stable")})
+        values = np.asarray(dataset[axis].values, dtype=float)
+        finite = np.unique(values[np.isfinite(values)])
+        if span and finite.size:  # and one value beyond each, so that lines run to the frame
+            low, high = limits_of(span, axis, finite[0], finite[-1], log=is_log(finite))
+            first = finite[max(0, int(np.searchsorted(finite, low, side="right")) - 1)]
+            last = finite[min(finite.size - 1, int(np.searchsorted(finite, high)))] if np.isfinite(high) else np.inf
+            dataset = dataset.isel({axis: (values >= first) & (values <= last)})
     return dataset
-
-
-def _seen(dataset: xarray.Dataset, axis: str, span: str) -> xarray.Dataset:
-    """Keep what is between the limits of an axis, and one value beyond each, so that lines run to the frame."""
-    values = np.asarray(dataset[axis].values, dtype=float)
-    finite = np.unique(values[np.isfinite(values)])
-    if not span or not finite.size:
-        return dataset
-    low, high = limits_of(span, axis, finite[0], finite[-1], log=is_log(finite))
-    first = finite[max(0, int(np.searchsorted(finite, low, side="right")) - 1)]
-    last = finite[min(finite.size - 1, int(np.searchsorted(finite, high)))] if np.isfinite(high) else np.inf
-    return dataset.isel({axis: (values >= first) & (values <= last)})
 
 
 def some_of(dataset: xarray.Dataset, plan: Plan) -> xarray.Dataset:
