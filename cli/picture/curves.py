@@ -18,10 +18,10 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.curves import RAGGED, STATE, STATE_CURVES, variables_of_curves
 from gradhesion.cli.names.outputs import SI
 from gradhesion.cli.names.units import UNITS
-from gradhesion.cli.picture.doubts import DOUBTS, entries
 from gradhesion.cli.picture.labels import fixed, number, suit
 from gradhesion.cli.picture.looks import Looks
 from gradhesion.cli.picture.pictured import MARKERS, finish, make_room, stacked, styled
+from gradhesion.cli.picture.shown import DOUBTS, entries
 from gradhesion.cli.picture.tracks import (
     JUMP,
     QUANTITIES,

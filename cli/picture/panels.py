@@ -9,11 +9,10 @@ from matplotlib.collections import PolyCollection
 from matplotlib.contour import QuadContourSet
 from matplotlib.path import Path
 
-from gradhesion.cli.picture.doubts import CROSS, GREY, INK
 from gradhesion.cli.picture.labels import Scale, Unit, dress, equations
 from gradhesion.cli.picture.looks import Looks
 from gradhesion.cli.picture.plan import Plan
-from gradhesion.cli.picture.shown import Shown, Values, padded
+from gradhesion.cli.picture.shown import CROSS, GREY, INK, Shown, Values, padded
 
 DASHES: Final[tuple[Any, ...]] = ("-", "--", "-.", ":", (0, (8, 4)), (0, (6, 1.5, 1, 1.5, 1, 1.5)))
 """What distinguishes lines where colours do not print; the gaps of those on top show what is below."""

@@ -21,14 +21,13 @@ from gradhesion.cli.dataset.read.sensitivities import parts_of, spread, with_inf
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import BEST, ON_BOUND, PARETO_POINT, SI
 from gradhesion.cli.picture.curves import drawn_curves
-from gradhesion.cli.picture.doubts import INK, entries
 from gradhesion.cli.picture.fits import drawn_fits
 from gradhesion.cli.picture.labels import Scale, Unit, effective, equations, locator, numbers, scale, suit
 from gradhesion.cli.picture.looks import Looks
 from gradhesion.cli.picture.panels import FEW, LIGHT, MARKS, draw_density, draw_lines, draw_map, number_contours
 from gradhesion.cli.picture.pictured import MARKERS, finish, stacked, styled
 from gradhesion.cli.picture.plan import Plan, caption_of, planned, some_of, within
-from gradhesion.cli.picture.shown import Shown, shown_of
+from gradhesion.cli.picture.shown import INK, Shown, entries, shown_of
 from gradhesion.cli.terminal.wording import did_you_mean
 from gradhesion.core.problem.inputs import INPUTS
 

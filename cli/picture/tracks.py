@@ -15,10 +15,10 @@ from gradhesion.cli.dataset.read.model_range import slope_warnings
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import SI
 from gradhesion.cli.names.scenes import SCENE
-from gradhesion.cli.picture.doubts import CROSS, Doubt, doubts_in
 from gradhesion.cli.picture.labels import equations, fixed, given
 from gradhesion.cli.picture.looks import Looks
 from gradhesion.cli.picture.pictured import MARKERS
+from gradhesion.cli.picture.shown import CROSS, Doubt, doubts_in
 from gradhesion.cli.study.text.quantities import factor_of_column, scaled
 from gradhesion.cli.tables.columns import Columns, ColumnsError
 from gradhesion.cli.tables.reading import read_columns
