@@ -7,6 +7,7 @@ from typing import Any, Literal
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.ticker import EngFormatter, Formatter, FuncFormatter, Locator, LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
@@ -18,6 +19,7 @@ from gradhesion.cli.picture.looks import limits_of
 from gradhesion.core.problem.inputs import INPUTS
 
 Side = Literal["x", "y"]
+Ends = tuple[float, float]
 Places = NDArray[np.float64]
 
 
@@ -149,23 +151,16 @@ def locator(low: float, high: float, *, log: bool) -> Locator:
     return MaxNLocator("auto", steps=[1, 2, 2.5, 5, 10])
 
 
-def dress(
-    axes: Axes,
-    side: Side,
-    unit: Unit,
-    ends: tuple[float, float],
-    limits: tuple[float, float] = (-np.inf, np.inf),
-    *,
-    log: bool = False,
-) -> None:
-    """Give an axis of a picture its scale, numbers in a unit at ticks between two ends, and limits that are finite."""
-    axes.set(**{f"{side}scale": "log" if log else "linear"})
-    axis = axes.xaxis if side == "x" else axes.yaxis
+def dress(axes: Axes, side: Side, words: str, unit: Unit, ends: Ends, limits: Ends, *, log: bool = False) -> Axis:
+    """Give an axis of a picture its name, scale, numbers in a unit at ticks between two ends, and limits if finite."""
+    axes.set(**{f"{side}scale": "log" if log else "linear", f"{side}label": words})
+    axis: Axis = getattr(axes, f"{side}axis")
     axis.set_major_locator(locator(*ends, log=log))
     axis.set_major_formatter(numbers(unit))
     axis.set_minor_locator(NullLocator())
     if np.isfinite(limits).any():
         axes.set(**{f"{side}lim": tuple(end if np.isfinite(end) else None for end in limits)})
+    return axis
 
 
 def suit(axes: Axes, side: Side, name: str, span: str = "") -> None:
@@ -174,13 +169,12 @@ def suit(axes: Axes, side: Side, name: str, span: str = "") -> None:
     limits = limits_of(span, name, low, high)
     seen = max(low, limits[0]) if limits[0] > -np.inf else low, min(high, limits[1]) if limits[1] < np.inf else high
     unit = unit_for(name, seen)
-    dress(axes, side, unit, seen, limits)
-    axes.set(**{f"{side}label": label(name, unit)})
+    dress(axes, side, label(name, unit), unit, seen, limits)
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Scale:
-    """Where the values of an axis go in a picture."""
+    """Where the values of an axis go in a picture, and between which of them it is drawn, if these are finite."""
 
     name: str
     positions: Places
@@ -188,14 +182,7 @@ class Scale:
     log: bool
     infinite: bool
     """Whether the last place is that of inf."""
-    unit: Unit
-    limits: tuple[float, float] = (-np.inf, np.inf)
-    """Between which values it is drawn, as far as they are finite."""
-
-    @property
-    def label(self) -> str:
-        """What the axis is called."""
-        return label(self.name, self.unit)
+    limits: Ends
 
     def edges(self) -> Places:
         """Give the edges of cells around the places, halfway between them."""
@@ -208,18 +195,18 @@ class Scale:
         """Give an axis of a picture this scale and its limits, with ticks at plain numbers."""
         finite = self.positions[:-1] if self.infinite else self.positions
         first, last = np.clip((finite[0], finite[-1]), *self.limits).tolist()
-        dress(axes, side, self.unit, (first, last), self.limits, log=self.log)
+        unit = unit_for(self.name, np.clip(finite, *self.limits), log=self.log)
+        axis = dress(axes, side, label(self.name, unit), unit, (first, last), self.limits, log=self.log)
         if self.infinite and np.isinf(self.limits[1]):
             places = locator(first, last, log=self.log).tick_values(first, last)
             kept = [float(place) for place in places if first <= place <= last]
-            axis = axes.xaxis if side == "x" else axes.yaxis
-            axis.set_ticks([*kept, float(self.positions[-1])], [*self.unit.numbers(kept), r"$\infty$"])
+            axis.set_ticks([*kept, float(self.positions[-1])], [*unit.numbers(kept), r"$\infty$"])
 
 
 def scale(values: Places, name: str = "", span: str = "") -> Scale:
     """Choose the scale of an axis of a name: logarithmic where its values are nearer to that than to an even spacing.
 
-    Its values rise. Of a span of it, ticks and the unit suit what is seen.
+    Its values rise. Of a part of it, ticks and the unit suit what is seen.
 
     >>> scale(np.array([1.0, 10.0, 100.0, np.inf])).positions
     array([   1.,   10.,  100., 1000.])
@@ -231,12 +218,4 @@ def scale(values: Places, name: str = "", span: str = "") -> Scale:
         beyond = finite[-1] * (finite[-1] / finite[0]) ** (1 / steps)
     elif infinite.any():
         beyond = finite[-1] + ((finite[-1] - finite[0]) / steps or finite[-1])
-    low, high = limits_of(span, name, log=log)
-    return Scale(
-        name=name,
-        positions=np.where(infinite, beyond, values),
-        log=log,
-        infinite=bool(infinite.any()),
-        unit=unit_for(name, np.clip(finite, low, high), log=log),
-        limits=(low, high),
-    )
+    return Scale(name, np.where(infinite, beyond, values), log, bool(infinite.any()), limits_of(span, name, log=log))

@@ -167,7 +167,7 @@ def _dress(axes: Axes, shown: Shown, x: Scale) -> None:
     if shown.unit:
         flat = padded(*shown.ends) != shown.ends
         limits = padded(*shown.ends) if flat and not np.isfinite(shown.limits).any() else shown.limits
-        dress(axes, "y", shown.unit, shown.ends, limits, log=shown.log)
+        dress(axes, "y", shown.label, shown.unit, shown.ends, limits, log=shown.log)
     else:
         axes.set_ylim(-0.5, len(shown.names) - 0.5)
         axes.set_yticks(range(len(shown.names)), shown.names, fontsize="small")

@@ -1,6 +1,7 @@
 """The picture of a dataset: of values in panels of lines, points or maps, fronts of two goals; of curves; of fits."""
 
 from collections.abc import Callable, Sequence
+from itertools import chain
 from pathlib import Path
 from typing import Any, Final
 
@@ -87,25 +88,22 @@ def _drawn_values(
     width, height = (2.1, 1.8) if columns > 1 else (3.6, 2.9)
     room = 2.2 if any(one.names for one in shown) else 1.2
     size = beside * (width * columns + room), below * (height * rows + 0.6)
-    caption = dict.fromkeys(
-        [*caption_of(part, narrow, plan, selection), *(note for one in shown for note in one.caption)]
-    )
+    words = dict.fromkeys([*caption_of(part, narrow, plan, selection), *chain(*(one.caption for one in shown))])
     with styled(looks):
         figure = Figure(layout="constrained")
         grid = figure.subplots(rows * below, columns * beside, squeeze=False)
         parts = [half for band in np.split(grid, below) for half in np.split(band, beside, axis=1)]
-        for axes in [axes for empty in parts[len(names) :] for axes in empty.flat]:
+        for axes in chain(*(empty.flat for empty in parts[len(names) :])):
             axes.remove()
         numbered: list[tuple[QuadContourSet, Unit]] = []
         for one, panels in zip(shown, parts, strict=False):
             found = _draw(panels, one, along, up, plan, looks)
             numbered += [(lines, one.unit) for _, lines in found if lines and one.unit and looks.labels]
             if coloured := [filled for filled, _ in found if filled]:
-                numbers = int((looks.height or size[1]) / below / 0.2)
-                _add_bar(figure, panels, coloured, one, looks.clabel, numbers)
-        used = [axes for panels in parts[: len(names)] for axes in panels.flat]
+                _add_bar(figure, panels, coloured, one, looks.clabel, int((looks.height or size[1]) / below / 0.2))
+        used = [*chain(*(panels.flat for panels in parts[: len(names)]))]
         handles = _entries(shown, grid[0, 0].get_legend_handles_labels()[0], plan, along.positions.size)
-        finish(figure, dataset, looks, used, caption, handles, size=size, rows=len(grid), laid_out=bool(numbered))
+        finish(figure, dataset, looks, used, words, handles, size=size, rows=len(grid), laid_out=bool(numbered))
         for lines, unit in numbered:
             number_contours(lines, unit)
     return figure
@@ -163,8 +161,8 @@ def _draw(
             draw_lines(axes, one, x, plan, looks)
         last, first = i == len(panels) - 1, j == 0
         middle = first and (y or i == (len(panels) - 1) // 2)  # words are longer than a row is high
-        axes.set_xlabel(x.label if last else "")
-        axes.set_ylabel((y.label if y else "" if shown.names else up) if middle else "")
+        axes.set_xlabel(axes.get_xlabel() if last else "")
+        axes.set_ylabel((axes.get_ylabel() if y else "" if shown.names else up) if middle else "")
         axes.tick_params(labelbottom=last, labelleft=first)
         axes.tick_params(axis="x", labelrotation=90.0 if narrow else 0.0)
         if plan.columns and i == 0:
@@ -199,12 +197,11 @@ def _add_bar(figure: Figure, panels: Any, coloured: Sequence[Any], shown: Shown,
 def _entries(shown: Sequence[Shown], lines: Sequence[Artist], plan: Plan, size: int) -> list[Artist]:
     """Make the entries of the legend, each once: lines, bands and doubts."""
     made: list[Artist] = [line for line in lines if line.get_label()]
-    bar = Line2D([], [], ls="", marker="|", ms=7, mew=0.8, color=INK)
     for one in shown:
-        if one.band_words:
-            area = Patch(facecolor=INK, alpha=LIGHT, lw=0.0) if size > FEW and not plan.points else bar
-            area.set_label(one.band_words)
-            made.append(area)
+        if one.band_words and size > FEW and not plan.points:
+            made.append(Patch(facecolor=INK, alpha=LIGHT, lw=0.0, label=one.band_words))
+        elif one.band_words:
+            made.append(Line2D([], [], ls="", marker="|", ms=7, mew=0.8, color=INK, label=one.band_words))
         if not plan.is_dense:
             made += entries([doubt for doubt, _ in one.marks], in_map=plan.is_map, gaps=one.gaps)
     return [*{str(entry.get_label()): entry for entry in made}.values()]

@@ -3,7 +3,7 @@
 from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 import xarray
@@ -211,18 +211,12 @@ CIRCLES: Final[dict[str, Any]] = {"mfc": "white", "mec": "0.1", "mew": 0.5, "ms"
 DOTS: Final[dict[str, Any]] = {"mfc": "0.6", "mec": "none", "ms": 2.6, "zorder": 1.8, "rasterized": True}
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Points:
-    """Measured points, by the quantity, in SI units or as the curves have them; and what was left out."""
+class Points(NamedTuple):
+    """Measured points, by the quantity, in SI units or as the curves have them; their looks; and what was left out."""
 
     values: Mapping[str, Values]
+    looks: Mapping[str, Any]
     left_out: str
-
-    @property
-    def looks(self) -> dict[str, Any]:
-        """How they look."""
-        few = next(iter(self.values.values())).size <= FEW
-        return {"ls": "", "marker": "o", "label": "measured"} | (CIRCLES if few else DOTS)
 
 
 def read_points(file: Path, planes: Sequence[Plane], *, si: bool) -> Points:
@@ -247,7 +241,8 @@ def read_points(file: Path, planes: Sequence[Plane], *, si: bool) -> Points:
         raise DatasetError(f"--data {file}: no row has numbers in all of {', '.join(there.values())}; add some")
     count = int(np.count_nonzero(~sound))
     left_out = f"{file}: {counted(count, 'row')} left out, without a number in each column" if count else ""
-    return Points(values={name: row[sound] for name, row in values.items()}, left_out=left_out)
+    looks = {"ls": "", "marker": "o", "label": "measured"} | (CIRCLES if sound.sum() <= FEW else DOTS)
+    return Points({name: row[sound] for name, row in values.items()}, looks, left_out)
 
 
 def _scaled(found: Columns, quantity: str, word: str, *, si: bool) -> Values:
