@@ -18,7 +18,7 @@ from gradhesion.cli.names.scenes import SCENE, SOLVER, SOLVERS
 from gradhesion.cli.picture.curves import PLANES, wants_si
 from gradhesion.cli.picture.labels import Unit, label, scale, unit_for
 from gradhesion.cli.picture.looks import Looks
-from gradhesion.cli.picture.tracks import JUMP, QUANTITIES, THIN, TRACKS, Dash, Plane, Track, faded, tracks_in
+from gradhesion.cli.picture.tracks import JUMP, QUANTITIES, THIN, Dash, Plane, Track, faded, tracks_in
 from gradhesion.core import FAILED
 from gradhesion.core.answers.flags import FLAG_WORDS, FLAGS
 from gradhesion.core.problem.inputs import INPUTS
@@ -180,7 +180,7 @@ def lines_of(dataset: xarray.Dataset) -> tuple[list[Plane], dict[str, Unit], Ent
     The planes, the unit of each variable, and for the script the lines and how an axis names each quantity.
     """
     names = [str(name) for name in dataset.data_vars]
-    there = tracks_in(names, TRACKS, si=wants_si(names, ()))
+    there = tracks_in(names, si=wants_si(names, ()))
     if not there:
         raise DatasetError(
             "a page of curves needs two of contact radius, indentation and load of one curve, and this dataset has "

@@ -2,28 +2,23 @@
 
 from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 import xarray
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import Colormap, to_rgb
+from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read.model_range import slope_warnings
-from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import SI
 from gradhesion.cli.names.scenes import SCENE
-from gradhesion.cli.picture.labels import equations, fixed, given
+from gradhesion.cli.picture.labels import equations, fixed, given, suit
 from gradhesion.cli.picture.looks import Looks
-from gradhesion.cli.picture.pictured import MARKERS
-from gradhesion.cli.picture.shown import CROSS, Doubt, doubts_in
-from gradhesion.cli.study.text.quantities import factor_of_column, scaled
-from gradhesion.cli.tables.columns import Columns, ColumnsError
-from gradhesion.cli.tables.reading import read_columns
-from gradhesion.cli.terminal.amounts import counted
-from gradhesion.cli.terminal.wording import shown
+from gradhesion.cli.picture.pictured import MARKERS, make_room
+from gradhesion.cli.picture.shown import CROSS, DOUBTS, Doubt, doubts_in, entries
 
 Values = NDArray[np.float64]
 Steps = NDArray[np.bool_]
@@ -143,12 +138,17 @@ TRACKS_OF_MANY: Final = (
 """Every line where there are several scenes: finer, and the path in one."""
 
 
-def tracks_in(names: Container[Any], tracks: Sequence[Track], *, si: bool) -> list[Track]:
-    """List the lines of which two variables are among some names, in SI units or without."""
-    known = [replace(track, end=SI if si else "") for track in tracks]
+def tracks_in(names: Container[Any], *, si: bool, many: bool = False) -> list[Track]:
+    """List the lines of which two variables are among some names, in SI units or without, for one scene or many."""
+    known = [replace(track, end=SI if si else "") for track in (TRACKS_OF_MANY if many else TRACKS)]
     return [track for track in known if sum(name in names for name in track.variables.values()) > 1]
 
 
+APART: Final = 0.12
+MARKED: Final = 0.22
+"""How far apart the marks of doubts and of scenes stand along a line, in diagonals of the panel."""
+INK: Final = to_rgb("0.25")
+"""The colour of lines in a legend where colours distinguish scenes."""
 SCENES: Final = len(MARKERS)
 """Scenes in one picture: more could not be distinguished."""
 
@@ -205,10 +205,6 @@ QUANTITIES: Final = {
     "load": ("load", "force", "P"),
 }
 """What a panel may have along or up, and what a column of measured points may be called."""
-FEW: Final = 60
-"""Points that are circles on top of the lines; more are grey dots below them, which would hide the lines."""
-CIRCLES: Final[dict[str, Any]] = {"mfc": "white", "mec": "0.1", "mew": 0.5, "ms": 2.8, "zorder": 3}
-DOTS: Final[dict[str, Any]] = {"mfc": "0.6", "mec": "none", "ms": 2.6, "zorder": 1.8, "rasterized": True}
 
 
 class Points(NamedTuple):
@@ -219,38 +215,65 @@ class Points(NamedTuple):
     left_out: str
 
 
-def read_points(file: Path, planes: Sequence[Plane], *, si: bool) -> Points:
-    """Read measured points for a picture with some planes, from a table (CSV or NetCDF).
+def draw_panel(
+    axes: Axes, plane: Plane, tracks: Sequence[Track], scenes: Sequence[Scene], points: Points | None, looks: Looks
+) -> None:
+    """Draw the lines of all scenes into a panel, measured points, lines of zero, and arrows along the paths."""
+    for track in tracks:
+        for scene in scenes:
+            colour, own = scene.colour or track.colour(looks.colours), track.points(scene.values, plane)
+            track.draw(axes, scene.values, plane, colour)
+            if scene.colour:
+                start = MARKED * (0.15 + scene.item / len(MARKERS))  # beside those of the scene before
+                _draw_marks(axes, own, start, MARKED, color=colour, **scene.marker)
+            if track.curve == "path" and not track.unloading:
+                loading = own[:, ~flagged(scene.values, "path_unloading", own.shape[1])]
+                for doubt in reversed(scene.doubts):  # the larger ones below
+                    _draw_marks(axes, loading, 0.5 * APART, APART, mew=0.8, **doubt.marker(colour))
+    if points is not None and {*plane} <= points.values.keys():
+        axes.plot(*(points.values[quantity] for quantity in plane), **points.looks)
+    along, up = plane
+    axes.axhline(0.0, color="0.85", lw=0.6, zorder=0)
+    if along == "indentation":
+        axes.axvline(0.0, color="0.85", lw=0.6, zorder=0)
+    else:
+        axes.set_xlim(left=0.0)
+    suit(axes, "x", tracks[0].variables[along], looks.xlim)
+    if looks.xlim and not looks.ylim:  # the heights suit what is drawn between these limits
+        first, last = axes.get_xlim()
+        lines = [line.get_path().interpolated(20).vertices for line in axes.lines if line.get_zorder() > 0.0]
+        drawn = np.vstack([np.empty((0, 2)), *lines])
+        make_room(axes, "y", drawn[(drawn[:, 0] >= first) & (drawn[:, 0] <= last), 1])
+    suit(axes, "y", tracks[0].variables[up], looks.ylim)
+    arrows: list[Values] = []
+    for track in (one for one in tracks if one.curve == "path"):
+        for scene in scenes:
+            colour = scene.colour or track.colour(looks.colours)
+            track.draw_arrows(axes, scene.values, plane, colour, arrows)
 
-    It has two or more of the columns indentation, load (positive presses) and contact_radius; other columns are left
-    aside, and so are rows without a number. The header has units if the picture has; else the columns are delta/R,
-    P/(1.5 pi R dgamma) and a/R.
-    """
-    try:
-        found = read_columns(file, only=[word for own in QUANTITIES.values() for word in own])
-        there = {one: word for one, own in QUANTITIES.items() for word in reversed(own) if word in found.values}
-        values = {quantity: _scaled(found, quantity, word, si=si) for quantity, word in there.items()}
-    except ColumnsError as error:
-        raise DatasetError(f"--data {file}: {error}") from None
-    if not any({*plane} <= there.keys() for plane in planes):
-        wanted = " or ".join(f"{along} and {up}" for along, up in planes)
-        has = ", ".join(map(shown, [*there.values(), *found.others]))
-        raise DatasetError(f"--data {file}: the panels need the columns {wanted}, and it has {has}; rename some")
-    sound = np.isfinite([*values.values()]).all(axis=0)
-    if not sound.any():
-        raise DatasetError(f"--data {file}: no row has numbers in all of {', '.join(there.values())}; add some")
-    count = int(np.count_nonzero(~sound))
-    left_out = f"{file}: {counted(count, 'row')} left out, without a number in each column" if count else ""
-    looks = {"ls": "", "marker": "o", "label": "measured"} | (CIRCLES if sound.sum() <= FEW else DOTS)
-    return Points({name: row[sound] for name, row in values.items()}, looks, left_out)
+
+def _draw_marks(axes: Axes, points: Values, start: float, apart: float, **looks: Any) -> None:
+    """Put markers along a line, evenly in the panel: from where on, and how far apart, in its diagonals."""
+    if np.isfinite(points).all(axis=0).any():  # matplotlib fails to mark a line without a point
+        axes.plot(*points, **({"markevery": (start, apart), "ls": ""} | looks))
 
 
-def _scaled(found: Columns, quantity: str, word: str, *, si: bool) -> Values:
-    """Give a column in the units of the dataset; a radius is a length as a depth is."""
-    if si:
-        key = "load" if quantity == "load" else "indentation"
-        return scaled(found.values[word], factor_of_column(found, word, key))
-    if unit := found.units.get(word):
-        remedy = "give the study its units, or write the ratio without one"
-        raise ColumnsError(f"{word} [{unit}] has a unit, and the curves have none; {remedy}")
-    return found.values[word]
+def handles_of(scenes: Sequence[Scene], tracks: Sequence[Track], looks: Looks) -> list[Artist]:
+    """Make the entries of the legend."""
+
+    def entry(label: str, colour: Any, dash: Any = "-", width: float = 1.6, **more: Any) -> Line2D:
+        return Line2D([], [], color=colour, ls=dash, lw=width, label=label, **more)
+
+    coloured = [scene for scene in scenes if scene.colour]
+    made: list[Artist] = [entry(scene.label, scene.colour or INK, **scene.marker) for scene in coloured]
+    for track in tracks:
+        colour = INK if coloured else track.colour(looks.colours)
+        made.append(entry(track.label, colour, track.dash, track.width))
+        if any(track.falls(scene.values).any() for scene in scenes):
+            words = track.label.replace(", stable", "") + ", unstable"
+            made.append(entry(words, faded(colour), track.dash, track.width))
+    if any(flagged(scene.values, f"{track.curve}_jump")[1:].any() for track in tracks for scene in scenes):
+        made.append(entry("jump", INK, JUMP, THIN))
+    if any(track.curve == "path" for track in tracks):
+        made += entries([doubt for doubt in DOUBTS if any(doubt in scene.doubts for scene in scenes)])
+    return made
