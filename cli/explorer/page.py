@@ -38,15 +38,7 @@ _SCRIPTS: Final = ("numbers", "scene", "controls", "maps", "sections", "curves",
 
 
 def page(dataset: xarray.Dataset, file: str, variables: Sequence[str], places: Sequence[str]) -> str:
-    """Write a dataset as a page.
-
-    Parameters
-    ----------
-    file
-        The name of the dataset, which the page shows.
-    variables, places
-        What to take of it: variables by name (all if none), and AXIS=VALUE for the nearest value of an axis.
-    """
+    """Write a dataset, whose name is `file`, as a page: some variables (all if none), at AXIS=VALUE of some axes."""
     cut = chosen(dataset, variables, places)
     planes, units, tracks = lines_of(cut) if has_curves(dataset) else ([], {}, {})
     study, shown = study_data(cut, units)

@@ -36,16 +36,9 @@ from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 
-PLANES: Final[tuple[Plane, ...]] = (
-    ("indentation", "load"),
-    ("contact_radius", "indentation"),
-    ("contact_radius", "load"),
-)
+PLANES: Final = (("indentation", "load"), ("contact_radius", "indentation"), ("contact_radius", "load"))
 """What each panel has along and up, unless that is chosen."""
-STATE_PLANES: Final = {
-    "pressure": ("pressure_radius", "pressure"),
-    "surface": ("surface_radius", "surface_displacement"),
-}
+OF_STATES: Final = {"pressure": ("pressure_radius", "pressure"), "surface": ("surface_radius", "surface_displacement")}
 """What each curve of a state has along and up."""
 FEW: Final = 60
 """Points that are circles on top of the lines; more are grey dots below them, which would hide the lines."""
@@ -57,26 +50,25 @@ DASHES: Final = ("-", (0, (5, 1.5)), (0, (2, 1)), (0, (6, 1.5, 1, 1.5)))
 
 def drawn_curves(
     dataset: xarray.Dataset,
-    requested: Sequence[str],
+    asked: Sequence[str],
     x: str | None,
     y: str | None,
     looks: Looks,
     data: Path | None,
-    notes: Callable[[str], None],
+    note: Callable[[str], None],
 ) -> Figure:
-    """Draw curves of a dataset into three panels, in units if it has them; without any asked for, all of them.
+    """Draw curves of a dataset into three panels, or those with x and y, in units if it has them; all if none is asked.
 
-    With x or y, the contact radius, indentation or load, those panels alone are drawn that have it there. Curves of
-    states, over the distance from the axis, are drawn where they alone are asked for or there. Measured points come
-    from a file, `data`; what is left out of it goes to `notes`.
+    Curves of states, over the distance from the axis, are drawn where they alone are asked for or there. Measured
+    points come from a file, `data`; `note` takes what is left out of it.
     """
     if looks.kind == "map":
         raise DatasetError("--map: curves are drawn as lines; leave it out")
     looks.refuse(["levels", "clabel", "band"], "curves are drawn as lines, without a spread")
-    planes, chosen = _planes(x, y), _chosen(dataset, requested)
+    planes, chosen = _planes(x, y), _chosen(dataset, asked)
     of_states = [curve for curve in chosen if curve in STATE_CURVES]
     chosen = [curve for curve in chosen if curve not in of_states]
-    if of_states and (requested or not chosen):
+    if of_states and (asked or not chosen):
         others = [*chosen, *(f"--{name} {value}" for name, value in (("data", data), ("x", x), ("y", y)) if value)]
         if others:
             raise DatasetError(
@@ -84,7 +76,7 @@ def drawn_curves(
             )
         return _drawn_states(dataset, of_states, looks)
     scenes, caption = scenes_of(dataset, looks)
-    si = wants_si(map(str, dataset.data_vars), requested)
+    si = wants_si(map(str, dataset.data_vars), asked)
     known = [track for track in tracks_in(dataset, si=si, many=len(scenes) > 1) if track.curve in chosen]
     there = {plane: [one for one in known if {one.variables[side] for side in plane} <= {*dataset}] for plane in planes}
     panels = {plane: tracks for plane, tracks in there.items() if tracks}
@@ -101,7 +93,7 @@ def drawn_curves(
             looks.refuse([choice], "the panels differ; choose one with --x indentation --y load")
     points = None if data is None else read_points(data, [*panels], si=si)
     if points and points.left_out:
-        notes(points.left_out)
+        note(points.left_out)
     below = stacked(len(panels), 1.7, looks)
     size = looks.width or max(4.0, 2.5 * len(panels)), 2.4 * below + 0.6
     with styled(looks):
@@ -196,7 +188,7 @@ def _drawn_states(dataset: xarray.Dataset, chosen: Sequence[str], looks: Looks) 
     """Draw pressure and surface of the states of a scene, the first of several; in units if the dataset has them."""
     looks.refuse(["xlim", "ylim"], "curves of states are drawn whole")
     scene = finite(dataset.isel(dict.fromkeys(dataset["status"].dims, 0)))
-    panels = [names for curve, names in STATE_PLANES.items() if curve in chosen and {*names} <= {*scene}]
+    panels = [names for curve, names in OF_STATES.items() if curve in chosen and {*names} <= {*scene}]
     if not any((scene[x].notnull() & scene[y].notnull()).any() for x, y in panels):
         raise DatasetError(
             f"{chosen[0]}: no value in any state drawn, `gradhesion info` reports why; or its radius or value is "

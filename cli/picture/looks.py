@@ -22,8 +22,7 @@ STYLE: Final = "gradhesion.style"
 """The style of the project, as matplotlib knows it: `plt.style.use("gradhesion.style")`."""
 WIDTHS: Final = {"column": 90 / 25.4, "page": 190 / 25.4}
 """The widths of a column and of a page of a journal, in inches: 90 mm and 190 mm."""
-LEAST: Final = 1.0
-MOST: Final = 100.0
+LEAST, MOST = 1.0, 100.0
 """Sides of a picture, in inches: a smaller one has no room for its labels, a larger one no paper."""
 FINEST: Final = 100
 """Contour levels: more would be one colour."""

@@ -79,7 +79,7 @@ def number_contours(lines: QuadContourSet, unit: Unit) -> None:
     On a steep flank, where lines crowd, there is none: it would hide the lines beside.
     """
     frame, transform, inch = lines.axes.get_window_extent(), lines.get_transform(), lines.axes.figure.dpi
-    pieces = [
+    pieces: list[list[Any]] = [
         [Path(transform.transform(piece)).interpolated(10).vertices for piece in path.to_polygons(closed_only=False)]
         for path in lines.get_paths()
     ]
@@ -98,7 +98,7 @@ def number_contours(lines: QuadContourSet, unit: Unit) -> None:
         lines.clabel(manual=places, fmt=unit.number, fontsize="x-small", inline_spacing=2)
 
 
-def _apart(places: Values, others: Any) -> Values:
+def _apart(places: Any, others: Any) -> Any:
     """Give the distance of each place from the nearest of others."""
     return np.hypot(*(np.reshape(others, (-1, 1, 2)) - places).T).min(axis=1, initial=np.inf)
 

@@ -67,20 +67,15 @@ class Doubt(NamedTuple):
         return {"ls": "", "marker": self.mark, "ms": self.size, "mfc": "white", "mec": colour}
 
 
-_OF_FLAGS: Final = (
-    ("////", "o", 3.5),
-    ("\\\\\\\\", "s", 5.5),
-    ("xxxx", "D", 7.0),
-    ("----", "v", 8.0),
-    ("||||", "p", 8.0),
-)
+_OF_FLAGS: Final = (("/", "o", 3.5), ("\\", "s", 5.5), ("x", "D", 7.0), ("-", "v", 8.0), ("|", "p", 8.0))
 _OF_LIMITS: Final = (("oo", "P", 6.0), ("OO", "X", 6.0), ("++", "*", 6.0), ("..", "h", 6.0), ("**", "8", 6.0))
 _FLAGS: Final = {FLAG_WORDS[name]: bit for name, bit in FLAGS.items() if bit & model_range.DOUBTS}
-DOUBTS: Final = [Doubt(words, *look, bit) for (words, bit), look in zip(_FLAGS.items(), _OF_FLAGS, strict=True)]
+DOUBTS: Final = [
+    Doubt(words, 4 * hatch, mark, size, bit)
+    for (words, bit), (hatch, mark, size) in zip(_FLAGS.items(), _OF_FLAGS, strict=True)
+]
 """Every flag that makes values doubtful."""
-BEYOND: Final = {
-    name: Doubt(limit.words, *look) for (name, limit), look in zip(LIMITS.items(), _OF_LIMITS, strict=True)
-}
+BEYOND: Final = {name: Doubt(one.words, *look) for (name, one), look in zip(LIMITS.items(), _OF_LIMITS, strict=True)}
 """How scenes are shown that leave the range of the model, by the validity number that says so."""
 BOUND: Final = Doubt("optimum at a bound of its range", "//..", ">", 6.0)
 END: Final = Doubt("extreme at an end of its axis: it may lie beyond", "....", "^", 4.5)
@@ -96,19 +91,15 @@ def doubts_in(status: NDArray[Any], variable: str, dataset: xarray.Dataset) -> l
 
 
 def marks_of(dataset: xarray.Dataset, values: xarray.DataArray, status: xarray.DataArray, name: str) -> Marks:
-    """Mark the scenes of what is drawn of a variable that are in doubt, beyond the range of the model, or at a bound.
-
-    A validity number shows its own limit alone. What is taken over an axis is marked if any scene on it is; what has no
-    value is not.
-    """
+    """Mark the scenes of a variable that are in doubt, beyond a limit (a validity number: its own), or at a bound."""
     there = doubts_in(status.where(values.notnull(), 0).values, name, dataset)
     found = [(doubt, (status & doubt.bit) != 0) for doubt in there]
     limits = {number: beyond_by(number, dataset) for number in BEYOND if name not in BEYOND or number == name}
     found += [(BEYOND[number], flags) for number, flags in limits.items() if flags is not None]
     if ON_BOUND in dataset and name.startswith(BEST):  # of a parameter that was searched its own, else any
         meanings = str(dataset[ON_BOUND].attrs["flag_meanings"]).split()
-        own = [one for one in meanings if one.startswith(f"{name.removeprefix(BEST)}_at_its_")] or meanings
-        bits = sum(1 << meanings.index(one) for one in own)
+        bounds = [one for one in meanings if one.startswith(f"{name.removeprefix(BEST)}_at_its_")] or meanings
+        bits = sum(1 << meanings.index(one) for one in bounds)
         found.append((BOUND, (dataset[ON_BOUND].astype(int) & bits) != 0))
     return [(doubt, own) for doubt, flags in found if bool((own := among(flags, values)).any())]
 

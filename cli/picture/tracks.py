@@ -46,12 +46,11 @@ def flagged(scene: xarray.Dataset, name: str, count: int = 1) -> Steps:
 
 @dataclass(frozen=True)
 class Track:
-    """One line: its curve, the variables that give its points, and how it looks."""
+    """One line: its curve, what the names of its variables begin and end with, and how it looks."""
 
     curve: str
     label: str
     stem: str
-    """What the names of its variables begin with."""
     dash: Dash
     width: float
     shade: float
@@ -59,7 +58,6 @@ class Track:
     unloading: bool | None = None
     """Whether it is the loading or the unloading part of its curve, if it is a part."""
     end: str = ""
-    """What the names of its variables end with: those in SI units have one."""
 
     @property
     def variables(self) -> Mapping[str, str]:
@@ -153,20 +151,14 @@ SCENES: Final = len(MARKERS)
 """Scenes in one picture: more could not be distinguished."""
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Scene:
-    """One scene of a dataset: its colour (None: each line has its own), what makes it doubtful, and its marker."""
+class Scene(NamedTuple):
+    """One scene of a dataset: its colour (None: each line has its own), its marker, and what makes it doubtful."""
 
     label: str
     colour: Colour | None
+    marker: str
     values: xarray.Dataset
     doubts: Sequence[Doubt]
-    item: int
-
-    @property
-    def marker(self) -> dict[str, Any]:
-        """Give what distinguishes it in a grey print."""
-        return {"marker": MARKERS[self.item], "ms": 3.2, "mew": 0.0}
 
 
 def scenes_of(dataset: xarray.Dataset, looks: Looks) -> tuple[list[Scene], list[str]]:
@@ -189,7 +181,7 @@ def scenes_of(dataset: xarray.Dataset, looks: Looks) -> tuple[list[Scene], list[
         if not any(np.isfinite(scene[name].values).any() for name in names if name in scene):
             label, colour = f"{label} (no value)", to_rgb(CROSS)
         doubts = doubts_in(scene["status"].values, "path", scene)
-        scenes.append(Scene(label=label, colour=colour, values=scene, doubts=doubts, item=place))
+        scenes.append(Scene(label, colour, MARKERS[place], scene, doubts))
     caption += [f"{SCENES} of {size} scenes"] if size > SCENES else []
     return scenes, [*caption, *slope_warnings(dataset)]
 
@@ -224,8 +216,8 @@ def draw_panel(
             colour, own = scene.colour or track.colour(looks.colours), track.points(scene.values, plane)
             track.draw(axes, scene.values, plane, colour)
             if scene.colour:
-                start = MARKED * (0.15 + scene.item / len(MARKERS))  # beside those of the scene before
-                _draw_marks(axes, own, start, MARKED, color=colour, **scene.marker)
+                start = MARKED * (0.15 + MARKERS.index(scene.marker) / SCENES)  # beside those of the scene before
+                _draw_marks(axes, own, start, MARKED, color=colour, marker=scene.marker, ms=3.2, mew=0.0)
             if track.curve == "path" and not track.unloading:
                 loading = own[:, ~flagged(scene.values, "path_unloading", own.shape[1])]
                 for doubt in reversed(scene.doubts):  # the larger ones below
@@ -265,7 +257,7 @@ def handles_of(scenes: Sequence[Scene], tracks: Sequence[Track], looks: Looks) -
         return Line2D([], [], color=colour, ls=dash, lw=width, label=label, **more)
 
     coloured = [scene for scene in scenes if scene.colour]
-    made: list[Artist] = [entry(scene.label, scene.colour or INK, **scene.marker) for scene in coloured]
+    made: list[Artist] = [entry(one.label, one.colour, marker=one.marker, ms=3.2, mew=0.0) for one in coloured]
     for track in tracks:
         colour = INK if coloured else track.colour(looks.colours)
         made.append(entry(track.label, colour, track.dash, track.width))
