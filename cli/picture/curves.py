@@ -18,7 +18,7 @@ from gradhesion.cli.names.curves import RAGGED, STATE, STATE_CURVES, variables_o
 from gradhesion.cli.names.outputs import SI
 from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.picture.labels import fixed, number, suit
-from gradhesion.cli.picture.looks import Looks
+from gradhesion.cli.picture.looks import Looks, check_names
 from gradhesion.cli.picture.pictured import finish, make_room, stacked, styled
 from gradhesion.cli.picture.tracks import (
     QUANTITIES,
@@ -34,12 +34,14 @@ from gradhesion.cli.study.text.quantities import factor_of_column, scaled
 from gradhesion.cli.tables.columns import Columns, ColumnsError
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.amounts import counted
-from gradhesion.cli.terminal.wording import did_you_mean, shown
+from gradhesion.cli.terminal.wording import shown
 
 PLANES: Final = (("indentation", "load"), ("contact_radius", "indentation"), ("contact_radius", "load"))
 """What each panel has along and up, unless that is chosen."""
 OF_STATES: Final = {"pressure": ("pressure_radius", "pressure"), "surface": ("surface_radius", "surface_displacement")}
 """What each curve of a state has along and up."""
+JUMPS: Final = 'jumps are not drawn, but listed by `gradhesion info --jumps`; draw the cycle: add "path" to the outputs'
+"""What is said where there is nothing else."""
 FEW: Final = 60
 """Points that are circles on top of the lines; more are grey dots below them, which would hide the lines."""
 CIRCLES: Final[dict[str, Any]] = {"mfc": "white", "mec": "0.1", "mew": 0.5, "ms": 2.8, "zorder": 3}
@@ -123,11 +125,7 @@ def wants_si(there: Iterable[str], requested: Sequence[str]) -> bool:
 def _planes(x: str | None, y: str | None) -> Sequence[Plane]:
     """List the planes that have a quantity along and one up, as they are chosen."""
     for side, name in (("x", x), ("y", y)):
-        if name and name not in QUANTITIES:
-            remedy = did_you_mean(name, [*QUANTITIES])
-            raise DatasetError(f"--{side} {name}: not what curves are drawn over; {remedy}")
-    if x and x == y:
-        raise DatasetError(f"--x {x} --y {y}: one quantity cannot be both sides; choose another for one of them")
+        check_names(side, [name] if name else [], [*QUANTITIES], "not what curves are drawn over")
     every = [(along, up) for along in ([x] if x else QUANTITIES) for up in ([y] if y else QUANTITIES) if along != up]
     return [plane for plane in PLANES if plane in every] or every
 
@@ -136,14 +134,9 @@ def _chosen(dataset: xarray.Dataset, requested: Sequence[str]) -> list[str]:
     """List the curves to draw; a variable stands for its curve."""
     there = {curve: own for curve, own in variables_of_curves(dataset).items() if curve not in RAGGED}
     if not there:
-        raise DatasetError(
-            "jumps are not drawn: `gradhesion info --jumps` lists them; "
-            'for a picture of the cycle add "path" to the outputs of the study'
-        )
+        raise DatasetError(JUMPS)
     known = [word for curve, own in there.items() for word in (curve, *own)]
-    for name in requested:
-        if name not in known:
-            raise DatasetError(f"--variable {name}: not a curve of this dataset; {did_you_mean(name, known)}")
+    check_names("variable", requested, known, "not a curve of this dataset")
     return [curve for curve, own in there.items() if not requested or {curve, *own} & {*requested}]
 
 

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from decimal import Decimal
@@ -120,6 +120,13 @@ def value_in(text: str, name: str, option: str) -> float:
         wanted = "has no unit" if unit_of(name) == "1" else f"is in {unit_of(name)}"
         raise DatasetError(f'{option}: "{text}" is not a value of {name}, which {wanted}; write a number or a quantity')
     return value
+
+
+def check_names(option: str, names: Iterable[str], known: Sequence[str], what: str) -> None:
+    """Refuse the first name of an option that is not among those known, and say what it is."""
+    for name in names:
+        if name not in known:
+            raise DatasetError(f"--{option} {name}: {what}; {did_you_mean(name, known)}")
 
 
 def _in_unit(text: str, unit: str) -> float:

@@ -24,12 +24,11 @@ from gradhesion.cli.names.outputs import BEST, ON_BOUND, PARETO_POINT, SI
 from gradhesion.cli.picture.curves import drawn_curves
 from gradhesion.cli.picture.fits import drawn_fits
 from gradhesion.cli.picture.labels import Scale, Unit, effective, equations, locator, numbers, scale, suit
-from gradhesion.cli.picture.looks import Looks
+from gradhesion.cli.picture.looks import Looks, check_names
 from gradhesion.cli.picture.panels import FEW, LIGHT, MARKS, draw_density, draw_lines, draw_map, number_contours
 from gradhesion.cli.picture.pictured import MARKERS, finish, stacked, styled
 from gradhesion.cli.picture.plan import Plan, caption_of, planned, some_of, within
 from gradhesion.cli.picture.shown import INK, Shown, entries, shown_of
-from gradhesion.cli.terminal.wording import did_you_mean
 from gradhesion.core.problem.inputs import INPUTS
 
 NARROW: Final = 1.5
@@ -55,6 +54,8 @@ def picture_of(
     if is_fit(dataset):
         choices = {"--over": over, "--variable": variables, "--x": x, "--y": y, "--data": data}
         return drawn_fits(dataset, looks, [word for word, value in choices.items() if value], at)
+    if x and x == y:
+        raise DatasetError(f"--x {x} --y {y}: one axis cannot be both sides; choose another for one of them")
     selection = selection_of(dataset, at, over, interpolate=interpolate)
     for note in [] if interpolate else nearest_values(dataset, at):
         notes(note)
@@ -116,9 +117,7 @@ def _chosen(dataset: xarray.Dataset, requested: Sequence[str]) -> tuple[xarray.D
     known = [str(name) for name in dataset.data_vars]
     parts = {name: with_influence(dataset, name, [*own]) if own else [name] for name, own in of_each.items()}
     chosen = [one for name in requested for one in parts.get(name, [name])]
-    for name in chosen:
-        if name not in known:
-            raise DatasetError(f"--variable {name}: not in this dataset; {did_you_mean(name, known)}")
+    check_names("variable", chosen, known, "not in this dataset")
     if not chosen and ON_BOUND in parts:
         chosen = [name for name in parts if name.startswith(BEST) and not of_each[name] and name + SI not in parts]
     usual = [name + SI if name + SI in known else name for name in ("pull_off_force", "dissipated_energy")]
@@ -246,9 +245,7 @@ def _drawn_fronts(
 def _sides(dataset: xarray.Dataset, requested: Sequence[str], x: str | None, y: str | None) -> tuple[str, str]:
     """Choose the two variables: the goals, in SI units if they have them."""
     known = [str(name) for name in dataset.data_vars if PARETO_POINT in dataset[name].dims]
-    for name in (*requested, *filter(None, (x, y))):
-        if name not in known:
-            raise DatasetError(f"--variable {name}: not a variable of the Pareto front; {did_you_mean(name, known)}")
+    check_names("variable", (*requested, *filter(None, (x, y))), known, "not a variable of the Pareto front")
     goals = [name for name in known if not name.endswith(SI) and name.removeprefix(BEST) not in INPUTS]
     goals = [name + SI if name + SI in known else name for name in goals[:2]]
     first, second = [*requested, *goals[len(requested) :]][:2]

@@ -2,6 +2,7 @@
 
 import math
 import re
+import textwrap
 import warnings
 from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
@@ -72,11 +73,11 @@ def finish(
     The size in inches is that which suits its panels, which stand in so many rows; words and sides that are chosen come
     first. Numbers on contours need it `laid_out`, with everything in its place.
     """
-    for side, words in (("x", looks.xlabel), ("y", looks.ylabel)):
+    for side, words in ((side, words) for side in "xy" if (words := getattr(looks, f"{side}label")) is not None):
         named = [axis for axes in panels if (axis := getattr(axes, f"{side}axis")).get_label_text()]
-        if words is not None and len({axis.get_label_text() for axis in named}) > 1:
+        if len({axis.get_label_text() for axis in named}) > 1:
             raise DatasetError(f"--{side}label: the panels have different axes; choose one variable, or one plane")
-        for axis in named if words is not None else ():
+        for axis in named:
             axis.set_label_text(_drawable(str(words)))
     width = looks.width or size[0]
     longest = max((len(re.sub(r"[$\\{}]", "", str(entry.get_label()))) for entry in entries), default=0)
@@ -108,14 +109,12 @@ def finish(
 
 def heading(dataset: xarray.Dataset) -> str:
     """Report the title of a dataset, and shape and control where they are not those of the paper."""
-    written = [str(dataset.attrs["title"])]
     profile = str(dataset.attrs.get("profile", ""))
-    if profile not in ("", shape_in_words(Profile())):
-        written.append(f"profile {profile if len(profile) <= 110 else profile[:110] + ' ...'}")
-    control = str(dataset.attrs.get("control", "displacement"))
-    if control != "displacement":
-        written.append({"load": "under controlled load", "machine": "through a machine of finite stiffness"}[control])
-    return "\n".join(map(_drawable, written))
+    is_own = profile not in ("", shape_in_words(Profile()))
+    shape = textwrap.shorten(f"profile {profile}", 120, placeholder=" ...") if is_own else ""
+    controls = {"load": "under controlled load", "machine": "through a machine of finite stiffness"}
+    control = controls.get(str(dataset.attrs.get("control")), "")
+    return "\n".join(map(_drawable, filter(None, (str(dataset.attrs["title"]), shape, control))))
 
 
 def _drawable(text: str) -> str:

@@ -55,8 +55,6 @@ def planned(
     dataset: xarray.Dataset, selection: Selection, looks: Looks, x: str | None, y: str | None
 ) -> tuple[xarray.Dataset, Plan]:
     """Choose which axis of a narrowed dataset goes where; a parameter that is asked for takes the place of its axis."""
-    if x and x == y:
-        raise DatasetError(f"--x {x} --y {y}: one axis cannot be both sides; choose another for one of them")
     gone = {*selection.over, *(one.axis for one in selection.between)}
     for option, name in (("--x", x), ("--y", y)):
         dataset = _placed(dataset, f"{option} {name}", name, {*selection.fixed, *gone}) if name else dataset
