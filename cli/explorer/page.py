@@ -40,8 +40,8 @@ FONT: Final = "12px"
 BAR: Final = 66
 BARE: Final = 16
 """Pixels to the right of frames, on a page with bars of colours and without: frames stand in line."""
-TOOLS: Final = "pan,wheel_zoom,box_zoom,reset,save"
 Part = dict[str, Any]
+LOOKS: Final[Part] = {"tools": "pan,wheel_zoom,box_zoom,reset,save", "toolbar_location": "above", "min_border": 4}
 _SCRIPTS: Final = ("numbers", "scene", "controls", "maps", "sections", "curves", "address", "downloads", "explorer")
 """The script of a page, in the order in which its parts need each other."""
 
@@ -202,21 +202,10 @@ def _lines(plot: figure) -> ColumnDataSource:
 
 def _figure(name: str, place: str, sides: Part, right: int) -> figure:
     """Make a figure that fills its place in the page, with the ticks of the script, at a size that can be read."""
-    plot = figure(
-        name=name,
-        x_range=sides["x"],
-        y_range=sides["y"],
-        tools=TOOLS,
-        active_drag=None,  # a finger that moves the page must not be caught
-        sizing_mode="stretch_both",
-        toolbar_location="above",
-        output_backend="canvas",
-        min_border=4,
-        min_border_left=78,
-        min_border_right=right,
-    )
-    plot.toolbar.logo = None
-    plot.toolbar.autohide = True
+    own: Part = {"name": name, "x_range": sides["x"], "y_range": sides["y"], "sizing_mode": "stretch_both"}
+    own["active_drag"] = None  # a finger that moves the page must not be caught
+    plot = figure(**LOOKS, **own, min_border_left=78, min_border_right=right, output_backend="canvas")
+    plot.toolbar.update(logo=None, autohide=True)
     for side, axis in (("x", plot.xaxis[0]), ("y", plot.yaxis[0])):
         axis.update(**_ticks(f"{place}.{side}"))
         for part in ("axis", "major"):

@@ -12,7 +12,7 @@ from matplotlib.path import Path
 from gradhesion.cli.picture.labels import Scale, Unit, dress, equations
 from gradhesion.cli.picture.looks import Looks
 from gradhesion.cli.picture.plan import Plan
-from gradhesion.cli.picture.shown import CROSS, GREY, INK, Shown, Values, padded
+from gradhesion.cli.picture.shown import CROSS, GREY, INK, Shown, Values
 
 DASHES: Final[tuple[Any, ...]] = ("-", "--", "-.", ":", (0, (8, 4)), (0, (6, 1.5, 1, 1.5, 1, 1.5)))
 """What distinguishes lines where colours do not print; the gaps of those on top show what is below."""
@@ -165,9 +165,7 @@ def _dress(axes: Axes, shown: Shown, x: Scale) -> None:
     x.dress(axes, "x")
     axes.grid(color="0.9", lw=0.5)
     if shown.unit:
-        flat = padded(*shown.ends) != shown.ends
-        limits = padded(*shown.ends) if flat and not np.isfinite(shown.limits).any() else shown.limits
-        dress(axes, "y", shown.label, shown.unit, shown.ends, limits, log=shown.log)
+        dress(axes, "y", shown.label, shown.unit, shown.ends, shown.limits, log=shown.log)
     else:
         axes.set_ylim(-0.5, len(shown.names) - 0.5)
         axes.set_yticks(range(len(shown.names)), shown.names, fontsize="small")

@@ -112,13 +112,13 @@ def among(flags: xarray.DataArray, values: xarray.DataArray) -> xarray.DataArray
 
 def entries(doubts: Sequence[Doubt], *, in_map: bool = False, gaps: bool = False) -> list[Patch | Line2D]:
     """Make the entries of a legend: the doubts, and scenes without a value if there are such gaps."""
-    words = "no finite value"
+    words = ["no finite value"] if gaps else []
     if in_map:
         hatched: dict[str, Any] = {"facecolor": "none", "edgecolor": INK, "lw": 0.0}
-        patches = [Patch(hatch=doubt.hatch, label=doubt.words, **hatched) for doubt in doubts]
-        return [*patches, *([Patch(facecolor=GREY, label=words)] if gaps else [])]
+        made = [Patch(hatch=doubt.hatch, label=doubt.words, **hatched) for doubt in doubts]
+        return [*made, *(Patch(facecolor=GREY, label=one) for one in words)]
     marks = [Line2D([], [], label=doubt.words, **doubt.marker(INK)) for doubt in doubts]
-    return [*marks, *([Line2D([], [], ls="", marker="x", ms=4, mec=CROSS, label=words)] if gaps else [])]
+    return [*marks, *(Line2D([], [], ls="", marker="x", ms=4, mec=CROSS, label=one) for one in words)]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -181,6 +181,8 @@ def shown_of(dataset: xarray.Dataset, name: str, plan: Plan, selection: Selectio
     unit_from = axis or name
     limits = (-np.inf, np.inf) if plan.is_map else limits_of(looks.ylim, unit_from, *padded(least, greatest))
     ends = least if np.isinf(limits[0]) else limits[0], greatest if np.isinf(limits[1]) else limits[1]
+    if not np.isfinite(limits).any() and padded(*ends) != ends:
+        limits = padded(*ends)
     log = ends[0] > 0.0 and ends[1] >= (WIDE if plan.is_map else FAR) * ends[0]
     unit = unit_for(unit_from, ends, log=log)
     words = label(unit_from, unit)
