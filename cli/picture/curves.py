@@ -73,9 +73,7 @@ def drawn_curves(
     if of_states and (asked or not chosen):
         others = [*chosen, *(f"--{name} {value}" for name, value in (("data", data), ("x", x), ("y", y)) if value)]
         if others:
-            raise DatasetError(
-                f"{of_states[0]}, over the distance from the axis, goes into no picture with {others[0]}; leave it out"
-            )
+            raise DatasetError(f"{others[0]}: {of_states[0]} is drawn over the distance from the axis; leave one out")
         return _drawn_states(dataset, of_states, looks)
     scenes, caption = scenes_of(dataset, looks)
     si = wants_si(map(str, dataset.data_vars), asked)

@@ -80,15 +80,11 @@ def _draw_fit(dataset: xarray.Dataset, looks: Looks) -> Figure:
         top.set(xlabel="", ylabel=top.get_ylabel().replace(" $P$", ""))
         top.legend()
         bottom.axhline(0.0, color="0.3", lw=0.6)
-        finish(figure, dataset, looks, [top, bottom], _found(dataset), size=(4.8, 4.4))
+        rows = zip(*(dataset[name].values.tolist() for name in (PARAMETER, "value", "low", "high")), strict=True)
+        caption = [*(in_words(*row) for row in rows), "in brackets 95 % intervals"]
+        caption.append(rf"reduced $\chi^2$ = {float(dataset['chi_square']) / int(dataset['degrees_of_freedom']):.3g}")
+        finish(figure, dataset, looks, [top, bottom], caption, size=(4.8, 4.4))
     return figure
-
-
-def _found(dataset: xarray.Dataset) -> list[str]:
-    """Write the values with their intervals, in units that suit them."""
-    rows = zip(*(dataset[name].values.tolist() for name in (PARAMETER, "value", "low", "high")), strict=True)
-    reduced = float(dataset["chi_square"]) / int(dataset["degrees_of_freedom"])
-    return [*(in_words(*row) for row in rows), "in brackets 95 % intervals", rf"reduced $\chi^2$ = {reduced:.3g}"]
 
 
 def named(name: str, values: Any) -> tuple[str, Unit]:
