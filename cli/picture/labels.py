@@ -212,10 +212,7 @@ def scale(values: Places, name: str = "", span: str = "") -> Scale:
     array([   1.,   10.,  100., 1000.])
     """
     finite = np.unique(values[np.isfinite(values)])
-    log, infinite = is_log(finite), np.isinf(values)
-    beyond, steps = 0.0, max(1, finite.size - 1)
-    if infinite.any() and log:
-        beyond = finite[-1] * (finite[-1] / finite[0]) ** (1 / steps)
-    elif infinite.any():
-        beyond = finite[-1] + ((finite[-1] - finite[0]) / steps or finite[-1])
+    log, infinite, steps = is_log(finite), np.isinf(values), max(1, finite.size - 1)
+    first, last = finite[[0, -1]]
+    beyond = last * (last / first) ** (1 / steps) if log else last + ((last - first) / steps or last)
     return Scale(name, np.where(infinite, beyond, values), log, bool(infinite.any()), limits_of(span, name, log=log))

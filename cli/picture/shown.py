@@ -9,7 +9,7 @@ import xarray
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import Locator, LogLocator, MaxNLocator
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read import model_range
@@ -235,11 +235,10 @@ def _levels_of(name: str, ends: tuple[float, float], looks: Looks, *, log: bool,
         return levels, inner, (LogNorm if log else Normalize)(levels[0], levels[-1])
     if log:
         steps = next(steps for most, steps in _STEPS if greatest < most * least)
-        decades = 10.0 ** np.arange(np.floor(np.log10(least)), np.ceil(np.log10(greatest)) + 1.0)
-        rising = np.outer(decades, steps).ravel()
+        finest: Locator = LogLocator(subs=steps, numticks=1000)
     else:
         finest = MaxNLocator(looks.levels or 11, steps=[1, 2, 2.5, 5, 10], integer=whole)
-        rising = np.asarray(finest.tick_values(least, greatest))
+    rising = np.asarray(finest.tick_values(least, greatest))
     first = max(0, int(np.searchsorted(rising, least, side="right")) - 1)
     levels = rising[first : int(np.searchsorted(rising, greatest)) + 1]
     if looks.levels and levels.size > looks.levels + 1:  # ratios have steps of their own
