@@ -82,8 +82,8 @@ def drawn_curves(
     panels = {plane: tracks for plane, tracks in there.items() if tracks}
     if not panels:
         raise DatasetError(
-            f"{', '.join(chosen)}: two of contact radius, indentation and load are missing for --x {x} --y {y}; name "
-            f'whole curves in the outputs of the study, as in outputs = ["{chosen[0]}"]'
+            f"--x {x or 'any'} --y {y or 'any'}: {', '.join(chosen)} lacks two of contact radius, indentation and load; "
+            f'name whole curves in the outputs of the study, as in outputs = ["{chosen[0]}"]'
         )
     rows = [track.points(scene.values, plane) for plane, own in panels.items() for track in own for scene in scenes]
     if not any(np.isfinite(row).all(axis=0).any() for row in rows):
