@@ -37,11 +37,9 @@ from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.wording import shown
 
 PLANES: Final = (("indentation", "load"), ("contact_radius", "indentation"), ("contact_radius", "load"))
-"""What each panel has along and up, unless that is chosen."""
 OF_STATES: Final = {"pressure": ("pressure_radius", "pressure"), "surface": ("surface_radius", "surface_displacement")}
-"""What each curve of a state has along and up."""
+"""What each panel has along and up, unless that is chosen; and each curve of a state."""
 JUMPS: Final = 'jumps are not drawn, but listed by `gradhesion info --jumps`; draw the cycle: add "path" to the outputs'
-"""What is said where there is nothing else."""
 FEW: Final = 60
 """Points that are circles on top of the lines; more are grey dots below them, which would hide the lines."""
 CIRCLES: Final[dict[str, Any]] = {"mfc": "white", "mec": "0.1", "mew": 0.5, "ms": 2.8, "zorder": 3}
@@ -82,7 +80,7 @@ def drawn_curves(
     panels = {plane: tracks for plane, tracks in there.items() if tracks}
     if not panels:
         raise DatasetError(
-            f"--x {x or 'any'} --y {y or 'any'}: {', '.join(chosen)} lacks two of contact radius, indentation and load; "
+            f"--x {x or 'any'} --y {y or 'any'}: {', '.join(chosen)} lacks two of contact radius, depth and load; "
             f'name whole curves in the outputs of the study, as in outputs = ["{chosen[0]}"]'
         )
     rows = [track.points(scene.values, plane) for plane, own in panels.items() for track in own for scene in scenes]

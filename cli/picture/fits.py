@@ -25,7 +25,6 @@ from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
 COLOURS: Final = ("C0", "C3")
 """Of loading and of unloading; of fits, and of those in doubt."""
 DOTS: Final[dict[str, Any]] = {"ls": "", "marker": ".", "ms": 2.5, "mew": 0.0, "rasterized": True}
-"""How measured points look."""
 ALONG, UP = "path_indentation_si", "path_load_si"
 """The curves that have the units of depth and load."""
 OFFSETS: Final = {

@@ -21,7 +21,6 @@ from gradhesion.cli.terminal.wording import did_you_mean, nearest
 STYLE: Final = "gradhesion.style"
 """The style of the project, as matplotlib knows it: `plt.style.use("gradhesion.style")`."""
 WIDTHS: Final = {"column": 90 / 25.4, "page": 190 / 25.4}
-"""The widths of a column and of a page of a journal, in inches: 90 mm and 190 mm."""
 LEAST, MOST = 1.0, 100.0
 """Sides of a picture, in inches: a smaller one has no room for its labels, a larger one no paper."""
 FINEST: Final = 100
@@ -39,7 +38,6 @@ class Looks:
     kind: Literal["lines", "map"] | None = None
     width: float | None = None
     height: float | None = None
-    """Its sides, in inches."""
     colour_map: str = "viridis"
     """The usual one rises in lightness, so that it survives a grey print."""
     levels: int | tuple[str, ...] | None = None
@@ -70,7 +68,6 @@ class Looks:
 
 
 PLAIN: Final = Looks()
-"""Nothing is chosen."""
 
 
 def looks_of(**chosen: Any) -> Looks:
@@ -211,4 +208,3 @@ _READ: Final[dict[str, Callable[[str, Any], Any]]] = {
     "xlim": _span,
     "ylim": _span,
 }
-"""What reads each choice that may be wrong."""

@@ -15,15 +15,13 @@ from gradhesion.cli.picture.plan import Plan
 from gradhesion.cli.picture.shown import CROSS, GREY, INK, Shown, Values
 
 DASHES: Final[tuple[Any, ...]] = ("-", "--", "-.", ":", (0, (8, 4)), (0, (6, 1.5, 1, 1.5, 1, 1.5)))
-"""What distinguishes lines where colours do not print; the gaps of those on top show what is below."""
 POINTS: Final = ("o", "^", "s")
-"""What distinguishes series of points."""
+"""What distinguishes lines, and points, where colours do not print; the gaps of those on top show what is below."""
 MARKS: Final = 40
 """Markers along a line, about: more would hide it."""
 FEW: Final = 20
 """Values along an axis up to which a band is drawn as bars: between them nothing is known."""
 LIGHT: Final = 0.2
-"""How opaque a band is."""
 
 
 def draw_map(axes: Axes, shown: Shown, x: Scale, y: Scale, looks: Looks) -> tuple[Any, QuadContourSet | None]:

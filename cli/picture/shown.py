@@ -130,9 +130,7 @@ class Shown:
     marks: Marks
     label: str
     caption: Sequence[str]
-    """What is to be known of the values."""
     gaps: bool
-    """Whether a scene has no value."""
     names: Sequence[str] = ()
     """What the places 0, 1, 2, ... of categories stand for; what follows is of values that are none."""
     unit: Unit | None = None
@@ -141,9 +139,7 @@ class Shown:
     limits: tuple[float, float] = (-np.inf, np.inf)
     """Between which values lines and points are drawn; all of them where they are infinite."""
     log: bool = False
-    """Whether they are drawn over a logarithm."""
     levels: Levels | None = None
-    """Those of a map."""
     band: Sequence[xarray.DataArray] = ()
     """The lower and the upper edge of a band, if there is one."""
     band_words: str = ""
