@@ -42,7 +42,6 @@ _WORDS: Final = {
     "lambda": "λ", "dgamma": "Δγ", "delta": "δ", "chi": "χ", "pi": "π", "E0": "E₀", "c0": "c₀", "a_2": "a₂",
     "a_max": "aₘₐₓ",
 }  # fmt: skip
-_LEAST, _GREATEST = (float(bound) for bound in (np.finfo(np.float32).tiny, np.finfo(np.float32).max))
 Entry = dict[str, Any]
 
 
@@ -60,7 +59,8 @@ def rounded(values: NDArray[Any]) -> NDArray[np.floating[Any]]:
         near = near * 10.0 ** np.maximum(-places, 0) / 10.0 ** np.maximum(places, 0)
     near = np.where((np.abs(places) < 300) & np.isfinite(near), near, exact)  # 0, and what has no such power of ten
     sizes = np.abs(near[np.isfinite(near) & (near != 0.0)])
-    fits = not sizes.size or (sizes.min() >= _LEAST and sizes.max() <= _GREATEST)
+    range_of = np.finfo(np.float32)
+    fits = not sizes.size or (sizes.min() >= range_of.tiny and sizes.max() <= range_of.max)
     return near.astype(np.float32) if fits else near
 
 
@@ -193,10 +193,7 @@ def lines_of(dataset: xarray.Dataset) -> tuple[list[Plane], dict[str, Unit], Ent
     names = [str(name) for name in dataset.data_vars]
     there = tracks_in(names, si=wants_si(names, ()))
     if not there:
-        raise DatasetError(
-            "a page of curves needs two of contact radius, indentation and load of one curve, and this dataset has "
-            'not; name whole curves in the outputs of the study, as in outputs = ["path"]'
-        )
+        raise DatasetError('a page shows whole curves; name some in the outputs of the study, as in outputs = ["path"]')
     labels: dict[str, str] = {}
     units: dict[str, Unit] = {}
     for quantity in QUANTITIES:

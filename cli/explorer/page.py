@@ -91,10 +91,8 @@ def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[s
     parts = [str(name) for name in dataset.data_vars if parts_of(dataset, str(name))]
     dataset = spread(dataset).drop_vars(parts)
     scenes = dataset["status"].dims
-    hidden = ("status", *(name for name in dataset.data_vars if curve_of(str(name)) in (*RAGGED, *STATE_CURVES)))
-    known = [
-        str(name) for name in dataset.data_vars if name not in hidden and dataset[name].dims[: len(scenes)] == scenes
-    ]
+    names = [name for name in map(str, dataset.data_vars) if curve_of(name) not in (*RAGGED, *STATE_CURVES)]
+    known = [name for name in names if name != "status" and dataset[name].dims[: len(scenes)] == scenes]
     check_names("variable", variables, known, "a page cannot show it")
     if not known:
         raise DatasetError(JUMPS)
@@ -108,8 +106,8 @@ def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[s
     size = sum(variable.size for variable in cut.data_vars.values())
     if size > MOST:
         raise DatasetError(
-            f"{size:,} values are too many for a page, which takes {MOST:,}: choose one value of an axis with --at, as "
-            f"in --at AXIS=VALUE, or fewer variables with --variable, or make a coarser study"
+            f"{size:,} values are too many for a page, which takes {MOST:,}; choose fewer with --at AXIS=VALUE, or with "
+            "--variable, or make a coarser study"
         )
     return cut
 
