@@ -106,7 +106,7 @@ def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[s
     size = sum(variable.size for variable in cut.data_vars.values())
     if size > MOST:
         raise DatasetError(
-            f"{size:,} values are too many for a page, which takes {MOST:,}; choose fewer with --at AXIS=VALUE, or with "
+            f"{size:,} values are too many for a page, which takes {MOST:,}; choose fewer with --at AXIS=VALUE or "
             "--variable, or make a coarser study"
         )
     return cut

@@ -167,7 +167,7 @@ def suit(axes: Axes, side: Side, name: str, span: str = "") -> None:
     """Name an axis of a picture after a variable, and let its unit suit the limits: those chosen, if some are."""
     low, high = sorted(getattr(axes, f"get_{side}lim")())
     limits = limits_of(span, name, low, high)
-    seen = max(low, limits[0]) if limits[0] > -np.inf else low, min(high, limits[1]) if limits[1] < np.inf else high
+    seen = max(low, limits[0]), min(high, limits[1])
     unit = unit_for(name, seen)
     dress(axes, side, label(name, unit), unit, seen, limits)
 
