@@ -20,16 +20,7 @@ from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.picture.labels import fixed, number, suit
 from gradhesion.cli.picture.looks import Looks, check_names
 from gradhesion.cli.picture.pictured import finish, make_room, stacked, styled
-from gradhesion.cli.picture.tracks import (
-    QUANTITIES,
-    Plane,
-    Points,
-    draw_panel,
-    finite,
-    handles_of,
-    scenes_of,
-    tracks_in,
-)
+from gradhesion.cli.picture.tracks import QUANTITIES, Plane, Points, draw_panel, finite, legend_of, scenes_of, tracks_in
 from gradhesion.cli.study.text.quantities import factor_of_column, scaled
 from gradhesion.cli.tables.columns import Columns, ColumnsError
 from gradhesion.cli.tables.reading import read_columns
@@ -100,7 +91,7 @@ def drawn_curves(
         for axes, (plane, tracks) in zip(grid, panels.items(), strict=True):
             draw_panel(axes, plane, tracks, scenes, points, looks)
         used = [track for track in known if any(track in tracks for tracks in panels.values())]
-        handles = [*handles_of(scenes, used, looks), *([Line2D([], [], **points.looks)] if points else [])]
+        handles = [*legend_of(scenes, used, looks), *([Line2D([], [], **points.looks)] if points else [])]
         finish(figure, dataset, looks, grid, caption, handles, size=size, rows=below)
     return figure
 

@@ -250,7 +250,7 @@ def _draw_marks(axes: Axes, points: Values, start: float, apart: float, **looks:
         axes.plot(*points, **({"markevery": (start, apart), "ls": ""} | looks))
 
 
-def handles_of(scenes: Sequence[Scene], tracks: Sequence[Track], looks: Looks) -> list[Artist]:
+def legend_of(scenes: Sequence[Scene], tracks: Sequence[Track], looks: Looks) -> list[Artist]:
     """Make the entries of the legend."""
 
     def entry(label: str, colour: Any, dash: Any = "-", width: float = 1.6, **more: Any) -> Line2D:
