@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.read.model_range import slope_warnings
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.curves import RAGGED, STATE, STATE_CURVES, variables_of_curves
 from gradhesion.cli.names.outputs import SI
@@ -182,8 +181,8 @@ def _drawn_states(dataset: xarray.Dataset, chosen: Sequence[str], looks: Looks) 
         for axes, (x, y) in zip(grid, panels, strict=True):
             si = SI if x + SI in scene and y + SI in scene else ""
             _draw_states(axes, scene, x + si, y + si, "surface_gap" + si, looks)
-        caption, (handles, _) = [*fixed(dataset), *slope_warnings(dataset)], grid[-1].get_legend_handles_labels()
-        finish(figure, dataset, looks, grid, caption, handles, size=size, rows=below)
+        handles, _ = grid[-1].get_legend_handles_labels()
+        finish(figure, dataset, looks, grid, fixed(dataset), handles, size=size, rows=below)
     return figure
 
 

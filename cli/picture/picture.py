@@ -15,7 +15,6 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import NullLocator
 
-from gradhesion.cli.dataset.read.model_range import slope_warnings
 from gradhesion.cli.dataset.read.reader import has_curves, is_fit
 from gradhesion.cli.dataset.read.selection import Selection, nearest_values, selection_of
 from gradhesion.cli.dataset.read.sensitivities import parts_of, spread, with_influence
@@ -104,7 +103,7 @@ def _drawn_values(
                 _add_bar(figure, panels, coloured, one, looks.clabel, int((looks.height or size[1]) / below / 0.2))
         used = [*chain(*(panels.flat for panels in parts[: len(names)]))]
         handles = _entries(shown, grid[0, 0].get_legend_handles_labels()[0], plan, along.positions.size)
-        finish(figure, dataset, looks, used, words, handles, size=size, rows=len(grid), laid_out=bool(numbered))
+        finish(figure, part, looks, used, words, handles, size=size, rows=len(grid), laid_out=bool(numbered))
         for lines, unit in numbered:
             number_contours(lines, unit)
     return figure
@@ -237,8 +236,7 @@ def _drawn_fronts(
         if scenes:
             axes.legend(markerscale=1.5)
         caption = [equations(name, narrow[name].item())[0] for name in effective(narrow) if narrow[name].size == 1]
-        caption += slope_warnings(narrow)
-        finish(figure, dataset, looks, [axes], caption, size=(4.2, 3.0))
+        finish(figure, narrow, looks, [axes], caption, size=(4.2, 3.0))
     return figure
 
 

@@ -18,6 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.mathtext import MathTextParser
 from numpy.typing import NDArray
 
+from gradhesion.cli.dataset.read.model_range import slope_warnings
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.picture.looks import PLAIN, STYLE, Looks
 from gradhesion.cli.study.shape_words import shape_in_words
@@ -85,7 +86,7 @@ def finish(
     if entries:
         figure.legend(handles=entries, loc="outside lower center", ncols=columns)
     above = [heading(dataset) if looks.title is None else _drawable(looks.title)]
-    above += [", ".join(map(_unbroken, caption))] if looks.caption else []
+    above += [", ".join(map(_unbroken, [*caption, *slope_warnings(dataset)]))] if looks.caption else []
     words = "\n".join(filter(None, above))
     if words:
         figure.suptitle(words, fontsize="medium", wrap=True)

@@ -7,7 +7,6 @@ from typing import Any, Final, Literal
 import numpy as np
 import xarray
 
-from gradhesion.cli.dataset.read.model_range import slope_warnings
 from gradhesion.cli.dataset.read.selection import Selection, axes_of, check_axis, is_log
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
@@ -172,4 +171,3 @@ def caption_of(part: xarray.Dataset, whole: xarray.Dataset, plan: Plan, selectio
     for axis in (plan.x, plan.second):
         if axis and part.sizes[axis] < whole.sizes[axis]:
             yield f"{part.sizes[axis]:,} of {whole.sizes[axis]:,} values of {SYMBOLS[axis]}"
-    yield from slope_warnings(part)

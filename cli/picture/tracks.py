@@ -12,7 +12,6 @@ from matplotlib.colors import Colormap, to_rgb
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.read.model_range import slope_warnings
 from gradhesion.cli.names.outputs import SI
 from gradhesion.cli.names.scenes import SCENE
 from gradhesion.cli.picture.labels import equations, fixed, given, suit
@@ -183,7 +182,7 @@ def scenes_of(dataset: xarray.Dataset, looks: Looks) -> tuple[list[Scene], list[
         doubts = doubts_in(scene["status"].values, "path", scene)
         scenes.append(Scene(label, colour, MARKERS[place], scene, doubts))
     caption += [f"{SCENES} of {size} scenes"] if size > SCENES else []
-    return scenes, [*caption, *slope_warnings(dataset)]
+    return scenes, caption
 
 
 def finite(scene: xarray.Dataset) -> xarray.Dataset:
