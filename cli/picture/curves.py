@@ -91,7 +91,7 @@ def drawn_curves(
             draw_panel(axes, plane, tracks, scenes, points, looks)
         used = [track for track in known if any(track in tracks for tracks in panels.values())]
         handles = [*legend_of(scenes, used, looks), *([Line2D([], [], **points.looks)] if points else [])]
-        finish(figure, dataset, looks, grid, caption, handles, size=size, rows=below)
+        finish(figure, dataset, looks, grid, caption, handles, size=size)
     return figure
 
 
@@ -182,7 +182,7 @@ def _drawn_states(dataset: xarray.Dataset, chosen: Sequence[str], looks: Looks) 
             si = SI if x + SI in scene and y + SI in scene else ""
             _draw_states(axes, scene, x + si, y + si, "surface_gap" + si, looks)
         handles, _ = grid[-1].get_legend_handles_labels()
-        finish(figure, dataset, looks, grid, fixed(dataset), handles, size=size, rows=below)
+        finish(figure, dataset, looks, grid, fixed(dataset), handles, size=size)
     return figure
 
 

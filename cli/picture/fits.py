@@ -154,7 +154,7 @@ def _draw_loops(dataset: xarray.Dataset, looks: Looks) -> Figure:
         caption = [counted(sound.size, "loop"), "bars: 95 % intervals" if few else "dashed: median"]
         caption += [f"red: {counted(poor, 'fit')} in doubt"] if poor else []
         caption += [f"{counted(missing, 'loop')} without a fit"] if missing else []
-        finish(figure, dataset, looks, panels, caption, size=(2.6 * across + 1.0, 2.2 * down), rows=down)
+        finish(figure, dataset, looks, panels, caption, size=(2.6 * across + 1.0, 2.2 * down))
     return figure
 
 

@@ -103,7 +103,7 @@ def _drawn_values(
                 _add_bar(figure, panels, coloured, one, looks.clabel, int((looks.height or size[1]) / below / 0.2))
         used = [*chain(*(panels.flat for panels in parts[: len(names)]))]
         handles = _entries(shown, grid[0, 0].get_legend_handles_labels()[0], plan, along.positions.size)
-        finish(figure, part, looks, used, words, handles, size=size, rows=len(grid), laid_out=bool(numbered))
+        finish(figure, part, looks, used, words, handles, size=size, laid_out=bool(numbered))
         for lines, unit in numbered:
             number_contours(lines, unit)
     return figure

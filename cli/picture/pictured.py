@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import Final, Literal
+from typing import Any, Final, Literal
 
 import matplotlib.style
 import numpy as np
@@ -61,18 +61,17 @@ def finish(
     figure: Figure,
     dataset: xarray.Dataset,
     looks: Looks,
-    panels: Iterable[Axes],
+    panels: Any,
     caption: Iterable[str],
     entries: Sequence[Artist] = (),
     *,
     size: tuple[float, float],
-    rows: int = 1,
     laid_out: bool = False,
 ) -> None:
     """Size a picture, and put the words around its panels: title and caption above, a legend below.
 
-    The size in inches is that which suits its panels, which stand in so many rows; words and sides that are chosen come
-    first. Numbers on contours need it `laid_out`, with everything in its place.
+    The size in inches is that which suits its panels; words and sides that are chosen come first. Numbers on contours
+    need it `laid_out`, with everything in its place.
     """
     for side, words in ((side, words) for side in "xy" if (words := getattr(looks, f"{side}label")) is not None):
         named = [axis for axes in panels if (axis := getattr(axes, f"{side}axis")).get_label_text()]
@@ -91,7 +90,7 @@ def finish(
     if words:
         figure.suptitle(words, fontsize="medium", wrap=True)
     lines = math.ceil(len(entries) / columns) + (words.count("\n") + 2 if words else 0)
-    height = max(size[1] * min(1.0, width / size[0]), LOWEST * rows)
+    height = max(size[1] * min(1.0, width / size[0]), LOWEST * panels[0].get_gridspec().nrows)
     figure.set_size_inches(width, looks.height or height + 0.17 * lines)
     if not (laid_out or looks.width or looks.height):
         return
