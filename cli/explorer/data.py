@@ -1,36 +1,47 @@
 """The data of a page: axes, parameters, variables and flags as its script reads them."""
 
+import re
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, Final
 
 import numpy as np
 import xarray
+from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read.model_range import DOUBTS, doubts_of
 from gradhesion.cli.dataset.read.sensitivities import PLAIN, part_of
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.explorer.plain import plain, symbol, title
 from gradhesion.cli.names.curves import INTEGERS, curve_of
 from gradhesion.cli.names.scenes import SCENE, SOLVER, SOLVERS
-from gradhesion.cli.picture.labels import Unit, unit_for
-from gradhesion.cli.picture.scales import scale
+from gradhesion.cli.names.symbols import SYMBOLS
+from gradhesion.cli.picture.curves import PLANES, wants_si
+from gradhesion.cli.picture.labels import Unit, label, scale, unit_for
+from gradhesion.cli.picture.looks import Looks
+from gradhesion.cli.picture.tracks import JUMP, QUANTITIES, THIN, Dash, Plane, Track, faded, tracks_in
 from gradhesion.core import FAILED
 from gradhesion.core.answers.flags import FLAG_WORDS, FLAGS
 from gradhesion.core.problem.inputs import INPUTS
 
 DIGITS: Final = 6
 """Significant digits of a value: as many as single precision keeps of any decimal number."""
-
 FEW: Final = 8
 """Values of an axis that are ticks of it; of more, round numbers are."""
-
-UNBOUNDED: Final = "unbounded"
-"""A radius that is infinite, in words."""
-
-_LEAST, _GREATEST = (float(bound) for bound in (np.finfo(np.float32).tiny, np.finfo(np.float32).max))
-
+WIDTH: Final = 1.5
+"""Pixels for a point of a picture, in the width of a line: lines are seen from farther away."""
+UNLOADING: Final = [9, 6]
+"""The dash of unloading, in pixels: what is below it, loading on the same curve, shows in its gaps."""
+_TEX: Final = {
+    r"\ln$ ": "ln ", r"/d$ ": "/d", r"\ln": "ln", r"\frac{3}{2}\pi R\Delta\gamma": "1.5 πRΔγ", r"\Delta\gamma": "Δγ",
+    r"\lambda": "λ", r"\delta": "δ", r"\nu": "ν", r"\chi": "χ",
+    r"\mu": "μ", r"\alpha": "α", r"^{\ast}": "*", "^*": "*", r"_{\max}": "ₘₐₓ",
+    "_0": "₀", "_2": "₂", "^2": "²", r"\,": " ", "$": "",
+}  # fmt: skip
+_WORDS: Final = {
+    "lambda": "λ", "dgamma": "Δγ", "delta": "δ", "chi": "χ", "pi": "π", "E0": "E₀", "c0": "c₀", "a_2": "a₂",
+    "a_max": "aₘₐₓ",
+}  # fmt: skip
 Entry = dict[str, Any]
 
 
@@ -48,27 +59,18 @@ def rounded(values: NDArray[Any]) -> NDArray[np.floating[Any]]:
         near = near * 10.0 ** np.maximum(-places, 0) / 10.0 ** np.maximum(places, 0)
     near = np.where((np.abs(places) < 300) & np.isfinite(near), near, exact)  # 0, and what has no such power of ten
     sizes = np.abs(near[np.isfinite(near) & (near != 0.0)])
-    fits = not sizes.size or (sizes.min() >= _LEAST and sizes.max() <= _GREATEST)
+    range_of = np.finfo(np.float32)
+    fits = not sizes.size or (sizes.min() >= range_of.tiny and sizes.max() <= range_of.max)
     return near.astype(np.float32) if fits else near
 
 
 def study_data(dataset: xarray.Dataset, units: Mapping[str, Unit] = MappingProxyType({})) -> tuple[Entry, list[Entry]]:
-    """Make the data of a page from a dataset that is cut down to what it shall show.
-
-    Parameters
-    ----------
-    dataset
-        Of values or curves.
-    units
-        The units of variables, by name; one that suits its values for each of the others.
+    """Make the data of a page from a dataset that is cut down to what it shall show; `units` are those of variables.
 
     Returns
     -------
-    study
-        What distinguishes scenes, in the order of the values: `axes`, `parameters` (fixed, or following from axes),
-        `status`, `flags`.
-    variables
-        A list of what has values, each flat in that order; a row of `length` values a scene of a curve.
+    What distinguishes scenes: `axes`, `parameters` (fixed, or following from axes), `status`, `flags`; and a list of
+    what has values, each flat in the order of the scenes, a row of `length` values for each of a curve.
     """
     dims = [str(axis) for axis in dataset["status"].dims]
     numeric = [axis for axis in dims if axis in dataset.coords and dataset[axis].dtype.kind in "fiu"]
@@ -139,7 +141,7 @@ def _named(dataset: xarray.Dataset, name: str, unit: Unit | None = None) -> tupl
         "symbol": symbol(name),
         "title": title(name, str(dataset[name].attrs.get("long_name", name))),
         "unit": plain(unit.symbol),
-        "infinite": UNBOUNDED if name in INPUTS and INPUTS[name].infinite else "",
+        "infinite": "unbounded" if name in INPUTS and INPUTS[name].infinite else "",
     }
     return named, np.asarray(values, dtype=float) / 10.0**unit.power if unit.power else values
 
@@ -179,3 +181,95 @@ def _variable(dataset: xarray.Dataset, name: str, units: Mapping[str, Unit]) -> 
         "gaps": bool(finite.size < flat.size),
         "leastPositive": float(positive.min()) if positive.size else None,
     }
+
+
+def lines_of(dataset: xarray.Dataset) -> tuple[list[Plane], dict[str, Unit], Entry]:
+    """List the planes that a dataset of curves fills, and the lines in them, in units if it has them.
+
+    Returns
+    -------
+    The planes, the unit of each variable, and for the script the lines and how an axis names each quantity.
+    """
+    names = [str(name) for name in dataset.data_vars]
+    there = tracks_in(names, si=wants_si(names, ()))
+    if not there:
+        raise DatasetError('a page shows whole curves; name some in the outputs of the study, as in outputs = ["path"]')
+    labels: dict[str, str] = {}
+    units: dict[str, Unit] = {}
+    for quantity in QUANTITIES:
+        own = [track.variables[quantity] for track in there]
+        values = [dataset[name].values.ravel() for name in own if name in dataset]
+        unit = unit_for(own[0], np.concatenate([np.empty(0), *values]))
+        labels[quantity] = plain(label(own[0], unit))
+        units |= dict.fromkeys(own, unit)
+    planes = [plane for plane in PLANES if any({track.variables[one] for one in plane} <= {*names} for track in there)]
+    return planes, units, {"tracks": [_line(track) for track in there], "labels": labels}
+
+
+def _line(track: Track) -> Entry:
+    """Describe a line for the script."""
+    colour = track.colour(Looks().colours)
+    return {**track.variables} | {
+        "curve": track.curve,
+        "label": track.label,
+        "colour": to_hex(colour),
+        "faded": to_hex(faded(colour)),
+        "dash": UNLOADING if track.unloading else _pixels(track.dash, track.width),
+        "jumpDash": _pixels(JUMP, THIN),
+        "jumpWidth": WIDTH * THIN,
+        "width": WIDTH * track.width,
+        "unloading": track.unloading,
+        "flag": f"{track.curve}_jump",
+    }
+
+
+def _pixels(dash: Dash, width: float) -> list[int]:
+    """Write a dash in pixels; none is a full line.
+
+    >>> _pixels("-", 1.0), _pixels((0, (3, 2)), 2.0)
+    ([], [9, 6])
+    """
+    return [] if isinstance(dash, str) else [max(1, round(WIDTH * width * length)) for length in dash[1]]
+
+
+def symbol(name: str) -> str:
+    """Name a variable at an axis.
+
+    >>> symbol("a_max_over_R"), symbol("dissipated_energy"), symbol("load")
+    ('aₘₐₓ/R', 'dissipated energy H/(R²Δγ)', 'load')
+    """
+    return plain(SYMBOLS.get(name, name.replace("_", " ")))
+
+
+def plain(text: str) -> str:
+    r"""Write what a picture writes in TeX in Unicode.
+
+    >>> plain(r"load $P\,/\,\frac{3}{2}\pi R\Delta\gamma$"), plain("depth $a$ (nm)")
+    ('load P/1.5 πRΔγ', 'depth a (nm)')
+    """
+    for tex, letters in _TEX.items():
+        text = text.replace(tex, letters)
+    return re.sub(r"  +", " ", text).replace(" / ", "/")
+
+
+def title(name: str, long_name: str) -> str:
+    """Name a variable in a list that may be cut short: as a picture does, a letter alone with its meaning behind it.
+
+    >>> title("lambda_over_R", "wavelength lambda/R of the waviness"), title("pull_off_force", "pull-off force F/...")
+    ('λ/R – wavelength of the waviness', 'pull-off force F/(1.5 πRΔγ)')
+    """
+    whole = SYMBOLS.get(name, "")
+    if not whole.startswith("$"):
+        return plain(whole) or words(long_name)
+    meaning = re.sub(r" \(inf: [^)]*\)$", "", words(long_name))
+    return f"{plain(whole)} – {meaning.replace(f' {plain(whole)} ', ' ', 1)}"
+
+
+def words(long_name: str) -> str:
+    """Write a `long_name` with the letters of the field.
+
+    >>> words("pull-off force F/(1.5 pi R dgamma)"), words("reduced modulus E* = E0/(1 - nu^2)")
+    ('pull-off force F/(1.5 π R Δγ)', 'reduced modulus E* = E₀/(1 − ν²)')
+    """
+    text = re.sub(r"[A-Za-z_0-9]+", lambda found: _WORDS.get(found[0], found[0]), long_name)
+    return re.sub(r"\bnu\^2", "ν²", text).replace("^2", "²").replace(")^k", ")ᵏ").replace(" - ", " − ")

@@ -6,7 +6,6 @@ from typing import Any, Final
 
 import numpy as np
 import xarray
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -15,36 +14,27 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.fits import LOOP
 from gradhesion.cli.names.outputs import PARAMETER
 from gradhesion.cli.names.symbols import SYMBOLS
-from gradhesion.cli.picture.labels import Unit, number, unit_for
+from gradhesion.cli.picture.labels import Unit, number, suit, unit_for
 from gradhesion.cli.picture.looks import PLAIN, Looks
-from gradhesion.cli.picture.pictured import finish, styled
-from gradhesion.cli.picture.scales import suit
+from gradhesion.cli.picture.pictured import finish, make_room, styled
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.messages import printable
 from gradhesion.core.answers.profile_fit import FittedProfile
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
 
-Values = NDArray[np.float64]
-
 COLOURS: Final = ("C0", "C3")
 """Of loading and of unloading; of fits, and of those in doubt."""
-
 DOTS: Final[dict[str, Any]] = {"ls": "", "marker": ".", "ms": 2.5, "mew": 0.0, "rasterized": True}
-"""How measured points look."""
-
 ALONG, UP = "path_indentation_si", "path_load_si"
 """The curves that have the units of depth and load."""
-
 OFFSETS: Final = {
     "indentation_offset": ("offset of the depth", ALONG),
     "load_offset": ("offset of the load", UP),
     "load_slope": ("tilt of the load", "spring_constant"),
 }
 """What is fitted beside parameters: its words, and what has its unit."""
-
 FEW: Final = 24
 """Loops that are drawn one by one, with their intervals; of more a histogram is."""
-
 LISTED: Final = 12
 """Loops that have room for the names of their files."""
 
@@ -61,9 +51,8 @@ def drawn_fits(
     why = f"fits are drawn as a whole, or one with --at {LOOP}=0" if several else "a fit is drawn as a whole"
     if refused := [*choices, *(["--at"] if at and not several else [])]:
         raise DatasetError(f"{refused[0]}: {why}; leave it out")
-    looks.refuse(["band", "levels", "clabel"], why)
+    looks.refuse(["band", "levels", "clabel", *(["xlim", "ylim"] if several and not at else [])], why)
     if several and not at:
-        looks.refuse(["xlim", "ylim"], why)
         return _draw_loops(dataset, looks)
     return _draw_fit(one_loop(dataset, at) if at else dataset, looks)
 
@@ -82,8 +71,7 @@ def _draw_fit(dataset: xarray.Dataset, looks: Looks) -> Figure:
             if own.any():
                 top.plot(depth[own], load[own], color=COLOURS[way], **DOTS, label=f"measured, {words}")
                 bottom.plot(depth[own], dataset["residual"].values[own], color=COLOURS[way], **DOTS)
-        margin = 0.08 * float(np.ptp(depth))
-        top.set_xlim(float(depth.min()) - margin, float(depth.max()) + margin)
+        make_room(top, "x", depth)
         suit(top, "x", ALONG, looks.xlim)
         suit(top, "y", UP, looks.ylim)
         words = "displacement of the machine" if dataset.attrs.get("control") == "machine" else "depth"
@@ -91,15 +79,11 @@ def _draw_fit(dataset: xarray.Dataset, looks: Looks) -> Figure:
         top.set(xlabel="", ylabel=top.get_ylabel().replace(" $P$", ""))
         top.legend()
         bottom.axhline(0.0, color="0.3", lw=0.6)
-        finish(figure, looks, dataset=dataset, caption=_found(dataset), size=(4.8, 4.4), panels=[top, bottom])
+        rows = zip(*(dataset[name].values.tolist() for name in (PARAMETER, "value", "low", "high")), strict=True)
+        caption = [*(in_words(*row) for row in rows), "in brackets 95 % intervals"]
+        caption.append(rf"reduced $\chi^2$ = {float(dataset['chi_square']) / int(dataset['degrees_of_freedom']):.3g}")
+        finish(figure, dataset, looks, [top, bottom], caption, size=(4.8, 4.4))
     return figure
-
-
-def _found(dataset: xarray.Dataset) -> list[str]:
-    """Write the values with their intervals, in units that suit them."""
-    rows = zip(*(dataset[name].values.tolist() for name in (PARAMETER, "value", "low", "high")), strict=True)
-    reduced = float(dataset["chi_square"]) / int(dataset["degrees_of_freedom"])
-    return [*(in_words(*row) for row in rows), "in brackets 95 % intervals", rf"reduced $\chi^2$ = {reduced:.3g}"]
 
 
 def named(name: str, values: Any) -> tuple[str, Unit]:
@@ -123,19 +107,17 @@ def in_words(name: str, value: float, low: float, high: float) -> str:
     words, unit = named(name, value)
     value, low, high = (one / 10.0**unit.power for one in (value, low, high))
     half = 0.5 * (high - low)
-    decimals = 1 - math.floor(math.log10(half)) if 1e-9 * abs(value) < half < math.inf else 9
-    ends = [number(one) if decimals > 8 else f"{one:.{max(0, decimals)}f}" for one in (value, low, high)]
+    decimals = max(0, 1 - math.floor(math.log10(half))) if 1e-7 <= half < math.inf else None
+    ends = [number(one) if decimals is None else f"{one:.{decimals}f}" for one in (value, low, high)]
     written = "{} ({} to {})".format(*ends).replace("-", "\N{MINUS SIGN}")
     return f"{words} = {written} {unit.symbol}".strip()
 
 
 def _draw_loops(dataset: xarray.Dataset, looks: Looks) -> Figure:
     """Draw a panel for each parameter."""
-    names = list(map(str, dataset[PARAMETER].values))
-    files = list(map(str, dataset["file"].values))
+    names, files = (list(map(str, dataset[name].values)) for name in (PARAMETER, "file"))
     sound = np.flatnonzero(dataset["value"].notnull().all(PARAMETER).values)
-    few = len(files) <= FEW
-    doubts = doubtful(dataset)[sound]
+    doubts, few = doubtful(dataset)[sound], len(files) <= FEW
     across = 2 if len(names) == 4 else min(3, len(names))
     down = math.ceil(len(names) / across)
     with styled(looks):
@@ -145,19 +127,23 @@ def _draw_loops(dataset: xarray.Dataset, looks: Looks) -> Figure:
         for axes in grid.flat[len(names) :]:
             axes.remove()
         for place, (axes, name) in enumerate(zip(panels, names, strict=True)):
-            words, unit = named(name, dataset["value"].values[sound, place])
-            axes.set_xlabel(f"{words} ({unit.symbol})" if unit.symbol else words)
             own = dataset[["value", "low", "high"]].isel({PARAMETER: place, LOOP: sound})
+            words, unit = named(name, own["value"].values)
+            axes.set_xlabel(f"{words} ({unit.symbol})" if unit.symbol else words)
             value, low, high = (own[one].values / 10.0**unit.power for one in own)
-            if value.min() > 0.0 and value.max() > 20.0 * value.min():
-                axes.set_xscale("log")
-            if not few:
-                _draw_many(axes, value, doubts)
+            log = value.min() > 0.0 and value.max() > 20.0 * value.min()
+            axes.set_xscale("log" if log else "linear")
+            if few:
+                ends = np.maximum([value - low, high - value], 0.0)
+                for which, colour in ((~doubts, COLOURS[0]), (doubts, COLOURS[1])):
+                    dots: dict[str, Any] = {"ls": "", "marker": "o", "ms": 3.0, "lw": 0.9, "color": colour}
+                    axes.errorbar(value[which], sound[which], xerr=ends[:, which], **dots)
                 continue
-            ends = np.maximum([value - low, high - value], 0.0)
-            for which, colour in ((~doubts, COLOURS[0]), (doubts, COLOURS[1])):
-                dots: dict[str, Any] = {"ls": "", "marker": "o", "ms": 3.0, "lw": 0.9, "color": colour}
-                axes.errorbar(value[which], sound[which], xerr=ends[:, which], **dots)
+            bins = max(8, min(40, round(1.5 * math.sqrt(value.size))))
+            edges: Any = np.histogram_bin_edges(np.log(value) if log else value, bins)
+            parts = [value[~doubts], value[doubts]]  # those in doubt on top
+            axes.hist(parts, bins=np.exp(edges) if log else edges, stacked=True, color=list(COLOURS))
+            axes.axvline(float(np.median(parts[0] if parts[0].size else value)), color="0.2", lw=0.8, ls="--")
         for axes in grid[:, 0]:
             axes.set_ylabel("loops" if not few else "loop" if len(files) > LISTED else "")
             if len(files) <= LISTED:
@@ -168,8 +154,7 @@ def _draw_loops(dataset: xarray.Dataset, looks: Looks) -> Figure:
         caption = [counted(sound.size, "loop"), "bars: 95 % intervals" if few else "dashed: median"]
         caption += [f"red: {counted(poor, 'fit')} in doubt"] if poor else []
         caption += [f"{counted(missing, 'loop')} without a fit"] if missing else []
-        size = (2.6 * across + 1.0, 2.2 * down)
-        finish(figure, looks, dataset=dataset, caption=caption, size=size, rows=down, panels=panels)
+        finish(figure, dataset, looks, panels, caption, size=(2.6 * across + 1.0, 2.2 * down))
     return figure
 
 
@@ -179,32 +164,20 @@ def doubtful(dataset: xarray.Dataset) -> NDArray[np.bool_]:
     return np.asarray(flagged | (dataset["on_bound"].values > 0).any(axis=1) | (dataset["converged"].values == 0))
 
 
-def _draw_many(axes: Axes, value: Values, doubts: NDArray[np.bool_]) -> None:
-    """Draw how many values lie where, those in doubt on top, and the median of those that are not."""
-    log = axes.get_xscale() == "log"
-    bins = max(8, min(40, round(1.5 * math.sqrt(value.size))))
-    edges: Any = np.histogram_bin_edges(np.log(value) if log else value, bins)
-    axes.hist([value[~doubts], value[doubts]], bins=np.exp(edges) if log else edges, stacked=True, color=list(COLOURS))
-    axes.axvline(float(np.median(value[~doubts] if not doubts.all() else value)), color="0.2", lw=0.8, ls="--")
-
-
 def drawn_profile(fit: FittedProfile, name: str) -> Figure:
     """Draw a fitted profile over the distance from the centre: heights, what the power leaves of them, the residual."""
-
-    def power(distance: Values) -> Any:
-        return distance**fit.exponent / (fit.exponent * fit.radius ** (fit.exponent - 1.0))
-
     rho = fit.distance
     fine = np.linspace(0.0, rho[-1], 2000)
     heights, model = fit.heights(rho) + fit.residual, fit.heights(fine)
+    powers = [one**fit.exponent / (fit.exponent * fit.radius ** (fit.exponent - 1.0)) for one in (rho, fine)]
     with styled():
         figure = Figure(figsize=(4.6, 5.2), layout="constrained")
         top, middle, bottom = figure.subplots(3, 1, sharex=True, height_ratios=[2, 2, 1])
         dots, line = DOTS | {"color": "0.55"}, {"color": "C3", "lw": 0.9}
         top.plot(1e6 * rho, 1e6 * heights, **dots, label="measured")
         top.plot(1e6 * fine, 1e6 * model, **line, label="fit")
-        middle.plot(1e6 * rho, 1e9 * (heights - power(rho)), **dots)
-        middle.plot(1e6 * fine, 1e9 * (model - power(fine)), **line)
+        middle.plot(1e6 * rho, 1e9 * (heights - powers[0]), **dots)
+        middle.plot(1e6 * fine, 1e9 * (model - powers[1]), **line)
         bottom.plot(1e6 * rho, 1e9 * fit.residual, **dots)
         bottom.axhline(0.0, **line)
         top.set_ylabel("height (µm)")

@@ -1,31 +1,38 @@
-"""Numbers, parameters and variables as a picture writes them, with the prefix of a unit that suits the values."""
+"""Axes as a picture shows them: numbers, units with prefixes, names, spacing, a place for infinity, ticks."""
 
 import math
 import re
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any, Literal
 
 import numpy as np
-from matplotlib.ticker import EngFormatter
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.ticker import EngFormatter, Formatter, FuncFormatter, Locator, LogLocator, MaxNLocator, NullLocator
+from numpy.typing import NDArray
 
+from gradhesion.cli.dataset.read.selection import is_log
 from gradhesion.cli.names.scenes import IDLE
 from gradhesion.cli.names.symbols import CURVE_SYMBOLS, SYMBOLS
 from gradhesion.cli.names.units import unit_of
+from gradhesion.cli.picture.looks import limits_of
 from gradhesion.core.problem.inputs import INPUTS
+
+Side = Literal["x", "y"]
+Ends = tuple[float, float]
+Places = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Unit:
-    """How the values of a variable are written; what is drawn stays in SI."""
+    """How values are written: in a unit with a prefix, which stands for a power of ten. What is drawn stays in SI."""
 
     symbol: str = ""
-    """Its unit with its prefix; "" if it has none."""
     power: int = 0
-    """The power of ten that the prefix stands for."""
 
-    def number(self, value: float, digits: int = 4) -> str:
-        """Write a value in this unit."""
-        return number(value / 10.0**self.power, digits)
+    def number(self, value: float, _: object = None) -> str:
+        """Write a value in this unit; matplotlib gives the place of its tick too."""
+        return number(value / 10.0**self.power)
 
     def numbers(self, values: Any) -> list[str]:
         """Write values in this unit, with so many digits that what differs reads differently.
@@ -39,11 +46,7 @@ class Unit:
         digits = 4
         while digits < 15 and any(abs(float(f"{value:.{digits}g}") - value) > near for value in different):
             digits += 1
-        return [self.number(value, digits) for value in listed]
-
-
-PLAIN: Final = Unit()
-"""That of a number."""
+        return [number(value / 10.0**self.power, digits) for value in listed]
 
 
 def unit_for(name: str, values: Any, *, log: bool = False) -> Unit:
@@ -52,7 +55,8 @@ def unit_for(name: str, values: Any, *, log: bool = False) -> Unit:
     >>> unit_for("R", [5e-9, 5e-6]), unit_for("R", [5e-9, 5e-6], log=True), unit_for("A", [0.1])
     (Unit(symbol='µm', power=-6), Unit(symbol='nm', power=-9), Unit(symbol='', power=0))
     """
-    symbol = _symbol(unit_of(name))
+    unit = unit_of(name)
+    symbol = "" if unit == "1" else re.sub(r"\^(\d)", r"$^\1$", unit)
     sizes = np.abs(np.asarray(values, dtype=float))
     sizes = sizes[np.isfinite(sizes) & (sizes > 0.0)]
     if not symbol or not sizes.size:
@@ -64,11 +68,6 @@ def unit_for(name: str, values: Any, *, log: bool = False) -> Unit:
     prefixes = EngFormatter.ENG_PREFIXES
     power = min(max(power, min(prefixes)), max(prefixes))
     return Unit(symbol=prefixes[power] + symbol, power=power)
-
-
-def _symbol(unit: str) -> str:
-    """Write a unit of UDUNITS with its powers raised."""
-    return "" if unit == "1" else re.sub(r"\^(\d)", r"$^\1$", unit)
 
 
 def number(value: float, digits: int = 4) -> str:
@@ -107,7 +106,7 @@ def label(name: str, unit: Unit | None = None) -> str:
     >>> label("A"), label("R"), label("path_contact_radius_si", Unit(symbol="nm", power=-9))
     ('$A$', '$R$ (m)', 'contact radius $a$ (nm)')
     """
-    symbol = unit.symbol if unit else _symbol(unit_of(name))
+    symbol = (unit or unit_for(name, [])).symbol
     return (SYMBOLS.get(name) or CURVE_SYMBOLS[name]) + (f" ({symbol})" if symbol else "")
 
 
@@ -135,3 +134,85 @@ def fixed(dataset: Any) -> list[str]:
         first = equations(name, np.ravel(dataset[name].values)[:1])[0]
         written.append(first if values.size == 1 else f"{first} (first of {values.size})")
     return written
+
+
+def numbers(unit: Unit) -> Formatter:
+    """Write plain numbers in a unit; all ticks of an axis together, so that those which differ read differently."""
+    formatter = FuncFormatter(unit.number)
+    vars(formatter)["format_ticks"] = unit.numbers
+    return formatter
+
+
+def locator(low: float, high: float, *, log: bool) -> Locator:
+    """Choose what finds ticks at round numbers between two ends: of a logarithmic axis some in each decade."""
+    if log and high > 6.0 * low:
+        steps = (1.0, 2.0, 5.0) if high < 50.0 * low else (1.0, 3.0) if high < 1000.0 * low else (1.0,)
+        return LogLocator(subs=steps, numticks=20)
+    return MaxNLocator("auto", steps=[1, 2, 2.5, 5, 10])
+
+
+def dress(axes: Axes, side: Side, words: str, unit: Unit, ends: Ends, limits: Ends, *, log: bool = False) -> Axis:
+    """Give an axis of a picture its name, scale, numbers in a unit at ticks between two ends, and limits if finite."""
+    axes.set(**{f"{side}scale": "log" if log else "linear", f"{side}label": words})
+    axis: Axis = getattr(axes, f"{side}axis")
+    axis.set_major_locator(locator(*ends, log=log))
+    axis.set_major_formatter(numbers(unit))
+    axis.set_minor_locator(NullLocator())
+    if np.isfinite(limits).any():
+        axes.set(**{f"{side}lim": tuple(end if np.isfinite(end) else None for end in limits)})
+    return axis
+
+
+def suit(axes: Axes, side: Side, name: str, span: str = "") -> None:
+    """Name an axis of a picture after a variable, and let its unit suit the limits: those chosen, if some are."""
+    low, high = sorted(getattr(axes, f"get_{side}lim")())
+    limits = limits_of(span, name, low, high)
+    seen = max(low, limits[0]), min(high, limits[1])
+    unit = unit_for(name, seen)
+    dress(axes, side, label(name, unit), unit, seen, limits)
+
+
+@dataclass(frozen=True, eq=False)
+class Scale:
+    """Where the values of an axis go in a picture, and between which of them it is drawn, if these are finite."""
+
+    name: str
+    positions: Places
+    """The place of each; inf stands one step beyond the greatest finite value."""
+    log: bool
+    infinite: bool
+    """Whether the last place is that of inf."""
+    limits: Ends
+
+    def edges(self) -> Places:
+        """Give the edges of cells around the places, halfway between them."""
+        places = np.log(self.positions) if self.log else self.positions
+        middles = 0.5 * (places[1:] + places[:-1])
+        edges = np.concatenate([2.0 * places[:1] - middles[:1], middles, 2.0 * places[-1:] - middles[-1:]])
+        return np.exp(edges) if self.log else edges
+
+    def dress(self, axes: Axes, side: Side) -> None:
+        """Give an axis of a picture this scale and its limits, with ticks at plain numbers."""
+        finite = self.positions[:-1] if self.infinite else self.positions
+        first, last = np.clip((finite[0], finite[-1]), *self.limits).tolist()
+        unit = unit_for(self.name, np.clip(finite, *self.limits), log=self.log)
+        axis = dress(axes, side, label(self.name, unit), unit, (first, last), self.limits, log=self.log)
+        if self.infinite and np.isinf(self.limits[1]):
+            places = locator(first, last, log=self.log).tick_values(first, last)
+            kept = [float(place) for place in places if first <= place <= last]
+            axis.set_ticks([*kept, float(self.positions[-1])], [*unit.numbers(kept), r"$\infty$"])
+
+
+def scale(values: Places, name: str = "", span: str = "") -> Scale:
+    """Choose the scale of an axis of a name: logarithmic where its values are nearer to that than to an even spacing.
+
+    Its values rise. Of a part of it, ticks and the unit suit what is seen.
+
+    >>> scale(np.array([1.0, 10.0, 100.0, np.inf])).positions
+    array([   1.,   10.,  100., 1000.])
+    """
+    finite = np.unique(values[np.isfinite(values)])
+    log, infinite, steps = is_log(finite), np.isinf(values), max(1, finite.size - 1)
+    first, last = finite[[0, -1]]
+    beyond = last * (last / first) ** (1 / steps) if log else last + ((last - first) / steps or last)
+    return Scale(name, np.where(infinite, beyond, values), log, bool(infinite.any()), limits_of(span, name, log=log))

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from decimal import Decimal
@@ -20,96 +20,39 @@ from gradhesion.cli.terminal.wording import did_you_mean, nearest
 
 STYLE: Final = "gradhesion.style"
 """The style of the project, as matplotlib knows it: `plt.style.use("gradhesion.style")`."""
-
 WIDTHS: Final = {"column": 90 / 25.4, "page": 190 / 25.4}
-"""The widths of a column and of a page of a journal, in inches: 90 mm and 190 mm."""
-
-LEAST: Final = 1.0
-MOST: Final = 100.0
+LEAST, MOST = 1.0, 100.0
 """Sides of a picture, in inches: a smaller one has no room for its labels, a larger one no paper."""
-
 FINEST: Final = 100
 """Contour levels: more would be one colour."""
-
 _QUANTITY: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\D.*)?")
 """A number, and its unit if it has one."""
 _BETWEEN: Final = re.compile(r"\s*,\s*|\s+(?=[-+.\d])")
 """What stands between two numbers: a comma, or a space."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Span:
-    """A part of an axis, as a user writes it: numbers in SI or with units; None is as far as there are values."""
-
-    option: str = ""
-    """The option that gives it."""
-    low: str | None = None
-    high: str | None = None
-
-    def __bool__(self) -> bool:
-        """Report whether one of the ends is given."""
-        return self.low is not None or self.high is not None
-
-    def __str__(self) -> str:
-        """Write it as an option."""
-        return f"--{self.option} {self.low or ''}:{self.high or ''}"
-
-    def limits(
-        self, name: str, least: float = -math.inf, greatest: float = math.inf, *, log: bool = False
-    ) -> tuple[float, float]:
-        """Give the ends in SI, -inf and inf where there is none, on the axis of a variable with values between two.
-
-        >>> Span(option="xlim", low="50 nm", high="2e-6").limits("R")
-        (5e-08, 2e-06)
-        """
-        low = -math.inf if self.low is None else value_in(self.low, name, str(self))
-        high = math.inf if self.high is None else value_in(self.high, name, str(self))
-        if low >= high:
-            raise DatasetError(
-                f"{self}: the lower limit comes first and is below the upper one; exchange or change them"
-            )
-        if log and (high <= 0.0 or -math.inf < low <= 0.0):
-            raise DatasetError(f"{self}: the axis is logarithmic; choose limits above 0")
-        if low >= greatest or high <= least:
-            written = f"{least:.4g} to {greatest:.4g} {unit_of(name)}".removesuffix(" 1")
-            raise DatasetError(f"{self}: outside what is drawn, which is {written}; choose limits that meet it")
-        return low, high
-
-
-ALL: Final = Span()
-"""All of an axis."""
-
-
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Looks:
-    """What a user chooses of a picture; what is None is chosen to suit the dataset."""
+    """What a user chooses of a picture, as `gradhesion.plot` has it; what is None is chosen to suit the dataset."""
 
     kind: Literal["lines", "map"] | None = None
-    """Lines or a map."""
     width: float | None = None
     height: float | None = None
-    """Its sides, in inches."""
     colour_map: str = "viridis"
-    """A colour map of matplotlib, by name; the usual one rises in lightness, so that it survives a grey print."""
+    """The usual one rises in lightness, so that it survives a grey print."""
     levels: int | tuple[str, ...] | None = None
     """Contour levels of a map: about how many, or which, in SI or with units."""
     labels: bool = True
-    """Whether contours have numbers on them."""
     title: str | None = None
-    """What stands above the panels in the place of title, profile and control of the study; "" for nothing."""
     caption: bool = True
-    """Whether the parameters that are not drawn stand above the panels."""
     xlabel: str | None = None
     ylabel: str | None = None
     clabel: str | None = None
-    """What the axes and the bar of colours are called."""
     style: str | None = None
-    """A style of matplotlib, by name or file, on top of that of the project."""
-    xlim: Span = ALL
-    ylim: Span = ALL
-    """The limits of the axes."""
+    xlim: str = ""
+    ylim: str = ""
+    """The limits of the axes as options give them, "--xlim 50 nm:1 um", or with an end left out; "" is all there is."""
     band: Literal["quantiles", "std", "none"] | None = None
-    """What is drawn around uncertain values: quantiles, a standard deviation on each side, or nothing."""
 
     @property
     def colours(self) -> Colormap:
@@ -121,11 +64,10 @@ class Looks:
         for option in options:
             value = getattr(self, option)
             if value and value != "none":
-                raise DatasetError(f"{value if isinstance(value, Span) else f'--{option}'}: {why}; leave it out")
+                raise DatasetError(f"{value if option in ('xlim', 'ylim') else f'--{option}'}: {why}; leave it out")
 
 
 PLAIN: Final = Looks()
-"""Nothing is chosen."""
 
 
 def looks_of(**chosen: Any) -> Looks:
@@ -136,6 +78,32 @@ def looks_of(**chosen: Any) -> Looks:
     """
     there = {name: value for name, value in chosen.items() if value is not None}
     return Looks(**{name: _READ[name](name, one) if name in _READ else one for name, one in there.items()})
+
+
+def limits_of(
+    span: str, name: str, least: float = -math.inf, greatest: float = math.inf, *, log: bool = False
+) -> tuple[float, float]:
+    """Give the ends of a part of the axis of a variable, which has values between two; inf where there is none.
+
+    >>> limits_of("--xlim 50 nm:2e-6", "R"), limits_of("", "R")
+    ((5e-08, 2e-06), (-inf, inf))
+    """
+    start, _, stop = span.partition(" ")[2].partition(":")
+    low = value_in(start, name, span) if start else -math.inf
+    high = value_in(stop, name, span) if stop else math.inf
+    if low >= high:
+        raise DatasetError(f"{span}: the lower limit comes first and is below the upper one; exchange or change them")
+    if log and (high <= 0.0 or -math.inf < low <= 0.0):
+        raise DatasetError(f"{span}: the axis is logarithmic; choose limits above 0")
+    if low >= greatest or high <= least:
+        drawn = between(least, greatest, name)
+        raise DatasetError(f"{span}: outside what is drawn, {drawn}; choose limits that meet it")
+    return low, high
+
+
+def between(least: float, greatest: float, name: str) -> str:
+    """Write between which values a variable is."""
+    return f"which is {least:.4g} to {greatest:.4g} {unit_of(name)}".removesuffix(" 1")
 
 
 def value_in(text: str, name: str, option: str) -> float:
@@ -149,6 +117,13 @@ def value_in(text: str, name: str, option: str) -> float:
         wanted = "has no unit" if unit_of(name) == "1" else f"is in {unit_of(name)}"
         raise DatasetError(f'{option}: "{text}" is not a value of {name}, which {wanted}; write a number or a quantity')
     return value
+
+
+def check_names(option: str, names: Iterable[str], known: Sequence[str], what: str) -> None:
+    """Refuse the first name of an option that is not among those known, and say what it is."""
+    for name in names:
+        if name not in known:
+            raise DatasetError(f"--{option} {name}: {what}; {did_you_mean(name, known)}")
 
 
 def _in_unit(text: str, unit: str) -> float:
@@ -186,9 +161,9 @@ def _side(option: str, value: float | str) -> float:
         return WIDTHS[text]
     inches = _in_unit(text, "inch")
     if not LEAST <= inches <= MOST:
-        words = ", column or page" if option == "width" else ""
         raise DatasetError(
-            f"--{option} {value}: not a size of {LEAST:g} to {MOST:g} inches; write for example 3.5, or 9 cm{words}"
+            f"--{option} {value}: not a size of {LEAST:g} to {MOST:g} inches; write for example 3.5, or 9 cm, "
+            "or as a width column or page"
         )
     return inches
 
@@ -207,17 +182,17 @@ def _levels(option: str, value: Any) -> int | tuple[str, ...]:
     )
 
 
-def _span(option: str, value: Any) -> Span:
-    """Read what a user writes: "LOW:HIGH", or two ends in a sequence.
+def _span(option: str, value: Any) -> str:
+    """Read what a user writes as a part of an axis: "LOW:HIGH", or two ends in a sequence.
 
-    >>> [(span.low, span.high) for span in (_span("xlim", "0.1:1 um"), _span("xlim", (0.1, None)))]
-    [('0.1', '1 um'), ('0.1', None)]
+    >>> _span("xlim", "0.1:1 um"), _span("xlim", (0.1, None))
+    ('--xlim 0.1:1 um', '--xlim 0.1:')
     """
     ends = value.split(":") if isinstance(value, str) else value
     if isinstance(ends, Sequence) and len(ends) == 2:
-        low, high = (str(end).strip() or None if end is not None else None for end in ends)
-        if span := Span(option=option, low=low, high=high):
-            return span
+        low, high = ("" if end is None else str(end).strip() for end in ends)
+        if low or high:
+            return f"--{option} {low}:{high}"
     raise DatasetError(f"--{option} {value}: not two ends with a colon between them; write --{option} 0.1:0.5")
 
 
@@ -233,4 +208,3 @@ _READ: Final[dict[str, Callable[[str, Any], Any]]] = {
     "xlim": _span,
     "ylim": _span,
 }
-"""What reads each choice that may be wrong."""

@@ -1,7 +1,6 @@
 """The panels of a picture of values: a map, lines, points or their density, each drawn into axes that are given."""
 
 import itertools
-from collections.abc import Iterator, Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -10,27 +9,19 @@ from matplotlib.collections import PolyCollection
 from matplotlib.contour import QuadContourSet
 from matplotlib.path import Path
 
-from gradhesion.cli.picture.doubts import CROSS, GREY, INK
-from gradhesion.cli.picture.labels import equations
+from gradhesion.cli.picture.labels import Scale, Unit, dress, equations
 from gradhesion.cli.picture.looks import Looks
 from gradhesion.cli.picture.plan import Plan
-from gradhesion.cli.picture.scales import Scale, dress
-from gradhesion.cli.picture.shown import Shown, Values, levels_of, padded
+from gradhesion.cli.picture.shown import CROSS, GREY, INK, Shown, Values
 
 DASHES: Final[tuple[Any, ...]] = ("-", "--", "-.", ":", (0, (8, 4)), (0, (6, 1.5, 1, 1.5, 1, 1.5)))
-"""What distinguishes lines where colours do not print; the gaps of those on top show what is below."""
-
 POINTS: Final = ("o", "^", "s")
-"""What distinguishes series of points."""
-
+"""What distinguishes lines, and points, where colours do not print; the gaps of those on top show what is below."""
 MARKS: Final = 40
 """Markers along a line, about: more would hide it."""
-
 FEW: Final = 20
 """Values along an axis up to which a band is drawn as bars: between them nothing is known."""
-
 LIGHT: Final = 0.2
-"""How opaque a band is."""
 
 
 def draw_map(axes: Axes, shown: Shown, x: Scale, y: Scale, looks: Looks) -> tuple[Any, QuadContourSet | None]:
@@ -45,11 +36,10 @@ def draw_map(axes: Axes, shown: Shown, x: Scale, y: Scale, looks: Looks) -> tupl
     values = shown.values.values.astype(float)
     axes.set_facecolor(GREY)
     if shown.names:
-        colours = looks.colours.resampled(len(shown.names))
-        looks_of_cells: Any = {"cmap": colours, "vmin": -0.5, "vmax": len(shown.names) - 0.5, "edgecolors": "face"}
-        filled = axes.pcolormesh(x.edges(), y.edges(), values, **looks_of_cells)
-    elif np.isfinite(values).any():
-        levels, inner, norm = levels_of(shown, looks)
+        own: Any = {"cmap": looks.colours.resampled(len(shown.names)), "vmin": -0.5, "vmax": len(shown.names) - 0.5}
+        filled = axes.pcolormesh(x.edges(), y.edges(), values, edgecolors="face", **own)
+    elif shown.levels and np.isfinite(values).any():
+        levels, inner, norm = shown.levels
         filled = axes.contourf(x.positions, y.positions, values, levels=levels, norm=norm, cmap=looks.colours)
         filled.set_edgecolor("face")  # no white seams between the bands
         if inner.size:
@@ -63,8 +53,9 @@ def draw_map(axes: Axes, shown: Shown, x: Scale, y: Scale, looks: Looks) -> tupl
 
 def _hatch(axes: Axes, shown: Shown, x: Scale, y: Scale, dark: Any) -> None:
     """Hatch what is in doubt, in white where the colours are dark, and draw a line around it."""
+    gaps = shown.values.isnull().values
     for doubt, marked in shown.marks:
-        flags, gaps = marked.values, shown.values.isnull().values
+        flags = marked.values
         for shade, part in (("white", flags & dark), (INK, flags & ~dark)):
             if part.any():
                 own = np.where(gaps, np.nan, part)
@@ -80,40 +71,34 @@ def _lightness(colours: Any) -> Any:
     return np.asarray(colours)[..., :3] @ (0.299, 0.587, 0.114)
 
 
-def number_contours(lines: QuadContourSet, shown: Shown) -> None:
-    """Put a number on each line, on the longest piece that has room for it; the layout must stand.
+def number_contours(lines: QuadContourSet, unit: Unit) -> None:
+    """Put a number on each line, on the longest piece that has room for it, near its middle; the layout must stand.
 
     On a steep flank, where lines crowd, there is none: it would hide the lines beside.
     """
     frame, transform, inch = lines.axes.get_window_extent(), lines.get_transform(), lines.axes.figure.dpi
-    pieces = [
+    pieces: list[list[Any]] = [
         [Path(transform.transform(piece)).interpolated(10).vertices for piece in path.to_polygons(closed_only=False)]
         for path in lines.get_paths()
     ]
     taken: list[Any] = []
     for i, own in enumerate(pieces):
         others = np.vstack([np.empty((0, 2)), *itertools.chain(*pieces[:i], *pieces[i + 1 :])])
-        for place in _middles(own, 0.5 * inch):
-            inside = all(frame.contains(*(place + side * 0.125 * inch)) for side in (-1.0, 1.0))
-            if inside and _clear(place, taken, 0.4 * inch) and _clear(place, others, 0.1 * inch):
-                taken.append(place)
+        for piece in sorted(own, key=lambda piece: -np.ptp(piece, axis=0).max()):
+            places = piece[[int(share * (len(piece) - 1)) for share in (0.5, 0.35, 0.65, 0.2, 0.8)]]
+            inside = np.minimum(places - frame.min, frame.max - places).min(axis=1)
+            room = np.min([inside / 0.125, _apart(places, others) / 0.1, _apart(places, taken) / 0.4], axis=0)
+            if np.ptp(piece, axis=0).max() >= 0.5 * inch and room.max() > inch:
+                taken.append(places[np.argmax(room > inch)])
                 break
     if taken:
         places = transform.inverted().transform(taken).tolist()
-        lines.clabel(manual=places, fmt=shown.unit.number, fontsize="x-small", inline_spacing=2)
+        lines.clabel(manual=places, fmt=unit.number, fontsize="x-small", inline_spacing=2)
 
 
-def _middles(pieces: Sequence[Any], least: float) -> Iterator[Any]:
-    """Give places along pieces of a line that extend to `least`: the longest first, and of each the middle first."""
-    extents = [float(np.ptp(piece, axis=0).max()) for piece in pieces]
-    for i in np.argsort(extents)[::-1]:
-        if extents[i] >= least:
-            yield from (pieces[i][int(share * (len(pieces[i]) - 1))] for share in (0.5, 0.35, 0.65, 0.2, 0.8))
-
-
-def _clear(place: Any, others: Any, distance: float) -> bool:
-    """Report whether a place is farther from all others than a distance."""
-    return bool(np.hypot(*(np.reshape(others, (-1, 2)) - place).T).min(initial=np.inf) > distance)
+def _apart(places: Any, others: Any) -> Any:
+    """Give the distance of each place from the nearest of others."""
+    return np.hypot(*(np.reshape(others, (-1, 1, 2)) - places).T).min(axis=1, initial=np.inf)
 
 
 def draw_lines(axes: Axes, shown: Shown, x: Scale, plan: Plan, looks: Looks) -> None:
@@ -164,10 +149,9 @@ def _draw_band(axes: Axes, x: Scale, low: Values, high: Values, colour: Any, *, 
 
 def draw_density(axes: Axes, shown: Shown, x: Scale, looks: Looks) -> PolyCollection:
     """Colour each cell of a panel by the number of points in it; empty cells stay white."""
-    values = shown.values.values.astype(float)
-    there = ~np.isnan(values)
+    there = shown.values.notnull().values
     scales: Any = {"xscale": "log" if x.log else "linear", "yscale": "log" if shown.log else "linear"}
-    places = x.positions[there], values[there]
+    places = x.positions[there], shown.values.values[there].astype(float)
     cells = axes.hexbin(*places, gridsize=(60, 34), mincnt=1, cmap=looks.colours, linewidths=0.1, **scales)
     _dress(axes, shown, x)
     axes.grid(visible=False)
@@ -178,10 +162,8 @@ def _dress(axes: Axes, shown: Shown, x: Scale) -> None:
     """Give a panel of lines or points its scales, or the names of categories."""
     x.dress(axes, "x")
     axes.grid(color="0.9", lw=0.5)
-    if shown.names:
+    if shown.unit:
+        dress(axes, "y", shown.label, shown.unit, shown.ends, shown.limits, log=shown.log)
+    else:
         axes.set_ylim(-0.5, len(shown.names) - 0.5)
         axes.set_yticks(range(len(shown.names)), shown.names, fontsize="small")
-    else:
-        flat = padded(*shown.ends) != shown.ends
-        limits = padded(*shown.ends) if flat and not np.isfinite(shown.limits).any() else shown.limits
-        dress(axes, "y", shown.unit, shown.ends, limits, log=shown.log)

@@ -2,11 +2,12 @@
 
 import math
 import re
+import textwrap
 import warnings
 from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import Final
+from typing import Any, Final, Literal
 
 import matplotlib.style
 import numpy as np
@@ -15,8 +16,9 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.mathtext import MathTextParser
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
+from gradhesion.cli.dataset.read.model_range import slope_warnings
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.picture.looks import PLAIN, STYLE, Looks
 from gradhesion.cli.study.shape_words import shape_in_words
@@ -25,7 +27,6 @@ from gradhesion.core import Profile
 
 MARKERS: Final = ("o", "s", "D", "P", "X")
 """What distinguishes scenes where colours do not print."""
-
 LOWEST: Final = 1.25
 """The height of a row of panels with what is written at them, in inches: a lower one could not be read."""
 
@@ -43,10 +44,12 @@ def save(figure: Figure, file: Path, form: str, looks: Looks = PLAIN) -> None:
         figure.savefig(file, format=form, metadata=undated.get(form))
 
 
-def finite(values: ArrayLike) -> NDArray[np.float64]:
-    """Take values as numbers, NaN where they have no place on an axis: they leave a gap."""
-    numbers = np.asarray(values, dtype=float)
-    return np.where(np.isfinite(numbers), numbers, np.nan)
+def make_room(axes: Axes, side: Literal["x", "y"], values: NDArray[np.float64]) -> None:
+    """Set the limits of an axis to some values, with a margin beyond both ends."""
+    there = values[np.isfinite(values)]
+    if there.size:
+        margin = 0.08 * float(np.ptp(there)) or 1.0
+        axes.set(**{f"{side}lim": (float(there.min()) - margin, float(there.max()) + margin)})
 
 
 def stacked(count: int, narrow: float, looks: Looks) -> int:
@@ -56,26 +59,25 @@ def stacked(count: int, narrow: float, looks: Looks) -> int:
 
 def finish(
     figure: Figure,
-    looks: Looks,
-    *,
     dataset: xarray.Dataset,
+    looks: Looks,
+    panels: Any,
     caption: Iterable[str],
-    panels: Iterable[Axes],
-    size: tuple[float, float],
-    rows: int = 1,
     entries: Sequence[Artist] = (),
+    *,
+    size: tuple[float, float],
     laid_out: bool = False,
 ) -> None:
     """Size a picture, and put the words around its panels: title and caption above, a legend below.
 
-    The size in inches is that which suits its panels, which stand in so many rows; words and sides that are chosen come
-    first. Numbers on contours need it `laid_out`, with everything in its place.
+    The size in inches is that which suits its panels; words and sides that are chosen come first. Numbers on contours
+    need it `laid_out`, with everything in its place.
     """
-    for side, words in (("x", looks.xlabel), ("y", looks.ylabel)):
+    for side, words in ((side, words) for side in "xy" if (words := getattr(looks, f"{side}label")) is not None):
         named = [axis for axes in panels if (axis := getattr(axes, f"{side}axis")).get_label_text()]
-        if words is not None and len({axis.get_label_text() for axis in named}) > 1:
+        if len({axis.get_label_text() for axis in named}) > 1:
             raise DatasetError(f"--{side}label: the panels have different axes; choose one variable, or one plane")
-        for axis in named if words is not None else ():
+        for axis in named:
             axis.set_label_text(_drawable(str(words)))
     width = looks.width or size[0]
     longest = max((len(re.sub(r"[$\\{}]", "", str(entry.get_label()))) for entry in entries), default=0)
@@ -83,12 +85,12 @@ def finish(
     if entries:
         figure.legend(handles=entries, loc="outside lower center", ncols=columns)
     above = [heading(dataset) if looks.title is None else _drawable(looks.title)]
-    above += [", ".join(map(_unbroken, caption))] if looks.caption else []
+    above += [", ".join(map(_unbroken, [*caption, *slope_warnings(dataset)]))] if looks.caption else []
     words = "\n".join(filter(None, above))
     if words:
         figure.suptitle(words, fontsize="medium", wrap=True)
     lines = math.ceil(len(entries) / columns) + (words.count("\n") + 2 if words else 0)
-    height = max(size[1] * min(1.0, width / size[0]), LOWEST * rows)
+    height = max(size[1] * min(1.0, width / size[0]), LOWEST * panels[0].get_gridspec().nrows)
     figure.set_size_inches(width, looks.height or height + 0.17 * lines)
     if not (laid_out or looks.width or looks.height):
         return
@@ -107,14 +109,12 @@ def finish(
 
 def heading(dataset: xarray.Dataset) -> str:
     """Report the title of a dataset, and shape and control where they are not those of the paper."""
-    written = [str(dataset.attrs["title"])]
     profile = str(dataset.attrs.get("profile", ""))
-    if profile not in ("", shape_in_words(Profile())):
-        written.append(f"profile {profile if len(profile) <= 110 else profile[:110] + ' ...'}")
-    control = str(dataset.attrs.get("control", "displacement"))
-    if control != "displacement":
-        written.append({"load": "under controlled load", "machine": "through a machine of finite stiffness"}[control])
-    return "\n".join(map(_drawable, written))
+    is_own = profile not in ("", shape_in_words(Profile()))
+    shape = textwrap.shorten(f"profile {profile}", 120, placeholder=" ...") if is_own else ""
+    controls = {"load": "under controlled load", "machine": "through a machine of finite stiffness"}
+    control = controls.get(str(dataset.attrs.get("control")), "")
+    return "\n".join(map(_drawable, filter(None, (str(dataset.attrs["title"]), shape, control))))
 
 
 def _drawable(text: str) -> str:

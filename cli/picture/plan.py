@@ -1,44 +1,39 @@
 """Which axis of a dataset of values goes where in its picture, which of them are drawn, and what is said of others."""
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, Literal
 
 import numpy as np
 import xarray
 
-from gradhesion.cli.dataset.read.model_range import slope_warnings
 from gradhesion.cli.dataset.read.selection import Selection, axes_of, check_axis, is_log
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
 from gradhesion.cli.names.symbols import SYMBOLS
 from gradhesion.cli.picture.labels import effective, equations
-from gradhesion.cli.picture.looks import Looks, Span
+from gradhesion.cli.picture.looks import Looks, limits_of
 from gradhesion.core.problem.inputs import INPUTS
 
 PANELS: Final = 3
 """Panels along a row or a column: the ends of an axis and its middle."""
-
 LINES: Final = 6
 """An axis of no more values than this is a set of lines rather than a side of a map; more lines look alike."""
-
 MOST: Final = 1000
 """Values along a side of a panel: more are finer than paper."""
-
 DENSE: Final = 2000
 """Points that can still be seen one by one; more are drawn as their number in small cells."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Plan:
-    """Which axis of a dataset goes where in its picture."""
+    """Which axis of a dataset goes where in its picture; the second is the lines of a panel or a side of a map."""
 
     x: str
     second: str | None = None
-    """The other side of a map, or what distinguishes the lines of a panel."""
     columns: str | None = None
     rows: str | None = None
-    middle: tuple[str, ...] = ()
+    middle: Sequence[str] = ()
     """Axes with no place of their own: they stay at their middle value."""
     is_map: bool = False
     points: int = 0
@@ -59,8 +54,6 @@ def planned(
     dataset: xarray.Dataset, selection: Selection, looks: Looks, x: str | None, y: str | None
 ) -> tuple[xarray.Dataset, Plan]:
     """Choose which axis of a narrowed dataset goes where; a parameter that is asked for takes the place of its axis."""
-    if x and x == y:
-        raise DatasetError(f"--x {x} --y {y}: one axis cannot be both sides; choose another for one of them")
     gone = {*selection.over, *(one.axis for one in selection.between)}
     for option, name in (("--x", x), ("--y", y)):
         dataset = _placed(dataset, f"{option} {name}", name, {*selection.fixed, *gone}) if name else dataset
@@ -126,23 +119,18 @@ def plan_of(
 
 def within(dataset: xarray.Dataset, plan: Plan, looks: Looks) -> xarray.Dataset:
     """Put values into rising order along the sides of a panel, and keep those between the limits."""
-    for axis, span in ((plan.x, looks.xlim), (plan.second, looks.ylim)):
-        if axis and axis != SOLVER:
-            dataset = dataset.isel({axis: np.argsort(dataset[axis].values, kind="stable")})
-            dataset = _seen(dataset, axis, span) if axis == plan.x or plan.is_map else dataset
+    for axis, span in ((plan.x, looks.xlim), (plan.second, looks.ylim if plan.is_map else "")):
+        if not axis or axis == SOLVER:
+            continue
+        dataset = dataset.isel({axis: np.argsort(dataset[axis].values, kind="stable")})
+        values = np.asarray(dataset[axis].values, dtype=float)
+        finite = np.unique(values[np.isfinite(values)])
+        if span and finite.size:  # and one value beyond each, so that lines run to the frame
+            low, high = limits_of(span, axis, finite[0], finite[-1], log=is_log(finite))
+            first = finite[max(0, int(np.searchsorted(finite, low, side="right")) - 1)]
+            last = finite[min(finite.size - 1, int(np.searchsorted(finite, high)))] if np.isfinite(high) else np.inf
+            dataset = dataset.isel({axis: (values >= first) & (values <= last)})
     return dataset
-
-
-def _seen(dataset: xarray.Dataset, axis: str, span: Span) -> xarray.Dataset:
-    """Keep what is between the limits of an axis, and one value beyond each, so that lines run to the frame."""
-    values = np.asarray(dataset[axis].values, dtype=float)
-    finite = np.unique(values[np.isfinite(values)])
-    if not span or not finite.size:
-        return dataset
-    low, high = span.limits(axis, finite[0], finite[-1], log=is_log(finite))
-    first = finite[max(0, int(np.searchsorted(finite, low, side="right")) - 1)]
-    last = finite[min(finite.size - 1, int(np.searchsorted(finite, high)))] if np.isfinite(high) else np.inf
-    return dataset.isel({axis: (values >= first) & (values <= last)})
 
 
 def some_of(dataset: xarray.Dataset, plan: Plan) -> xarray.Dataset:
@@ -183,4 +171,3 @@ def caption_of(part: xarray.Dataset, whole: xarray.Dataset, plan: Plan, selectio
     for axis in (plan.x, plan.second):
         if axis and part.sizes[axis] < whole.sizes[axis]:
             yield f"{part.sizes[axis]:,} of {whole.sizes[axis]:,} values of {SYMBOLS[axis]}"
-    yield from slope_warnings(part)

@@ -1,43 +1,43 @@
-"""What is drawn of one variable: its values with their doubts and their spread, and between which levels."""
+"""What is drawn of one variable: its values, which of them may not hold, their spread, and between which levels."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 import xarray
 from matplotlib.colors import LogNorm, Normalize
-from matplotlib.ticker import MaxNLocator
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import Locator, LogLocator, MaxNLocator
 from numpy.typing import NDArray
 
+from gradhesion.cli.dataset.read import model_range
+from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by, doubts_of
 from gradhesion.cli.dataset.read.selection import Selection
 from gradhesion.cli.dataset.read.sensitivities import parameters_of
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names.outputs import SI, SPREADS
+from gradhesion.cli.names.outputs import BEST, ON_BOUND, SI, SPREADS
 from gradhesion.cli.names.symbols import SYMBOLS
-from gradhesion.cli.names.units import unit_of
-from gradhesion.cli.picture.doubts import END, Marks, among, marks_of
-from gradhesion.cli.picture.labels import PLAIN, Unit, label, unit_for
-from gradhesion.cli.picture.looks import Looks, value_in
+from gradhesion.cli.picture.labels import Unit, label, unit_for
+from gradhesion.cli.picture.looks import Looks, between, limits_of, value_in
 from gradhesion.cli.picture.plan import Plan
 from gradhesion.cli.terminal.amounts import counted
-from gradhesion.core.answers.flags import FLAGS
+from gradhesion.core.answers.flags import FLAG_WORDS, FLAGS
 
 Values = NDArray[np.float64]
-
+Levels = tuple[Values, Values, Normalize]
+"""All levels of a map, those that have lines, and what gives their colours."""
 FAR: Final = 50.0
 WIDE: Final = 8.0
 """The ratio of the greatest value to the least from which lines, and contours, are drawn over a logarithm."""
-
 FLAT: Final = 1e-9
 """Values that differ by less, over their size, are drawn as equal: what is left is rounding."""
-
 BANDS: Final = {
     "quantiles": (("_p05", "_p95"), "5 % to 95 % of samples"),
     "std": (("_std",), "a standard deviation on each side"),
 }
 """What a band of uncertain values may be: the ends of the names of its variables, and what a legend says of it."""
-
 _STEPS: Final = (
     (30.0, (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)),
     (1e3, (1.0, 1.5, 2.0, 3.0, 5.0, 7.0)),
@@ -45,42 +45,109 @@ _STEPS: Final = (
     (np.inf, (1.0,)),
 )
 """Levels in a decade, for values that differ by less than each factor."""
+INK: Final = "0.25"
+"""The colour of marks in a legend."""
+GREY: Final = "0.8"
+CROSS: Final = "0.6"
+"""The colours of scenes that have no value, in a map and as crosses."""
+
+
+class Doubt(NamedTuple):
+    """What makes a value doubtful: its pattern in a map, and its open marker, of a size that shows inside others."""
+
+    words: str
+    hatch: str
+    mark: str
+    size: float
+    bit: int = 0
+    """Its flag, if it is one."""
+
+    def marker(self, colour: Any) -> dict[str, Any]:
+        """Give the looks of its open marker."""
+        return {"ls": "", "marker": self.mark, "ms": self.size, "mfc": "white", "mec": colour}
+
+
+_OF_FLAGS: Final = (("/", "o", 3.5), ("\\", "s", 5.5), ("x", "D", 7.0), ("-", "v", 8.0), ("|", "p", 8.0))
+_OF_LIMITS: Final = (("oo", "P", 6.0), ("OO", "X", 6.0), ("++", "*", 6.0), ("..", "h", 6.0), ("**", "8", 6.0))
+_FLAGS: Final = {FLAG_WORDS[name]: bit for name, bit in FLAGS.items() if bit & model_range.DOUBTS}
+DOUBTS: Final = [
+    Doubt(words, 4 * hatch, mark, size, bit)
+    for (words, bit), (hatch, mark, size) in zip(_FLAGS.items(), _OF_FLAGS, strict=True)
+]
+"""Every flag that makes values doubtful."""
+BEYOND: Final = {name: Doubt(one.words, *look) for (name, one), look in zip(LIMITS.items(), _OF_LIMITS, strict=True)}
+"""How scenes are shown that leave the range of the model, by the validity number that says so."""
+BOUND: Final = Doubt("optimum at a bound of its range", "//..", ">", 6.0)
+END: Final = Doubt("extreme at an end of its axis: it may lie beyond", "....", "^", 4.5)
+"""How an optimum, and the place of an extreme, is shown that may be beyond what was searched."""
+Marks = list[tuple[Doubt, xarray.DataArray]]
+"""Doubts, each with the scenes that have it."""
+
+
+def doubts_in(status: NDArray[Any], variable: str, dataset: xarray.Dataset) -> list[Doubt]:
+    """List the flags of some scenes of a dataset that cast doubt on a variable; none on `status` itself."""
+    there = 0 if variable == "status" else np.bitwise_or.reduce(np.ravel(status).astype(np.int16), initial=0)
+    return [doubt for doubt in DOUBTS if doubt.bit & doubts_of(variable, dataset) & there]
+
+
+def marks_of(dataset: xarray.Dataset, values: xarray.DataArray, status: xarray.DataArray, name: str) -> Marks:
+    """Mark the scenes of a variable that are in doubt, beyond a limit (a validity number: its own), or at a bound."""
+    there = doubts_in(status.where(values.notnull(), 0).values, name, dataset)
+    found = [(doubt, (status & doubt.bit) != 0) for doubt in there]
+    limits = {number: beyond_by(number, dataset) for number in BEYOND if name not in BEYOND or number == name}
+    found += [(BEYOND[number], flags) for number, flags in limits.items() if flags is not None]
+    if ON_BOUND in dataset and name.startswith(BEST):  # of a parameter that was searched its own, else any
+        meanings = str(dataset[ON_BOUND].attrs["flag_meanings"]).split()
+        bounds = [one for one in meanings if one.startswith(f"{name.removeprefix(BEST)}_at_its_")] or meanings
+        bits = sum(1 << meanings.index(one) for one in bounds)
+        found.append((BOUND, (dataset[ON_BOUND].astype(int) & bits) != 0))
+    return [(doubt, own) for doubt, flags in found if bool((own := among(flags, values)).any())]
+
+
+def among(flags: xarray.DataArray, values: xarray.DataArray) -> xarray.DataArray:
+    """Give flags over the axes of what is drawn, where it has values."""
+    flags = flags.any([axis for axis in flags.dims if axis not in values.dims])
+    return (flags.drop_vars([*flags.coords]) & values.notnull()).transpose(*values.dims)
+
+
+def entries(doubts: Sequence[Doubt], *, in_map: bool = False, gaps: bool = False) -> list[Patch | Line2D]:
+    """Make the entries of a legend: the doubts, and scenes without a value if there are such gaps."""
+    words = ["no finite value"] if gaps else []
+    if in_map:
+        hatched: dict[str, Any] = {"facecolor": "none", "edgecolor": INK, "lw": 0.0}
+        made = [Patch(hatch=doubt.hatch, label=doubt.words, **hatched) for doubt in doubts]
+        return [*made, *(Patch(facecolor=GREY, label=one) for one in words)]
+    marks = [Line2D([], [], label=doubt.words, **doubt.marker(INK)) for doubt in doubts]
+    return [*marks, *(Line2D([], [], ls="", marker="x", ms=4, mec=CROSS, label=one) for one in words)]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Shown:
     """What is drawn of a variable, over rows and columns of panels and their two sides, as far as there are such."""
 
-    name: str
-    """That of the variable whose unit the values have."""
     values: xarray.DataArray
     """NaN where there is none; of categories their places among the names."""
     marks: Marks
     label: str
-    unit: Unit = PLAIN
-    names: tuple[str, ...] = ()
-    """What the places 0, 1, 2, ... of categories stand for."""
+    caption: Sequence[str]
+    gaps: bool
+    names: Sequence[str] = ()
+    """What the places 0, 1, 2, ... of categories stand for; what follows is of values that are none."""
+    unit: Unit | None = None
     ends: tuple[float, float] = (0.0, 1.0)
     """The least and the greatest value."""
     limits: tuple[float, float] = (-np.inf, np.inf)
     """Between which values lines and points are drawn; all of them where they are infinite."""
     log: bool = False
-    """Whether they are drawn over a logarithm."""
-    band: tuple[xarray.DataArray, ...] = ()
+    levels: Levels | None = None
+    band: Sequence[xarray.DataArray] = ()
     """The lower and the upper edge of a band, if there is one."""
     band_words: str = ""
-    gaps: bool = False
-    """Whether a scene has no value."""
-    whole: bool = False
-    """Whether they are counts."""
-    caption: tuple[str, ...] = ()
-    """What is to be known of the values."""
 
     def at(self, place: Mapping[str, int]) -> "Shown":
         """Take what is in one panel."""
         marks = [(doubt, flags.isel(place)) for doubt, flags in self.marks]
-        band = tuple(edge.isel(place) for edge in self.band)
-        return replace(self, values=self.values.isel(place), marks=marks, band=band)
+        return replace(self, values=self.values.isel(place), marks=marks, band=[one.isel(place) for one in self.band])
 
 
 def shown_of(dataset: xarray.Dataset, name: str, plan: Plan, selection: Selection, looks: Looks) -> Shown:
@@ -88,39 +155,40 @@ def shown_of(dataset: xarray.Dataset, name: str, plan: Plan, selection: Selectio
     taken = selection.taken(dataset[name], dataset["status"])
     values = _over(taken.values, plan)
     values = values.where(np.isfinite(values))
-    finite = values.values[np.isfinite(values.values)]
+    there = int(values.notnull().sum())
     axis, how = next(((axis, how) for axis, how in selection.over.items() if how.startswith("arg")), ("", ""))
-    if not finite.size:
-        equal = f"its values along {axis} are equal, so that no place is that of {how}; draw them instead"
-        none = "no value in any scene drawn; `gradhesion info` reports why"
-        raise DatasetError(f"{name}: {equal if taken.flat and axis else none}")
+    if not there:
+        equal = f", or values that are equal along {axis}, so that no place is that of {how}" if axis else ""
+        raise DatasetError(f"{name}: no value in any scene drawn{equal}; `gradhesion info` reports why")
     marks = marks_of(dataset, values, _over(taken.status, plan), name)
     if taken.at_end is not None and bool(taken.at_end.any()):
         marks.append((END, among(taken.at_end, values)))
-    notes = {f"{counted(taken.left_out, 'failed scene')} left out": taken.left_out}
-    notes[f"{taken.flat:,} left out where all values are equal"] = taken.flat
-    shown = Shown(
-        name=axis or name,
-        values=values,
-        marks=marks,
-        label=label(name),
-        gaps=finite.size + taken.flat < values.size,
-        whole=dataset[name].dtype.kind == "i" and bool((finite == np.round(finite)).all()),
-        caption=tuple(note for note, number in notes.items() if number),
-    )
+    caption = [f"{counted(taken.left_out, 'failed scene')} left out"] if taken.left_out else []
+    caption += [f"{taken.flat:,} left out where all values are equal"] if taken.flat else []
+    own: dict[str, Any] = {"marks": marks, "caption": caption, "gaps": there + taken.flat < values.size}
     if name == "status" or parameters_of(dataset[name]):
-        return _categories(shown, dataset[name], finite, plan, looks)
+        if not plan.is_map:
+            looks.refuse(["ylim"], f"{name} is drawn as categories")
+        places, names = _categories(values, parameters_of(dataset[name]))
+        return Shown(values=places, names=names, label=label(name), **own)
     band, band_words = ((), "") if plan.is_map or plan.is_dense else _band_of(dataset, name, plan, selection, looks)
     all_of_it = np.stack([values, *band])
     least, greatest = float(np.nanmin(all_of_it)), float(np.nanmax(all_of_it))
-    limits = (-np.inf, np.inf) if plan.is_map else looks.ylim.limits(shown.name, *padded(least, greatest))
+    unit_from = axis or name
+    limits = (-np.inf, np.inf) if plan.is_map else limits_of(looks.ylim, unit_from, *padded(least, greatest))
     ends = least if np.isinf(limits[0]) else limits[0], greatest if np.isinf(limits[1]) else limits[1]
+    if not np.isfinite(limits).any() and padded(*ends) != ends:
+        limits = padded(*ends)
     log = ends[0] > 0.0 and ends[1] >= (WIDE if plan.is_map else FAR) * ends[0]
-    unit = unit_for(shown.name, ends, log=log)
-    words = label(shown.name, unit)
+    unit = unit_for(unit_from, ends, log=log)
+    words = label(unit_from, unit)
     if axis:
         words += f" at {'maximum' if how == 'argmax' else 'minimum'} {SYMBOLS[name].split(' $')[0]}"
-    return replace(shown, label=words, unit=unit, ends=ends, limits=limits, log=log, band=band, band_words=band_words)
+    if plan.is_map:
+        whole = dataset[name].dtype.kind == "i" and bool((values.fillna(0.0) % 1.0 == 0.0).all())
+        own["levels"] = _levels_of(unit_from, ends, looks, log=log, whole=whole)
+    own |= {"ends": ends, "limits": limits, "log": log, "band": band, "band_words": band_words}
+    return Shown(values=values, label=words, unit=unit, **own)
 
 
 def _over(values: xarray.DataArray, plan: Plan) -> xarray.DataArray:
@@ -129,15 +197,12 @@ def _over(values: xarray.DataArray, plan: Plan) -> xarray.DataArray:
     return values.squeeze([axis for axis in values.dims if axis not in places]).transpose(*places)
 
 
-def _categories(shown: Shown, variable: xarray.DataArray, finite: Values, plan: Plan, looks: Looks) -> Shown:
-    """Give the strongest of some parameters, or sets of flags, places with names."""
-    if not plan.is_map:
-        looks.refuse(["ylim"], f"{variable.name} is drawn as categories")
-    codes, labels = np.unique(finite).astype(int), parameters_of(variable)
-    places = shown.values.copy(data=np.searchsorted(codes, shown.values.values)).where(shown.values.notnull())
-    flags = [[name.replace("_", " ") for name, bit in FLAGS.items() if code & bit] for code in codes]
-    names = [SYMBOLS[labels[code]] for code in codes] if labels else ["\n+ ".join(own) for own in flags]
-    return replace(shown, values=places, names=tuple(name or "nothing to report" for name in names))
+def _categories(values: xarray.DataArray, labels: Sequence[str]) -> tuple[xarray.DataArray, list[str]]:
+    """Give places and names to the strongest of some parameters, or without any, to sets of flags."""
+    codes = np.unique(values.values[values.notnull()]).astype(int)
+    flags = ["\n+ ".join(name.replace("_", " ") for name, bit in FLAGS.items() if code & bit) for code in codes]
+    names = [SYMBOLS[labels[code]] for code in codes] if labels else [own or "nothing to report" for own in flags]
+    return values.copy(data=np.searchsorted(codes, values.values)).where(values.notnull()), names
 
 
 def padded(least: float, greatest: float) -> tuple[float, float]:
@@ -148,35 +213,34 @@ def padded(least: float, greatest: float) -> tuple[float, float]:
     return least - pad, greatest + pad
 
 
-def levels_of(shown: Shown, looks: Looks) -> tuple[Values, Values, Normalize]:
+def _levels_of(name: str, ends: tuple[float, float], looks: Looks, *, log: bool, whole: bool) -> Levels:
     """Choose round contour levels, rising by ratios where values differ much, those that have lines, and their colours.
 
     Those that are listed are taken as they are, with the ends of the values beyond them.
     """
-    least, greatest = padded(*shown.ends)
+    least, greatest = padded(*ends)
     if isinstance(looks.levels, tuple):
         option = f"--levels {','.join(looks.levels)}"
-        listed = np.unique([value_in(word, shown.name, option) for word in looks.levels])
+        listed = np.unique([value_in(word, name, option) for word in looks.levels])
         inner = listed[(listed >= least) & (listed <= greatest)]
         if not inner.size:
-            between = f"{least:.4g} to {greatest:.4g} {unit_of(shown.name)}".removesuffix(" 1")
-            raise DatasetError(f"{option}: none is among the values, which are {between}; choose some between")
+            drawn = between(least, greatest, name)
+            raise DatasetError(f"{option}: none is among what is drawn, {drawn}; choose some between")
         levels = np.unique([*listed, least, greatest])
         log = levels[0] > 0.0 and levels[-1] > WIDE * levels[0]
         return levels, inner, (LogNorm if log else Normalize)(levels[0], levels[-1])
-    if shown.log:
+    if log:
         steps = next(steps for most, steps in _STEPS if greatest < most * least)
-        decades = 10.0 ** np.arange(np.floor(np.log10(least)), np.ceil(np.log10(greatest)) + 1.0)
-        rising = np.outer(decades, steps).ravel()
+        finest: Locator = LogLocator(subs=steps, numticks=1000)
     else:
-        finest = MaxNLocator(looks.levels or 11, steps=[1, 2, 2.5, 5, 10], integer=shown.whole)
-        rising = np.asarray(finest.tick_values(least, greatest))
+        finest = MaxNLocator(looks.levels or 11, steps=[1, 2, 2.5, 5, 10], integer=whole)
+    rising = np.asarray(finest.tick_values(least, greatest))
     first = max(0, int(np.searchsorted(rising, least, side="right")) - 1)
     levels = rising[first : int(np.searchsorted(rising, greatest)) + 1]
     if looks.levels and levels.size > looks.levels + 1:  # ratios have steps of their own
         levels = levels[np.unique(np.linspace(0, levels.size - 1, looks.levels + 1).round().astype(int))]
     inner = levels[1:-1][1::2] if levels.size > 7 else levels[1:-1]  # the others show as edges of the bands
-    return levels, inner, (LogNorm if shown.log else Normalize)(levels[0], levels[-1])
+    return levels, inner, (LogNorm if log else Normalize)(levels[0], levels[-1])
 
 
 def _band_of(

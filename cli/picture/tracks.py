@@ -1,38 +1,32 @@
-"""The lines of a dataset of curves, and measured points: which there are, how each looks, how it is drawn."""
+"""What a picture of curves draws: lines, of which scenes, and measured points; how each looks and is drawn."""
 
 from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 import xarray
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import Colormap, to_rgb
+from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import SI
-from gradhesion.cli.picture.pictured import finite
-from gradhesion.cli.study.text.quantities import factor_of_column, scaled
-from gradhesion.cli.tables.columns import Columns, ColumnsError
-from gradhesion.cli.tables.reading import read_columns
-from gradhesion.cli.terminal.amounts import counted
-from gradhesion.cli.terminal.wording import shown
+from gradhesion.cli.names.scenes import SCENE
+from gradhesion.cli.picture.labels import equations, fixed, given, suit
+from gradhesion.cli.picture.looks import Looks
+from gradhesion.cli.picture.pictured import MARKERS, make_room
+from gradhesion.cli.picture.shown import CROSS, DOUBTS, Doubt, doubts_in, entries
 
 Values = NDArray[np.float64]
 Steps = NDArray[np.bool_]
 Colour = tuple[float, float, float]
 Dash = str | tuple[float, tuple[float, ...]]
 Plane = tuple[str, str]
-
-QUANTITIES: Final = ("contact_radius", "indentation", "load")
-"""What a panel may have along or up."""
-
 JUMP: Final[Dash] = (0, (3, 2))
 THIN: Final = 0.8
 """The dash of a jump, and its width in points."""
-
 ARROW: Final = 0.06
 FEWEST: Final = 0.1
 """The length of an arrow on a line, and of the part of a line that has room for one, over the side of a panel."""
@@ -44,19 +38,18 @@ def faded(colour: Colour) -> Colour:
     return red, green, blue
 
 
-def unloads(scene: xarray.Dataset, count: int) -> Steps:
-    """Report which of the points of a path are on unloading; none if the dataset does not know."""
-    return scene["path_unloading"].values == 1 if "path_unloading" in scene else np.zeros(count, bool)
+def flagged(scene: xarray.Dataset, name: str, count: int = 1) -> Steps:
+    """Report which of the points of a curve have a flag; none if the dataset does not know."""
+    return scene[name].values == 1 if name in scene else np.zeros(count, bool)
 
 
 @dataclass(frozen=True)
 class Track:
-    """One line: its curve, the variables that give its points, and how it looks."""
+    """One line: its curve, what the names of its variables begin and end with, and how it looks."""
 
     curve: str
     label: str
     stem: str
-    """What the names of its variables begin with."""
     dash: Dash
     width: float
     shade: float
@@ -64,7 +57,6 @@ class Track:
     unloading: bool | None = None
     """Whether it is the loading or the unloading part of its curve, if it is a part."""
     end: str = ""
-    """What the names of its variables end with: those in SI units have one."""
 
     @property
     def variables(self) -> Mapping[str, str]:
@@ -79,26 +71,21 @@ class Track:
 
     def points(self, scene: xarray.Dataset, plane: Plane) -> Values:
         """Give its points in a plane, along and up; NaN where there is none."""
-        return np.stack([finite(scene[self.variables[quantity]].values) for quantity in plane])
+        return np.stack([scene[self.variables[quantity]].values for quantity in plane])
 
     def falls(self, scene: xarray.Dataset) -> Steps:
         """Report which steps from point to point are unstable: the depth of an equilibrium falls."""
         name = self.variables["indentation"]
         known = self.curve.endswith("equilibrium") and name in scene
-        return np.diff(finite(scene[name].values)) < 0.0 if known else np.zeros(1, bool)
-
-    def jumps(self, scene: xarray.Dataset) -> Steps:
-        """Report which steps from point to point are jumps; none if the dataset does not know."""
-        flag = f"{self.curve}_jump"
-        return scene[flag].values[1:] == 1 if flag in scene else np.zeros(1, bool)
+        return np.diff(scene[name].values) < 0.0 if known else np.zeros(1, bool)
 
     def draw(self, axes: Axes, scene: xarray.Dataset, plane: Plane, colour: Colour) -> None:
         """Draw one line of a scene; its jumps are thin and dashed, its unstable parts light."""
         points = self.points(scene, plane)
-        jumps, falls = self.jumps(scene), self.falls(scene)
+        jumps, falls = flagged(scene, f"{self.curve}_jump", points.shape[1])[1:], self.falls(scene)
         own = np.ones(points.shape[1] - 1, bool)
         if self.unloading is not None and "path_unloading" in scene:
-            own = unloads(scene, 0)[1:] == self.unloading
+            own = flagged(scene, "path_unloading")[1:] == self.unloading
         for steps, dash, width, tone in (
             (own & jumps, JUMP, THIN, colour),
             (own & falls & ~jumps, self.dash, self.width, faded(colour)),
@@ -114,8 +101,7 @@ class Track:
         The limits of the panel must stand. An arrow gives way to those of `taken`, the places in the panel of others.
         """
         places = (axes.transData - axes.transAxes).transform(self.points(scene, plane).T)
-        ways = unloads(scene, len(places))[1:]
-        jumps = np.broadcast_to(self.jumps(scene), ways.shape)
+        ways, jumps = (flagged(scene, name, len(places))[1:] for name in ("path_unloading", f"{self.curve}_jump"))
         looks = {"arrowstyle": "-|>", "color": colour, "lw": 0.0, "shrinkA": 0.0, "shrinkB": 0.0, "mutation_scale": 8.0}
         for run in np.split(np.arange(ways.size), np.flatnonzero(np.diff(ways) | jumps[1:] | jumps[:-1]) + 1):
             line = places[run[0] : run[-1] + 2]
@@ -142,7 +128,6 @@ TRACKS: Final = (
     Track("path", "unloading", "path_", "-", 1.3, 0.0, unloading=True),
 )
 """Every line of a single scene, those on top last: loading is wider, so that unloading does not hide it."""
-
 TRACKS_OF_MANY: Final = (
     *(replace(track, width=0.75 * track.width) for track in TRACKS if track.curve != "path"),
     Track("path", "path", "path_", "-", 1.2, 0.0),
@@ -150,75 +135,136 @@ TRACKS_OF_MANY: Final = (
 """Every line where there are several scenes: finer, and the path in one."""
 
 
-def tracks_in(names: Container[Any], tracks: Sequence[Track], *, si: bool) -> list[Track]:
-    """List the lines of which two variables are among some names, in SI units or without."""
-    known = [replace(track, end=SI if si else "") for track in tracks]
+def tracks_in(names: Container[Any], *, si: bool, many: bool = False) -> list[Track]:
+    """List the lines of which two variables are among some names, in SI units or without, for one scene or many."""
+    known = [replace(track, end=SI if si else "") for track in (TRACKS_OF_MANY if many else TRACKS)]
     return [track for track in known if sum(name in names for name in track.variables.values()) > 1]
 
 
-COLUMNS: Final = {
+APART: Final = 0.12
+MARKED: Final = 0.22
+"""How far apart the marks of doubts and of scenes stand along a line, in diagonals of the panel."""
+INK: Final = to_rgb("0.25")
+"""The colour of lines in a legend where colours distinguish scenes."""
+SCENES: Final = len(MARKERS)
+"""Scenes in one picture: more could not be distinguished."""
+
+
+class Scene(NamedTuple):
+    """One scene of a dataset: its colour (None: each line has its own), its marker, and what makes it doubtful."""
+
+    label: str
+    colour: Colour | None
+    marker: str
+    values: xarray.Dataset
+    doubts: Sequence[Doubt]
+
+
+def scenes_of(dataset: xarray.Dataset, looks: Looks) -> tuple[list[Scene], list[str]]:
+    """Choose the scenes to draw, along the last axis with more than one value, and write what they have in common."""
+    dims = [str(axis) for axis in dataset["status"].dims]
+    last = next((axis for axis in reversed(dims) if dataset.sizes[axis] > 1), None)
+    some = dataset.isel({axis: 0 for axis in dims if axis != last})
+    varying = [last] if last else []
+    if last == SCENE:
+        varying = [name for name in given(some.coords) if np.unique(some[name].values).size > 1]
+    caption = fixed(dataset.drop_vars(varying, errors="ignore"))
+    size = dataset.sizes[last] if last else 1
+    items = np.unique(np.linspace(0, size - 1, min(size, SCENES)).round().astype(int)).tolist()
+    scenes = []
+    for place, item in enumerate(items):
+        scene = finite(some.isel({last: item}) if last else some)
+        colour = to_rgb(looks.colours(0.75 * place / (len(items) - 1))) if last else None
+        label = ", ".join(equations(name, scene[name].item())[0] for name in varying[:2]) or f"scene {item}"
+        names = [name + end for track in TRACKS for name in track.variables.values() for end in ("", SI)]
+        if not any(np.isfinite(scene[name].values).any() for name in names if name in scene):
+            label, colour = f"{label} (no value)", to_rgb(CROSS)
+        doubts = doubts_in(scene["status"].values, "path", scene)
+        scenes.append(Scene(label, colour, MARKERS[place], scene, doubts))
+    caption += [f"{SCENES} of {size} scenes"] if size > SCENES else []
+    return scenes, caption
+
+
+def finite(scene: xarray.Dataset) -> xarray.Dataset:
+    """Load a scene, with NaN where a value has no place on an axis: it leaves a gap."""
+    return scene.load().map(lambda one: one.where(np.isfinite(one)) if one.dtype.kind == "f" else one)
+
+
+QUANTITIES: Final = {
     "contact_radius": ("contact_radius", "radius", "a"),
     "indentation": ("indentation", "depth", "delta"),
     "load": ("load", "force", "P"),
 }
-"""What a column of each quantity may be called."""
-
-KEYS: Final = {"contact_radius": "c0", "indentation": "indentation", "load": "load"}
-"""For each quantity a key of its dimension."""
-
-FEW: Final = 60
-"""Points that are circles on top of the lines; more are grey dots below them, which would hide the lines."""
-
-CIRCLES: Final[dict[str, Any]] = {"mfc": "white", "mec": "0.1", "mew": 0.5, "ms": 2.8, "zorder": 3}
-DOTS: Final[dict[str, Any]] = {"mfc": "0.6", "mec": "none", "ms": 2.6, "zorder": 1.8, "rasterized": True}
+"""What a panel may have along or up, and what a column of measured points may be called."""
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Points:
-    """Measured points."""
+class Points(NamedTuple):
+    """Measured points, by the quantity, in SI units or as the curves have them; their looks; and what was left out."""
 
     values: Mapping[str, Values]
-    """By the quantity, in SI units or, of a picture without, as the dataset has them."""
-    notes: tuple[str, ...] = ()
-    """What was left out."""
-
-    @property
-    def looks(self) -> dict[str, Any]:
-        """How they look."""
-        few = next(iter(self.values.values())).size <= FEW
-        return {"ls": "", "marker": "o", "label": "measured"} | (CIRCLES if few else DOTS)
+    looks: Mapping[str, Any]
+    left_out: str
 
 
-def read_points(file: Path, planes: Sequence[tuple[str, str]], *, si: bool) -> Points:
-    """Read measured points for a picture with some planes, from a table (CSV or NetCDF).
+def draw_panel(
+    axes: Axes, plane: Plane, tracks: Sequence[Track], scenes: Sequence[Scene], points: Points | None, looks: Looks
+) -> None:
+    """Draw the lines of all scenes into a panel, measured points, lines of zero, and arrows along the paths."""
+    for track in tracks:
+        for scene in scenes:
+            colour, own = scene.colour or track.colour(looks.colours), track.points(scene.values, plane)
+            track.draw(axes, scene.values, plane, colour)
+            if scene.colour:
+                start = MARKED * (0.15 + MARKERS.index(scene.marker) / SCENES)  # beside those of the scene before
+                _draw_marks(axes, own, start, MARKED, color=colour, marker=scene.marker, ms=3.2, mew=0.0)
+            if track.curve == "path" and not track.unloading:
+                loading = own[:, ~flagged(scene.values, "path_unloading", own.shape[1])]
+                for doubt in reversed(scene.doubts):  # the larger ones below
+                    _draw_marks(axes, loading, 0.5 * APART, APART, mew=0.8, **doubt.marker(colour))
+    if points is not None and {*plane} <= points.values.keys():
+        axes.plot(*(points.values[quantity] for quantity in plane), **points.looks)
+    along, up = plane
+    axes.axhline(0.0, color="0.85", lw=0.6, zorder=0)
+    if along == "indentation":
+        axes.axvline(0.0, color="0.85", lw=0.6, zorder=0)
+    else:
+        axes.set_xlim(left=0.0)
+    suit(axes, "x", tracks[0].variables[along], looks.xlim)
+    if looks.xlim and not looks.ylim:  # the heights suit what is drawn between these limits
+        first, last = axes.get_xlim()
+        lines = [line.get_path().interpolated(20).vertices for line in axes.lines if line.get_zorder() > 0.0]
+        drawn = np.vstack([np.empty((0, 2)), *lines])
+        make_room(axes, "y", drawn[(drawn[:, 0] >= first) & (drawn[:, 0] <= last), 1])
+    suit(axes, "y", tracks[0].variables[up], looks.ylim)
+    arrows: list[Values] = []
+    for track in (one for one in tracks if one.curve == "path"):
+        for scene in scenes:
+            colour = scene.colour or track.colour(looks.colours)
+            track.draw_arrows(axes, scene.values, plane, colour, arrows)
 
-    It has two or more of the columns indentation, load (positive presses) and contact_radius; other columns are left
-    aside, and so are rows without a number. The header has units if the picture has; else the columns are delta/R,
-    P/(1.5 pi R dgamma) and a/R.
-    """
-    try:
-        found = read_columns(file, only=[word for own in COLUMNS.values() for word in own])
-        there = {quantity: word for quantity, own in COLUMNS.items() for word in reversed(own) if word in found.values}
-        values = {quantity: _scaled(found, quantity, word, si=si) for quantity, word in there.items()}
-    except ColumnsError as error:
-        raise DatasetError(f"--data {file}: {error}") from None
-    if not any({*plane} <= there.keys() for plane in planes):
-        wanted = " or ".join(f"{along} and {up}" for along, up in planes)
-        has = ", ".join(map(shown, [*there.values(), *found.others]))
-        raise DatasetError(f"--data {file}: the panels need the columns {wanted}, and it has {has}; rename some")
-    sound = np.isfinite([*values.values()]).all(axis=0)
-    if not sound.any():
-        raise DatasetError(f"--data {file}: no row has numbers in all of {', '.join(there.values())}; add some")
-    left_out = int(np.count_nonzero(~sound))
-    note = f"{file}: {counted(left_out, 'row')} left out, without a number in each column"
-    return Points(values={name: row[sound] for name, row in values.items()}, notes=(note,) if left_out else ())
+
+def _draw_marks(axes: Axes, points: Values, start: float, apart: float, **looks: Any) -> None:
+    """Put markers along a line, evenly in the panel: from where on, and how far apart, in its diagonals."""
+    if np.isfinite(points).all(axis=0).any():  # matplotlib fails to mark a line without a point
+        axes.plot(*points, **({"markevery": (start, apart), "ls": ""} | looks))
 
 
-def _scaled(found: Columns, quantity: str, word: str, *, si: bool) -> Values:
-    """Give a column in the units of the dataset."""
-    if si:
-        return scaled(found.values[word], factor_of_column(found, word, KEYS[quantity]))
-    if unit := found.units.get(word):
-        remedy = "give the study its units, or write the ratio without one"
-        raise ColumnsError(f"{word} [{unit}] has a unit, and the curves have none; {remedy}")
-    return found.values[word]
+def legend_of(scenes: Sequence[Scene], tracks: Sequence[Track], looks: Looks) -> list[Artist]:
+    """Make the entries of the legend."""
+
+    def entry(label: str, colour: Any, dash: Any = "-", width: float = 1.6, **more: Any) -> Line2D:
+        return Line2D([], [], color=colour, ls=dash, lw=width, label=label, **more)
+
+    coloured = [scene for scene in scenes if scene.colour]
+    made: list[Artist] = [entry(one.label, one.colour, marker=one.marker, ms=3.2, mew=0.0) for one in coloured]
+    for track in tracks:
+        colour = INK if coloured else track.colour(looks.colours)
+        made.append(entry(track.label, colour, track.dash, track.width))
+        if any(track.falls(scene.values).any() for scene in scenes):
+            words = track.label.replace(", stable", "") + ", unstable"
+            made.append(entry(words, faded(colour), track.dash, track.width))
+    if any(flagged(scene.values, f"{track.curve}_jump")[1:].any() for track in tracks for scene in scenes):
+        made.append(entry("jump", INK, JUMP, THIN))
+    if any(track.curve == "path" for track in tracks):
+        made += entries([doubt for doubt in DOUBTS if any(doubt in scene.doubts for scene in scenes)])
+    return made

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import gradhesion as gr
 from gradhesion.cli.dataset.read.reader import opened
-from gradhesion.cli.explorer import choice
+from gradhesion.cli.explorer import page as of_page
 from gradhesion.cli.explorer.data import rounded, study_data
 from tests.cli.conftest import Call, Made, Patch
 
@@ -47,7 +47,7 @@ def test_a_page_is_taken_at_values_of_axes_and_written_once(gradhesion: Call, da
     assert gradhesion("explore", dataset_file, *at, "--overwrite").exit_code == 0
     assert page.read_text().startswith("<!DOCTYPE html>")
     with opened(dataset_file) as dataset:
-        cut = choice.chosen(dataset, ["pull_off_force"], ["k=0.31", "a_max_over_R=inf"])
+        cut = of_page.chosen(dataset, ["pull_off_force"], ["k=0.31", "a_max_over_R=inf"])
         assert set(cut.data_vars) == {"pull_off_force", "status"}
         expected = dataset["pull_off_force"].isel(k=1, a_max_over_R=1)
         np.testing.assert_array_equal(cut["pull_off_force"].values, expected.values)
@@ -77,7 +77,7 @@ def test_wrong_wishes_are_said(gradhesion: Call, dataset_file: Path) -> None:
 
 
 def test_a_dataset_too_large_for_a_page_is_said(gradhesion: Call, dataset_file: Path, monkeypatch: Patch) -> None:
-    monkeypatch.setattr(choice, "MOST", 90)
+    monkeypatch.setattr(of_page, "MOST", 90)
     result = gradhesion("explore", dataset_file)
     assert result.exit_code == 2
     assert "96 values are too many for a page, which takes 90" in result.stderr

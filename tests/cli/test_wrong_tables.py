@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import gradhesion as gr
-from gradhesion.cli.picture.tracks import read_points
+from gradhesion.cli.picture.curves import read_points
 from tests.cli.conftest import BALL, COLUMNS, Call
 
 STUDIES = {

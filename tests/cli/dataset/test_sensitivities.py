@@ -11,7 +11,7 @@ import gradhesion as gr
 from gradhesion.cli.dataset import compute
 from gradhesion.cli.dataset.read.sensitivities import strongest
 from gradhesion.cli.names.outputs import SPREAD
-from gradhesion.cli.picture.doubts import doubts_in
+from gradhesion.cli.picture.shown import doubts_in
 from gradhesion.cli.study import study_from
 from gradhesion.core import SENSITIVITIES, solve
 from tests.cli.conftest import Call, Made, Patch, Run

@@ -10,7 +10,7 @@ import xarray
 import gradhesion as gr
 from gradhesion.cli.dataset import compute
 from gradhesion.cli.names.scenes import STEEP
-from gradhesion.cli.picture.doubts import BEYOND
+from gradhesion.cli.picture.shown import BEYOND
 from gradhesion.cli.study import study_from
 from gradhesion.core import VALIDITY, validity
 from tests.cli.conftest import Call, Patch, Run
