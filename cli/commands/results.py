@@ -1,0 +1,159 @@
+"""`gradhesion info`, `explore`, `select` and `verify`: what a dataset holds, as a page, in part, and recomputed."""
+
+from contextlib import ExitStack
+from pathlib import Path
+
+import click
+
+from gradhesion.cli.commands.shared import (
+    A_PATH,
+    choosing,
+    dataset_to_write,
+    ending_of,
+    example,
+    given_up,
+    history_now,
+    listed,
+    overwriting,
+    quietly,
+    say_written,
+)
+from gradhesion.cli.errors import DoubtfulError
+from gradhesion.cli.terminal.amounts import counted
+from gradhesion.cli.terminal.messages import show, show_block
+from gradhesion.cli.terminal.progress import progress
+
+TO_CSV = "info outputs/study.nc --format csv > study.csv"
+SELECT = "select outputs/study.nc --at k=0.3 --at A=0.01:0.05 --over a_max_over_R=max -o small.nc"
+HOW = "Reduce an axis: max, min, mean, sum, p05, median, p95; repeatable."
+
+
+@click.command(epilog=example("info outputs/study.nc", TO_CSV, "info a.nc b.nc"))
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=A_PATH)
+@choosing
+@click.option("--format", "form", type=click.Choice(["words", "csv"]), default="words", help="A summary or all values.")
+@click.option("--variable", "variables", multiple=True, metavar="NAME", help="With csv: a variable; repeatable.")
+@click.option("--jumps", is_flag=True, help="List the jumps of all scenes instead, as CSV.")
+def info(files: tuple[Path, ...], at: tuple[str, ...], form: str, variables: tuple[str, ...], jumps: bool) -> None:
+    """Describe a dataset, or print it as CSV.
+
+    Prints the parameters of FILE, the minimum and maximum of each variable with their places, or all values of up to 12
+    scenes, the scenes that failed or are doubtful, and the origin of the dataset. Several files are fits of the same
+    data, which are compared.
+    """
+    from gradhesion.cli.dataset.read.reader import is_fit, opened
+    from gradhesion.cli.dataset.select import selected
+    from gradhesion.cli.words.table import fits_tabled, jumps_listed, tabled
+    from gradhesion.cli.words.words import described
+
+    if variables and (jumps or form != "csv"):
+        raise click.UsageError("--variable selects the columns of a table; add --format csv, and leave --jumps out")
+    if len(files) > 1 and (form != "words" or jumps or at):
+        raise click.UsageError("several files are only compared in words; name one file, or leave the options out")
+    file = files[0]
+    with ExitStack() as stack:
+        datasets = [stack.enter_context(opened(each)) for each in files]
+        dataset = selected(datasets[0], at) if at else datasets[0]
+        if jumps or form == "csv":
+            of_values = fits_tabled(dataset) if is_fit(dataset) else tabled(dataset, file, variables)
+            for block in jumps_listed(dataset, file) if jumps else of_values:
+                show_block(block)
+            return
+        lines = described(dataset, file)
+        if len(files) > 1 or is_fit(dataset):
+            from gradhesion.cli.words.fit_words import fits_compared, fits_described
+
+            lines = fits_compared(datasets, files) if len(files) > 1 else fits_described(dataset, file)
+        for line in lines:
+            show(line)
+
+
+@click.command(epilog=example("explore outputs/study.nc", "explore outputs/study.nc -o part.html --at A=0.02"))
+@click.argument("file", type=A_PATH)
+@click.option("-o", "--output", type=A_PATH, help="Page: .html [FILE.html].")
+@click.option("--variable", "variables", multiple=True, metavar="NAME", help="Variable to include; repeatable [all].")
+@choosing
+@overwriting
+@quietly
+def explore(
+    file: Path, output: Path | None, variables: tuple[str, ...], at: tuple[str, ...], overwrite: bool, quiet: bool
+) -> None:
+    """Write a dataset as a page with sliders.
+
+    The page shows maps, sections and a slider for each axis of FILE in any browser. It contains the data and opens
+    without a network. Values have 6 digits.
+    """
+    path = output or file.parent / f"{file.stem or 'dataset'}.html"
+    ending_of(path, "page", (".html", ".htm"))
+
+    from gradhesion.cli.dataset.read.reader import opened, refuse_fit
+    from gradhesion.cli.dataset.read.selection import nearest_values
+    from gradhesion.cli.disk import replacement, writing
+    from gradhesion.cli.explorer.page import page
+
+    with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary:
+        refuse_fit(dataset, "a page", file)
+        text = page(dataset, file.name, listed(variables), at)
+        with writing(path):
+            temporary.write_text(text, encoding="utf-8")
+        notes = nearest_values(dataset, at)
+    if not quiet:
+        say_written(path, notes)
+
+
+@click.command(epilog=example(SELECT))
+@click.argument("file", type=A_PATH)
+@choosing
+@click.option("--over", multiple=True, metavar="AXIS=HOW", help=HOW)
+@dataset_to_write(required=True)
+@overwriting
+@quietly
+def select(file: Path, at: tuple[str, ...], over: tuple[str, ...], output: Path, overwrite: bool, quiet: bool) -> None:
+    """Write a part of a dataset.
+
+    The result is a dataset like FILE, with its study: fewer values of an axis, or none (--at), or their maximum, mean
+    and the like (--over). Of fits of several loops, --at loop=0 takes one.
+    """
+    from gradhesion.cli.dataset.read.reader import is_fit, opened
+    from gradhesion.cli.dataset.read.selection import nearest_values
+    from gradhesion.cli.dataset.select import selected, write_dataset
+
+    if not at and not over:
+        raise click.UsageError("nothing is selected; add --at AXIS=VALUE or --over AXIS=HOW")
+    with opened(file) as dataset:
+        part = selected(dataset, at, over)
+        notes = [] if is_fit(dataset) else nearest_values(dataset, at)
+        part = part.assign_attrs(history=f"{part.attrs.get('history', '')}\n{history_now()}".strip())
+        write_dataset(part, output, overwrite=overwrite)
+    if not quiet:
+        say_written(output, notes)
+
+
+@click.command(epilog=example("verify outputs/study.nc --sample 50"))
+@click.argument("file", type=A_PATH)
+@click.option("--sample", type=click.IntRange(min=1), default=20, show_default=True, help="Scenes to recompute.")
+@click.option("--seed", type=click.IntRange(min=0), help="Seed of the random sample [random].")
+@given_up("--digits", "in Python, gr.verify(FILE).deviations has each value beside the one recomputed")
+def verify(file: Path, sample: int, seed: int | None) -> None:
+    """Recompute maps to 30 digits and compare.
+
+    The study stored in FILE must be unchanged and match its coordinates. A random sample of the scenes is then solved
+    from the integral definitions, in 51-digit arithmetic and without the kernels that made the dataset. The deviations
+    are printed, largest first. A scene usually takes less than 0.1 s, and at most 15 s: scenes of more than 1,000
+    waves, or fewer for a series of many harmonics, are replaced by others.
+
+    The exit code is 3 if a value deviates by more than its stated error.
+    """
+    from gradhesion.cli.dataset.read.reader import opened
+    from gradhesion.cli.dataset.verify import in_words, recompute
+
+    with opened(file) as dataset:
+        found = recompute(dataset, file, sample=sample, seed=seed, progress=lambda total: progress(total, quiet=False))
+        title = str(dataset.attrs["title"])
+    for line in in_words(found, title, file):
+        show(line)
+    if found.exceeding:
+        raise DoubtfulError(
+            f"{file}: {found.exceeding:,} of {counted(len(found.deviations), 'value')} deviate by more than their "
+            "stated errors; write it again with `gradhesion run`, and report it if they still do"
+        )
