@@ -12,7 +12,7 @@ from gradhesion.cli.names.curves import is_ragged
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.terminal import interrupts
-from gradhesion.cli.work.solve.scenes import Arrays, solve_given
+from gradhesion.cli.work.solve.scenes import Arrays, draw, solve_given
 from gradhesion.core.processors import processors
 
 _T = TypeVar("_T")
@@ -23,8 +23,6 @@ Engine = Callable[[Study, Sequence[int]], Iterator[tuple[int, Arrays]]]
 def solve_block(study: Study, block: Block, threads: int | None) -> Arrays:
     """Solve a block of a study: the values of its variables and `status`."""
     if study.kind == "curve":
-        from gradhesion.cli.work.solve.curves import draw  # noqa: PLC0415 (maps do without)
-
         return draw(study, block)
     if study.search:
         from gradhesion.cli.work.solve.optima import solve_optima  # noqa: PLC0415 (SciPy's optimisers)

@@ -1,8 +1,7 @@
 """The fits of a study: points given to the core, what cannot be fitted, and why a fit is not to be trusted."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.fit.loop_file import LoopFile
@@ -27,8 +26,7 @@ _AT_AN_END: Final = {
 """What to do about a value at an end of its range."""
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Fit:
+class Fit(NamedTuple):
     """A loop of a study with what was found, or why nothing was."""
 
     loop: LoopFile
@@ -63,21 +61,18 @@ def fitted(study: FitStudy, loop: LoopFile) -> FittedLoop:
 def fits_of(study: FitStudy, advance: Callable[[int], None] = lambda _: None) -> list[Fit]:
     """Fit every loop of a study, one after the other; `advance` is called with 1 after each.
 
-    Raises
-    ------
-    StudyError
-        No loop can be fitted; the message is that of the first. Of several, those that cannot have a `problem`.
+    Of several, those that cannot be fitted have a `problem`; StudyError with that of the first if none can.
     """
     fits = []
     for loop in study.loops:
-        fit = Fit(loop=loop, problem=loop.problem)
+        found, problem = None, loop.problem
         try:
-            fit = fit if loop.problem else Fit(loop=loop, found=fitted(study, loop))
+            found = None if problem else fitted(study, loop)
         except StudyError as error:
             if study.is_of_one:
                 raise
-            fit = Fit(loop=loop, problem=str(error).removeprefix(f"{loop.file}: "))
-        fits.append(fit)
+            problem = str(error).removeprefix(f"{loop.file}: ")
+        fits.append(Fit(loop, found, problem))
         advance(1)
     if all(fit.found is None for fit in fits):
         more = f" (none of the {len(fits):,} loops has a fit)" if len(fits) > 1 else ""
@@ -89,10 +84,8 @@ def tabor_of(study: FitStudy, found: FittedLoop) -> float:
     """Give the Tabor parameter at the fitted values."""
     model = Model(study.fixed, found.names, study.profile, study.loading, study.toughness)
     given = model.given({name: value for name, value in found.values.items() if name != EXPONENT})
-    made = parameters_from(given)
-    scene = {name: float(made[name]) for name in PARAMETERS} | {
-        RANGE: (study.adhesion_range or USUAL_RANGE) / given["R"]
-    }
+    made = parameters_from(given) | {RANGE: (study.adhesion_range or USUAL_RANGE) / given["R"]}
+    scene = {name: float(made[name]) for name in (*PARAMETERS, RANGE)}
     return float(validity(scene, ["tabor_parameter"], study.profile)["tabor_parameter"])
 
 
@@ -107,18 +100,16 @@ def doubts_of(found: FittedLoop) -> Iterator[str]:
     if not found.converged:
         yield "the fit did not converge; give more starts, or narrower ranges"
     if found.status & POOR_FIT:
-        yield (
-            f"a poor fit: reduced chi square {found.reduced_chi_square:.3g}, where "
-            f"{poor_from(found.degrees_of_freedom):.3g} is the most that noise explains; try another model, wider "
-            "ranges, or the noise as it is (fit.noise), and check the signs of depth and load"
-        )
+        most = f"{poor_from(found.degrees_of_freedom):.3g} is the most that noise explains"
+        remedy = "try another model, wider ranges, or other noise (fit.noise), and check the signs of depth and load"
+        yield f"a poor fit: reduced chi square {found.reduced_chi_square:.3g}, where {most}; {remedy}"
     for other in found.others:
-        both = (found.values, other.values)
-        here, there = (", ".join(f"{name} = {value:.4g}" for name, value in one.items()) for one in both)
-        yield (
-            f"another minimum is within the noise: chi square {other.chi_square:.6g} at {there}, "
-            f"beside {found.chi_square:.6g} at {here}; narrow the ranges to the one that is meant"
+        here, there = (
+            f"{one.chi_square:.6g} at " + ", ".join(f"{name} = {value:.4g}" for name, value in one.values.items())
+            for one in (found, other)
         )
+        remedy = "narrow the ranges to the one that is meant"
+        yield f"another minimum is within the noise: chi square {there}, beside {here}; {remedy}"
     for name in found.on_bound:
         low, high = found.ranges[name]
         remedy = _AT_AN_END.get(name, "widen the range, or give it as a number; or the data do not show it")
