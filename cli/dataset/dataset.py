@@ -19,8 +19,7 @@ from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.work.compiling import prepare
 from gradhesion.cli.work.solve.blocks import in_threads, within
-from gradhesion.cli.work.solve.curves import blank_of
-from gradhesion.cli.work.solve.scenes import Arrays
+from gradhesion.cli.work.solve.scenes import Arrays, blank_of
 
 if TYPE_CHECKING:
     import xarray

@@ -19,29 +19,17 @@ from gradhesion.core.problem.inputs import INPUTS
 
 WANTED: Final = "only maps and optima on a grid can be joined"
 SHARED: Final = (
-    "kind",
-    "search",
-    "searched",
-    "outputs",
-    "method",
-    "profile",
-    "spectrum",
-    "loading",
-    "toughness",
-    "rate",
-    "uncertainty",
-)
+    "kind", "search", "searched", "outputs", "method", "profile", "spectrum", "loading",
+    "toughness", "rate", "uncertainty",
+)  # fmt: skip
 """What the studies of datasets that are joined have in common, beside the keys of their scenes."""
 
 
 def joined(sources: Mapping[Path, xarray.Dataset], history: str) -> tuple[Study, xarray.Dataset]:
     """Join datasets in memory; where several have a scene, the first one's values hold.
 
-    Raises
-    ------
-    DatasetError
-        They differ in something else than the values of axes, in nothing, or lack scenes of the grid of all; or one was
-        changed since it was written.
+    DatasetError: they differ in something else than the values of axes, in nothing, or lack scenes of the grid of all;
+    or one was changed since it was written.
     """
     studies = {
         file: study_of(dataset, file, kinds=("map", "optimum"), wanted=WANTED) for file, dataset in sources.items()
@@ -100,9 +88,7 @@ def _values(
         own = {axis: np.atleast_1d(studies[file].parameters[axis]) for axis in axes}
         whole = whole.combine_first(part.assign_coords(own))
     if missing := int(whole["status"].isnull().sum()):
-        raise DatasetError(
-            f"{', '.join(map(str, sources))}: differ in {' and '.join(axes)}, and {missing:,} scenes of their common "
-            "grid are in none of them; join datasets that fill it"
-        )
+        lack = f"{missing:,} scenes of the grid of all along {' and '.join(axes)} are in none of them"
+        raise DatasetError(f"{', '.join(map(str, sources))}: {lack}; join datasets that fill it")
     whole = whole.sel(axes).transpose(*study.sizes, ...)
     return {name: whole[name].values.astype(types[name]) for name in names}

@@ -27,7 +27,6 @@ CANDIDATES: Final = 20
 """Scenes that may be drawn for each one of the sample, where some are left out."""
 ROWS: Final = 12
 """Deviations that are printed one by one."""
-
 Progress = Callable[[int], AbstractContextManager[Callable[[int], None]]]
 
 
@@ -43,7 +42,7 @@ class Scene:
     """Of its punch, and what is prescribed."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Deviation:
     """How far a value is from what it should be; `expected` has 30 digits or says what, both errors are absolute."""
 
@@ -84,23 +83,15 @@ class Recomputed:
 
 
 def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | None, progress: Progress) -> Recomputed:
-    """Recompute a random sample of a dataset's scenes.
-
-    Raises
-    ------
-    DatasetError
-        The dataset and its study do not belong together, it is none that can be recomputed, or no scene of it can.
-    """
+    """Recompute a random sample of a dataset's scenes; DatasetError if none can be, or it is not that of its study."""
     study = study_of(dataset, path)
     if dataset["status"].dtype.kind not in "iu":
         raise DatasetError(f"{path}: its status is no integer; give the dataset as it was before `where`")
     solvers = [str(solver) for solver in np.ravel(dataset[SOLVER].values if SOLVER in dataset else study.method.solver)]
     known = tuple(solver for solver in solvers if solver in stated.SOLVERS)
     if not known or study.rate is not None:
-        raise DatasetError(
-            f"{path}: has no independent twin; `gradhesion verify` accepts the solvers "
-            f"{' and '.join(stated.SOLVERS)}, and edges at rest"
-        )
+        accepted = f"the solvers {' and '.join(stated.SOLVERS)}, and edges at rest"
+        raise DatasetError(f"{path}: has no independent twin; `gradhesion verify` accepts {accepted}")
     outputs = [name for name in study.outputs if name in stated.KNOWN]
     unknown = [name for name in study.outputs if name not in outputs]
     found = Recomputed(
@@ -116,10 +107,8 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
             found.deviations += _compared(dataset, scene, outputs, found)
             advance(1)
     if not found.deviations:
-        raise DatasetError(
-            f"{path}: none of the scenes drawn can be recomputed ({found.beyond} have too many waves, {found.failed} "
-            f"no value, {found.unsure} lie too close to where two folds meet); draw more with --sample"
-        )
+        reasons = f"{found.beyond} have too many waves, {found.failed} no value, {found.unsure} two folds that meet"
+        raise DatasetError(f"{path}: none of the scenes drawn can be recomputed ({reasons}); draw more with --sample")
     found.deviations.sort(key=lambda one: (-one.share, -one.deviation))
     return found
 
@@ -140,13 +129,12 @@ def _drawn(
         status = int(dataset["status"][scene.index])
         if status & FAILED:
             found.failed += 1
-            if status & NO_VALUE:
-                found.deviations += _without_value(dataset, scene, study.variables)
+            for name in study.variables if status & NO_VALUE else ():
+                value = math.nan if labels_of(name) else float(dataset[name][scene.index])
+                if not (math.isnan(value) or (name.endswith("_jumps") and value == -1.0)):
+                    found.deviations.append(Deviation(name, scene.place, value, "none, by its status"))
         elif missing := [name for name in PARAMETERS if math.isnan(scene.parameters[name])]:
-            found.deviations += [
-                Deviation(output=name, scene=scene.place, value=math.nan, expected="a value, by its status")
-                for name in missing
-            ]
+            found.deviations += [Deviation(name, scene.place, math.nan, "a value, by its status") for name in missing]
         else:
             within = True
             with suppress(ArithmeticError):  # which says so again when it is solved
@@ -183,14 +171,6 @@ def _scene(dataset: xarray.Dataset, study: Study, cells: xarray.Dataset, number:
     return Scene(index=index, solver=solver, parameters=parameters, place=place, shape=shape)
 
 
-def _without_value(dataset: xarray.Dataset, scene: Scene, outputs: Collection[str]) -> Iterator[Deviation]:
-    """Check that a scene without values has none."""
-    for name in outputs:
-        value = float("nan") if labels_of(name) else float(dataset[name][scene.index])
-        if not (math.isnan(value) or (name.endswith("_jumps") and value == -1.0)):
-            yield Deviation(output=name, scene=scene.place, value=value, expected="none, by its status")
-
-
 def _compared(
     dataset: xarray.Dataset, scene: Scene, outputs: Collection[str], found: Recomputed
 ) -> Iterator[Deviation]:
@@ -214,9 +194,7 @@ def _compared(
         if near and deviation > error:
             found.near[f"{name}: {near}"] = found.near.get(f"{name}: {near}", 0) + 1
             continue
-        yield Deviation(
-            output=name, scene=scene.place, value=value, expected=str(one), deviation=deviation, stated=error
-        )
+        yield Deviation(name, scene.place, value, str(one), deviation, error)
 
 
 def in_words(found: Recomputed, title: str, file: Path) -> Iterator[str]:
@@ -255,7 +233,5 @@ def in_words(found: Recomputed, title: str, file: Path) -> Iterator[str]:
     if written:
         yield from ("", "left out", *written)
     yield ""
-    if found.exceeding:
-        yield f"{found.exceeding:,} of {counted(len(every), 'value')} deviate by more than their stated errors"
-    else:
-        yield f"all {len(every):,} values are within their stated errors"
+    exceeding = f"{found.exceeding:,} of {counted(len(every), 'value')} deviate by more than their stated errors"
+    yield exceeding if found.exceeding else f"all {len(every):,} values are within their stated errors"

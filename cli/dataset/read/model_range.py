@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.read.reader import is_turned, tiling_of
+from gradhesion.cli.dataset.read.reader import tiling_of
 from gradhesion.cli.names.curves import curve_of
 from gradhesion.cli.names.outputs import BEST, value_of
 from gradhesion.cli.names.scenes import STEEP
@@ -18,7 +18,7 @@ from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core import doubts_about
 from gradhesion.core.answers.flags import LINEAR_DEVIATION_OFF, RESOLUTION_TOO_COARSE
 from gradhesion.core.closed.reach import SMALL, is_steep
-from gradhesion.core.problem.names import CONTACT_SLOPE, RANGE
+from gradhesion.core.problem.names import CONTACT_SLOPE, RANGE, TURNS
 from gradhesion.core.problem.profile import Harmonic, Profile, rows_of, swings
 from gradhesion.core.problem.status import DOUBTFUL
 
@@ -48,7 +48,8 @@ def doubts_of(variable: str, dataset: "xarray.Dataset") -> int:
     True
     """
     plain = value_of(variable)
-    bits = doubts_about(curve_of(plain) or plain, turned=is_turned(dataset))
+    turned = any(name in dataset.coords for name in TURNS)  # at a depth or a load: loading decides on all that follows
+    bits = doubts_about(curve_of(plain) or plain, turned=turned)
     if variable.startswith(BEST):
         bits |= RESOLUTION_TOO_COARSE
     sampled = any(str(name).removesuffix("_si").endswith("_std_linear") for name in dataset.data_vars)
