@@ -1,6 +1,6 @@
 """Curves in words: how long they are, how often they fold and jump, and how far they reach."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -48,12 +48,7 @@ def curve_lines(dataset: xarray.Dataset) -> Iterator[str]:
             yield f"{curve}: {number_range(points)} points per {'state' if curve in STATE_CURVES else 'scene'}"
             own = dataset[[name for name in names if name in INTEGERS]]
             yield from (told(words, number_range(numbers)) for words, numbers in _counts(own).items())
-            yield from (_extent(dataset[name]) for name in _told(names))
-
-
-def _told(names: Sequence[str]) -> list[str]:
-    """List the variables whose extent is told: no flags and counts, and in SI where there is such a variable."""
-    return [name for name in names if name not in INTEGERS and f"{name}{SI}" not in names]
+            yield from _extents(dataset, names)
 
 
 def _counts(own: xarray.Dataset) -> dict[str, NDArray[np.integer]]:
@@ -72,11 +67,12 @@ def _counts(own: xarray.Dataset) -> dict[str, NDArray[np.integer]]:
     return counts
 
 
-def _extent(variable: xarray.DataArray) -> str:
-    """Report between what the values of a variable lie, and what it is."""
-    values = variable.values[variable.notnull().values]
-    extent = f"{values.min() + 0.0:.6g} to {values.max() + 0.0:.6g}" if values.size else "no value in any scene"
-    return told(str(variable.name), extent, about(variable))
+def _extents(dataset: xarray.Dataset, names: Sequence[str]) -> Iterator[str]:
+    """Report between what the values of some variables lie: no flags and counts, and in SI where they are."""
+    for name in (name for name in names if name not in INTEGERS and f"{name}{SI}" not in names):
+        values = dataset[name].values[dataset[name].notnull().values]
+        extent = f"{values.min() + 0.0:.6g} to {values.max() + 0.0:.6g}" if values.size else "no value in any scene"
+        yield told(name, extent, about(dataset[name]))
 
 
 def jump_lines(dataset: xarray.Dataset) -> Iterator[str]:
@@ -97,22 +93,11 @@ def jump_lines(dataset: xarray.Dataset) -> Iterator[str]:
     ):
         if np.any(such):
             yield told(words, f"{int(np.sum(such)):,}")
-    yield from (_extent(jumps[name]) for name in _told(names))
+    yield from _extents(jumps, names)
     if "jump_energy" in jumps:
         item = int(jumps["jump_energy"].values.argmax())
         scene = int(np.searchsorted(np.cumsum(counts), item, side="right"))
         varying = [name for name in INPUTS if name in dataset and dataset[name].ndim]
         place = {name: values[scene] for name, values in columns_of(dataset, varying, dataset["status"]).items()}
-        yield _largest({name: jumps[name].values[item].item() for name in names}, place)
-
-
-def _largest(jump: Mapping[str, float], place: Mapping[str, np.generic]) -> str:
-    """Report what is known of the jump that dissipates most."""
-    written = [f"  the largest dissipates {jump['jump_energy']:.6g}"]
-    if "jump_unloading" in jump:
-        written.append("on unloading" if jump["jump_unloading"] == 1 else "on loading")
-    if "jump_indentation" in jump:
-        written.append(f"at the depth {jump['jump_indentation'] + 0.0:.6g}")
-    if {"jump_radius_before", "jump_radius_after"} <= jump.keys():
-        written.append(f"from the radius {jump['jump_radius_before']:.6g} to {jump['jump_radius_after']:.6g}")
-    return ", ".join([*written, *(f"{name} = {value:g}" for name, value in place.items())])
+        known = {name: jumps[name].values[item] for name in names} | place
+        yield f"  the largest: {', '.join(f'{name} = {value:.6g}' for name, value in known.items())}"

@@ -175,19 +175,13 @@ def fits_compared(datasets: Sequence[xarray.Dataset], files: Sequence[Path]) -> 
         for name in SAME:
             one, other = (np.asarray(each.get(name, each.attrs.get(name))) for each in (first, dataset))
             if one.shape != other.shape or not np.array_equal(one, other, equal_nan=one.dtype.kind == "f"):
-                raise DatasetError(
-                    f"{file}: differs from {files[0]} in {name}, so that their misfits cannot be compared; fit the "
-                    "same points with the same noise"
-                )
+                remedy = "to compare their misfits, fit the same points with the same noise"
+                raise DatasetError(f"{file}: differs from {files[0]} in {name}; {remedy}")
         if np.isnan(dataset["chi_square"].values).any():
             raise DatasetError(f"{file}: a loop has no fit, so that the total misfit is undefined; leave its file out")
-    table = pd.DataFrame(
-        {
-            "file": [str(file) for file in files],
-            "p": [dataset.sizes[PARAMETER] * dataset.sizes.get(LOOP, 1) for dataset in datasets],
-            "chi square": [float(dataset["chi_square"].sum()) for dataset in datasets],
-        }
-    )
+    table = pd.DataFrame({"file": [str(file) for file in files]})
+    table["p"] = [dataset.sizes[PARAMETER] * dataset.sizes.get(LOOP, 1) for dataset in datasets]
+    table["chi square"] = [float(dataset["chi_square"].sum()) for dataset in datasets]
     criteria = table["chi square"] + 2.0 * table["p"]
     table["AIC - least"] = criteria - criteria.min()
     weights = np.exp(-0.5 * table["AIC - least"])
@@ -195,11 +189,8 @@ def fits_compared(datasets: Sequence[xarray.Dataset], files: Sequence[Path]) -> 
     points = int(np.sum(~np.isnan(first["residual"].values)))
     yield f"{counted(len(files), 'fit')} of the same {counted(points, 'point')}, by AIC = chi square + 2 p"
     yield ""
-    yield from (
-        table.sort_values("AIC - least", kind="stable")
-        .to_string(index=False, float_format="{:.6g}".format)
-        .splitlines()
-    )
+    table = table.sort_values("AIC - least", kind="stable")
+    yield from table.to_string(index=False, float_format="{:.6g}".format).splitlines()
     for dataset, file in zip(datasets, files, strict=True):
         if (dataset["status"].values & POOR_FIT).any():
             yield f"{file}: a poor fit: the residual exceeds the noise, and weights mean little"

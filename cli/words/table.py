@@ -21,7 +21,6 @@ from gradhesion.core.problem.inputs import INPUTS
 
 ITEMS: Final = 2**16
 """Jumps that are read at a time."""
-
 COUNT: Final = RAGGED["jumps"]
 JUMP: Final = EXTENTS["jumps"]
 

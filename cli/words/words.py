@@ -29,10 +29,8 @@ from gradhesion.core.problem.names import CONTACT_SLOPE, PULL_OFF, RESULTS
 
 FEW: Final = 8
 """Values of an axis that are listed one by one."""
-
 MOST: Final = 12
 """Scenes whose values are all told, at most."""
-
 WIDTH: Final = 100
 """Characters of a line of these, at most."""
 
