@@ -10,19 +10,14 @@ from typing import Any, Final, NoReturn
 
 import click
 
-from gradhesion.cli.commands.explore import explore
-from gradhesion.cli.commands.info import info
 from gradhesion.cli.commands.init import init
 from gradhesion.cli.commands.merge import merge
-from gradhesion.cli.commands.plan import plan
-from gradhesion.cli.commands.plot import plot
+from gradhesion.cli.commands.plan import plan, validate
 from gradhesion.cli.commands.profile import profile
+from gradhesion.cli.commands.results import explore, info, plot, select, verify
 from gradhesion.cli.commands.run import run
-from gradhesion.cli.commands.select import select
 from gradhesion.cli.commands.setup import completion, schema, warmup
 from gradhesion.cli.commands.status import status
-from gradhesion.cli.commands.validate import validate
-from gradhesion.cli.commands.verify import verify
 from gradhesion.cli.errors import GradhesionError, OutputError
 from gradhesion.cli.installation import misfit, refuse_without_threads
 from gradhesion.cli.terminal import interrupts, messages
@@ -37,10 +32,8 @@ SECTIONS: Final = {
     "Results": (info, plot, explore, select, verify, merge),
 }
 """The commands of a user, in the order of the work."""
-
 SET_UP: Final = (warmup, completion, schema)
 """Commands for an installation, a shell and an editor, each needed once if at all: they have one line together."""
-
 EXITS: Final = (
     "0 success, 2 wrong command, study or dataset, 3 failed or doubtful scenes, 4 the output cannot be written, "
     f"{INTERRUPTED} interrupted, {UNHEARD} the reader of the output has closed it"

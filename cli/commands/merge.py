@@ -43,13 +43,13 @@ def merge(files: tuple[Path, ...], output: Path | None, overwrite: bool, quiet: 
         finish(output, study.scenes, written, time.monotonic() - start, quiet=quiet)
     elif output is not None or len(files) > 1:
         raise click.UsageError(
-            "several datasets need an output, named with -o; a single FILE without -o joins the blocks of its shards"
+            "several datasets need an output, named with -o, and the blocks of shards of one need none"
         )
     elif (shards := _of_shards(files[0])) is None:
         messages.say(f"{files[0]}: was complete already")
     else:
+        settings: dict[str, Any] = {"history": shared.history_now(), "overwrite": overwrite}
         with progress(shards.scenes, quiet=quiet) as advance:
-            settings: dict[str, Any] = {"history": shared.history_now(), "overwrite": overwrite}
             written = write(shards, files[0], **settings, engine=only_kept(files[0]), advance=advance)
         finish(files[0], shards.scenes, written, time.monotonic() - start, quiet=quiet)
 

@@ -1,23 +1,12 @@
-"""`gradhesion info`, `explore`, `select` and `verify`: what a dataset holds, as a page, in part, and recomputed."""
+"""`gradhesion info`, `plot`, `explore`, `select`, `verify`: a dataset in words, drawn, in part, and recomputed."""
 
 from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 import click
 
-from gradhesion.cli.commands.shared import (
-    A_PATH,
-    choosing,
-    dataset_to_write,
-    ending_of,
-    example,
-    given_up,
-    history_now,
-    listed,
-    overwriting,
-    quietly,
-    say_written,
-)
+from gradhesion.cli.commands import shared
 from gradhesion.cli.errors import DoubtfulError
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.messages import show, show_block
@@ -28,9 +17,9 @@ SELECT = "select outputs/study.nc --at k=0.3 --at A=0.01:0.05 --over a_max_over_
 HOW = "Reduce an axis: max, min, mean, sum, p05, median, p95; repeatable."
 
 
-@click.command(epilog=example("info outputs/study.nc", TO_CSV, "info a.nc b.nc"))
-@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=A_PATH)
-@choosing
+@click.command(epilog=shared.example("info outputs/study.nc", TO_CSV, "info a.nc b.nc"))
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=shared.A_PATH)
+@shared.choosing
 @click.option("--format", "form", type=click.Choice(["words", "csv"]), default="words", help="A summary or all values.")
 @click.option("--variable", "variables", multiple=True, metavar="NAME", help="With csv: a variable; repeatable.")
 @click.option("--jumps", is_flag=True, help="List the jumps of all scenes instead, as CSV.")
@@ -68,13 +57,88 @@ def info(files: tuple[Path, ...], at: tuple[str, ...], form: str, variables: tup
             show(line)
 
 
-@click.command(epilog=example("explore outputs/study.nc", "explore outputs/study.nc -o part.html --at A=0.02"))
-@click.argument("file", type=A_PATH)
-@click.option("-o", "--output", type=A_PATH, help="Page: .html [FILE.html].")
+@click.command(
+    epilog=shared.example(
+        "plot outputs/study.nc", "plot outputs/study.nc -o map.pdf --at A=0.02 --over k=max --width column --no-title"
+    )
+)
+@click.argument("file", type=shared.A_PATH)
+@click.option("-o", "--output", type=shared.A_PATH, help="Picture: .png, .svg or .pdf [FILE.png].")
+@click.option("--variable", "variables", multiple=True, metavar="NAME", help="Variable to draw; repeatable.")
+@shared.choosing
+@click.option("--interpolate", is_flag=True, help="Interpolate to the value of --at instead.")
+@click.option(
+    "--over", multiple=True, metavar="AXIS=HOW", help="Reduce an axis: max, min, mean, p05, p50, p95, argmax, argmin."
+)
+@click.option("--x", metavar="AXIS", help="Horizontal axis; of curves contact_radius, indentation or load.")
+@click.option("--y", metavar="AXIS", help="Vertical axis of a map, or the axis with a line for each value.")
+@click.option("--lines", "kind", flag_value="lines", help="Draw lines, even if an axis has many values.")
+@click.option("--map", "kind", flag_value="map", help="Draw a map, even if an axis has few values.")
+@click.option("--width", metavar="SIZE", help='Width: inches, "8 cm", column (90 mm) or page (190 mm).')
+@click.option("--height", metavar="SIZE", help='Height: inches or "8 cm" [to suit the width].')
+@click.option("--colour-map", "--color-map", metavar="NAME", help="Colour map of matplotlib [viridis].")
+@click.option("--levels", metavar="LEVELS", help='Contour levels: a number (8) or values (0.5,1,2 or "1 nJ,2 nJ").')
+@click.option("--labels/--no-labels", default=True, help="Number the contours [yes].")
+@click.option("--xlim", metavar="LOW:HIGH", help="Part of the horizontal axis to draw; either end may be left out.")
+@click.option("--ylim", metavar="LOW:HIGH", help="Part of the vertical axis to draw.")
+@click.option("--band", metavar="HOW", help="Spread of uncertain values: quantiles, std or none [what there is].")
+@click.option("--title", metavar="TEXT", help="Title [that of the study].")
+@click.option("--no-title", "title", flag_value="", help="Print no title.")
+@click.option("--xlabel", metavar="TEXT", help="Name of the horizontal axis [that of what is along it].")
+@click.option("--ylabel", metavar="TEXT", help="Name of the vertical axis.")
+@click.option("--clabel", metavar="TEXT", help="Name of the bar of colours of a map.")
+@click.option("--caption/--no-caption", default=True, help="Print the fixed parameters [yes].")
+@click.option("--style", metavar="STYLE", help="Matplotlib style to add: a name or a file.")
+@click.option("--data", type=shared.A_PATH, help="Measured points to draw on curves: a table in a file.")
+@shared.overwriting
+@shared.quietly
+@shared.given_up("--inset", "draw one with `inset_axes` of matplotlib on the axes that `gr.plot` returns")
+def plot(
+    file: Path,
+    output: Path | None,
+    variables: tuple[str, ...],
+    at: tuple[str, ...],
+    interpolate: bool,
+    over: tuple[str, ...],
+    x: str | None,
+    y: str | None,
+    data: Path | None,
+    overwrite: bool,
+    quiet: bool,
+    **looks: Any,
+) -> None:
+    """Draw a dataset: lines, maps, panels or curves.
+
+    The shape of FILE decides: lines over one axis, a map over two, panels over more; curves are drawn as curves, and a
+    fit with its data and residuals; of fits of several loops the values, or one of them (--at loop=0).
+    Options fix an axis (--at A=0.02), reduce it (--over k=max) or place it (--x, --y), and set size, colours, labels.
+    """
+    path = output or file.parent / f"{file.stem or 'dataset'}.png"
+    form = shared.ending_of(path, "picture", shared.OF_PICTURES)
+
+    from gradhesion.cli.dataset.read.reader import opened
+    from gradhesion.cli.disk import replacement, writing
+    from gradhesion.cli.picture.looks import looks_of
+    from gradhesion.cli.picture.picture import picture_of
+    from gradhesion.cli.picture.pictured import save
+
+    chosen, notes = looks_of(**looks), list[str]()
+    choices: dict[str, Any] = {"at": at, "over": over, "interpolate": interpolate, "x": x, "y": y, "data": data}
+    with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary:
+        figure = picture_of(dataset, shared.listed(variables), chosen, **choices, notes=notes.append)
+        with writing(path):
+            save(figure, temporary, form, chosen)
+    if not quiet:
+        shared.say_written(path, notes)
+
+
+@click.command(epilog=shared.example("explore outputs/study.nc", "explore outputs/study.nc -o part.html --at A=0.02"))
+@click.argument("file", type=shared.A_PATH)
+@click.option("-o", "--output", type=shared.A_PATH, help="Page: .html [FILE.html].")
 @click.option("--variable", "variables", multiple=True, metavar="NAME", help="Variable to include; repeatable [all].")
-@choosing
-@overwriting
-@quietly
+@shared.choosing
+@shared.overwriting
+@shared.quietly
 def explore(
     file: Path, output: Path | None, variables: tuple[str, ...], at: tuple[str, ...], overwrite: bool, quiet: bool
 ) -> None:
@@ -84,7 +148,7 @@ def explore(
     without a network. Values have 6 digits.
     """
     path = output or file.parent / f"{file.stem or 'dataset'}.html"
-    ending_of(path, "page", (".html", ".htm"))
+    shared.ending_of(path, "page", (".html", ".htm"))
 
     from gradhesion.cli.dataset.read.reader import opened, refuse_fit
     from gradhesion.cli.dataset.read.selection import nearest_values
@@ -93,21 +157,21 @@ def explore(
 
     with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary:
         refuse_fit(dataset, "a page", file)
-        text = page(dataset, file.name, listed(variables), at)
+        text = page(dataset, file.name, shared.listed(variables), at)
         with writing(path):
             temporary.write_text(text, encoding="utf-8")
         notes = nearest_values(dataset, at)
     if not quiet:
-        say_written(path, notes)
+        shared.say_written(path, notes)
 
 
-@click.command(epilog=example(SELECT))
-@click.argument("file", type=A_PATH)
-@choosing
+@click.command(epilog=shared.example(SELECT))
+@click.argument("file", type=shared.A_PATH)
+@shared.choosing
 @click.option("--over", multiple=True, metavar="AXIS=HOW", help=HOW)
-@dataset_to_write(required=True)
-@overwriting
-@quietly
+@shared.dataset_to_write(required=True)
+@shared.overwriting
+@shared.quietly
 def select(file: Path, at: tuple[str, ...], over: tuple[str, ...], output: Path, overwrite: bool, quiet: bool) -> None:
     """Write a part of a dataset.
 
@@ -123,17 +187,17 @@ def select(file: Path, at: tuple[str, ...], over: tuple[str, ...], output: Path,
     with opened(file) as dataset:
         part = selected(dataset, at, over)
         notes = [] if is_fit(dataset) else nearest_values(dataset, at)
-        part = part.assign_attrs(history=f"{part.attrs.get('history', '')}\n{history_now()}".strip())
+        part = part.assign_attrs(history=f"{part.attrs.get('history', '')}\n{shared.history_now()}".strip())
         write_dataset(part, output, overwrite=overwrite)
     if not quiet:
-        say_written(output, notes)
+        shared.say_written(output, notes)
 
 
-@click.command(epilog=example("verify outputs/study.nc --sample 50"))
-@click.argument("file", type=A_PATH)
+@click.command(epilog=shared.example("verify outputs/study.nc --sample 50"))
+@click.argument("file", type=shared.A_PATH)
 @click.option("--sample", type=click.IntRange(min=1), default=20, show_default=True, help="Scenes to recompute.")
 @click.option("--seed", type=click.IntRange(min=0), help="Seed of the random sample [random].")
-@given_up("--digits", "in Python, gr.verify(FILE).deviations has each value beside the one recomputed")
+@shared.given_up("--digits", "in Python, gr.verify(FILE).deviations has each value beside the one recomputed")
 def verify(file: Path, sample: int, seed: int | None) -> None:
     """Recompute maps to 30 digits and compare.
 

@@ -5,7 +5,7 @@ import statistics
 import time
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import click
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from gradhesion.cli.study.fit.study import FitStudy
     from gradhesion.cli.work.solve.fitting import Fit
 
+ENGINES: Final = click.Choice(["threads", "dask"])
 SAID: Final = 20
 """Sentences on the loops of a fit that are printed; `gradhesion info` has all of them."""
 
@@ -42,36 +43,15 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
 @shared.overwriting
 @click.option("--fresh", is_flag=True, help="Discard the finished blocks of an earlier run.")
 @click.option("--shard", metavar="I/N", callback=_shard, help="Compute every N-th block, for `merge`.")
-@click.option(
-    "--engine",
-    type=click.Choice(["threads", "dask"]),
-    default="threads",
-    show_default=True,
-    help="Where blocks are computed: local threads, or a Dask cluster.",
-)
+@click.option("--engine", type=ENGINES, default="threads", show_default=True, help="Local threads, or a Dask cluster.")
 @click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler or its file [a cluster on this machine].")
-@click.option(
-    "--threads",
-    type=click.IntRange(min=1),
-    help="Threads to use [all available to the process]; values do not depend on it.",
-)
+@shared.threading
 @shared.quietly
 @shared.given_up("--dry-run", "use `gradhesion plan`")
 @shared.given_up("--chunk", "the size of blocks is chosen by itself")
 @shared.given_up("--fail-fast", "run fewer scenes first, and `gradhesion info` reports which have failed, and why")
 @shared.given_up("--log-json", "`gradhesion status FILE --json` shows how far a run is")
-def run(
-    study: Path,
-    output: Path | None,
-    overrides: tuple[str, ...],
-    overwrite: bool,
-    fresh: bool,
-    shard: tuple[int, int] | None,
-    engine: str,
-    scheduler: str | None,
-    threads: int | None,
-    quiet: bool,
-) -> None:
+def run(study: Path, output: Path | None, overrides: tuple[str, ...], engine: str, quiet: bool, **how: Any) -> None:
     """Compute a study into a dataset (NetCDF).
 
     STUDY is a TOML file. Interrupted runs resume where they stopped: give the same command again.
@@ -81,6 +61,7 @@ def run(
     from gradhesion.cli.study.reading import load_any
     from gradhesion.cli.work.compiling import prepare
 
+    scheduler, shard, fresh, threads = how.pop("scheduler"), how["shard"], how["fresh"], how["threads"]
     if scheduler is not None and (engine != "dask" or threads is not None):
         raise click.UsageError("--scheduler needs --engine dask, without --threads: its workers have their own")
     if shard is not None and fresh:
@@ -90,7 +71,7 @@ def run(
     if isinstance(loaded, FitStudy):
         if shard is not None or fresh or engine != "threads":
             raise click.UsageError("a fit has no blocks of scenes; run it without --shard, --fresh and --engine")
-        _run_fit(loaded, path, overwrite=overwrite, quiet=quiet)
+        _run_fit(loaded, path, overwrite=how["overwrite"], quiet=quiet)
         return
     if shard is not None and not loaded.has_parts:
         raise click.UsageError("--shard: the study has one block only, and needs no shards; run it without --shard")
@@ -107,24 +88,13 @@ def run(
             messages.say("the study has one block or consists of curves, and is solved in this process")
     start = time.monotonic()
     with progress(loaded.scenes // (shard[1] if shard else 1), quiet=quiet) as advance:
-        done = write(
-            loaded,
-            path,
-            history=shared.history_now(),
-            overwrite=overwrite,
-            fresh=fresh,
-            shard=shard,
-            threads=threads,
-            engine=solver,
-            advance=advance,
-        )
+        done = write(loaded, path, history=shared.history_now(), engine=solver, advance=advance, **how)
     if shard is None:
         finish(path, loaded.scenes, done, time.monotonic() - start, quiet=quiet)
     elif not quiet:
-        messages.say(
-            f"{path}.parts: shard {shard[0]} of {shard[1]}: reused {counted(done.reused, 'block')}, computed "
-            f"{done.computed:,}; `gradhesion merge {path}` joins them when all shards are done"
-        )
+        did = f"reused {counted(done.reused, 'block')}, computed {done.computed:,}"
+        end = f"`gradhesion merge {path}` joins them when all shards are done"
+        messages.say(f"{path}.parts: shard {shard[0]} of {shard[1]}: {did}; {end}")
 
 
 def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet: bool) -> None:
@@ -137,9 +107,8 @@ def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet
         for sentence in written.cautions:
             messages.say(f"{path}: {sentence}")
     if written.failed:
-        raise DoubtfulError(
-            f"{path}: {written.failed:,} of {counted(scenes, 'scene')} failed; `gradhesion info {path}` reports why"
-        )
+        failed = f"{written.failed:,} of {counted(scenes, 'scene')} failed"
+        raise DoubtfulError(f"{path}: {failed}; `gradhesion info {path}` reports why")
 
 
 def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> None:

@@ -16,12 +16,14 @@ from gradhesion.cli.terminal.amounts import bytes_in_words
 OF_DATASETS: Final = (".nc", ".nc4", ".cdf", ".netcdf")
 OF_PICTURES: Final = (".png", ".svg", ".pdf")
 """How the names of files end."""
-
 A_PATH: Final = click.Path(path_type=Path)
 overriding = click.option(
     "--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a key of the study; repeatable."
 )
 overwriting = click.option("--overwrite", is_flag=True, help="Replace an existing file.")
+threading = click.option(
+    "--threads", type=click.IntRange(min=1), help="Threads to use [all available to the process]; values stay the same."
+)
 quietly = click.option("--quiet", is_flag=True, help="Print errors only.")
 as_json = click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 choosing = click.option(
@@ -57,10 +59,7 @@ def _of_a_dataset(_context: click.Context, _option: click.Parameter, path: Path 
     """Check the name of a dataset: another ending, or none, promises another kind of file."""
     if path is None or path.suffix.lower() in OF_DATASETS:
         return path
-    try:
-        if path.exists() and not path.is_file():
-            return path
-    except OSError:  # no such name can be: whoever writes there says why
+    if path.exists() and not path.is_file():
         return path
     name = path.with_suffix(".nc") if path.suffix[1:].isalpha() else f"{path}.nc"
     raise StudyError(f"-o {path}: a dataset is a NetCDF file, and its name ends in .nc; write -o {name}")

@@ -31,9 +31,7 @@ def status(file: Path, as_json: bool) -> None:
         left = found["seconds_left"]
         end = f"; about {duration(left)} left" if left is not None else ""
         if found["state"] == "stopped":
-            whole = found["kept"] == found["blocks"] > 0
-            end = "; `gradhesion merge` joins shards, and" if whole else ";"
-            end += " the same command resumes"
+            end = "; the same command resumes, and `gradhesion merge` joins shards when all are done"
         kept = f"{found['kept']:,} of {counted(found['blocks'], 'block')} ({found['scenes']:,} scenes) are kept"
         show(f"{file}: {found['state']}; {kept}{end}")
 

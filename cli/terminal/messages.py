@@ -37,15 +37,7 @@ def show(line: str) -> None:
 
 
 def show_block(text: str) -> None:
-    """Print what was asked for to stdout: one or several lines.
-
-    Raises
-    ------
-    OutputError
-        It cannot be written.
-    BrokenPipeError
-        Nobody reads it any more.
-    """
+    """Print what was asked for to stdout, one or several lines (OutputError, or BrokenPipeError if nobody reads it)."""
     if getattr(sys, "stdout", None) is None:
         raise OutputError("standard output: is closed; redirect it, as with > FILE")
     try:
@@ -53,9 +45,8 @@ def show_block(text: str) -> None:
     except BrokenPipeError:
         raise
     except OSError as error:
-        raise OutputError(
-            f"standard output: cannot be written ({error.strerror}); make room, or redirect it to another file"
-        ) from error
+        remedy = "make room, or redirect it to another file"
+        raise OutputError(f"standard output: cannot be written ({error.strerror}); {remedy}") from error
 
 
 def say(sentence: str) -> None:
