@@ -45,24 +45,13 @@ class Commands(click.Group):
     """The commands in sections, and the exit codes after them; what a user can fix is printed without a traceback."""
 
     def invoke(self, context: click.Context) -> Any:
-        """Run a command."""
+        """Run a command, which may compile unless its help is asked for."""
         try:
+            if not {"-h", "--help"} & {*context.args}:
+                refuse_without_threads()
             return super().invoke(context)
         except GradhesionError as error:
             raise messages.Failure(error) from error
-
-    def resolve_command(
-        self, context: click.Context, args: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Find the command, and make sure that it may compile."""
-        name, command, rest = super().resolve_command(context, args)
-        if name is not None and not {"-h", "--help"} & {*rest}:
-            refuse_without_threads()
-        return name, command, rest
-
-    def list_commands(self, _context: click.Context) -> list[str]:
-        """List the commands in the order of the work."""
-        return list(self.commands)
 
     def format_commands(self, _context: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the sections, and in short what stands beside them: help fits a screen."""

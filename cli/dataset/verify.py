@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
+import pandas as pd
 import xarray
 
 from gradhesion.cli.dataset.belonging import study_of
@@ -200,27 +201,19 @@ def _compared(
 def in_words(found: Recomputed, title: str, file: Path) -> Iterator[str]:
     """Report what was found, line by line: the deviations, the worst first, what was left out, and the verdict."""
     every = found.deviations
-    width = max(len("worst of each"), *(len(one.output) for one in every))
-
-    def row(one: Deviation, words: str) -> str:
-        return f"{one.output:<{width}} {one.deviation:<10.2g} {one.stated:<10.2g} {one.share:<9.2g} {words}"
-
+    columns = ["output", "deviation", "stated", "share"]
+    table = pd.DataFrame([[getattr(one, name) for name in columns] for one in every], columns=columns)
+    places = [
+        ", ".join(f"{name} = {value if isinstance(value, str) else f'{value:g}'}" for name, value in one.scene.items())
+        for one in every[:ROWS]
+    ]
+    of_each = table.groupby("output", sort=False).first()
+    of_each["values"] = table["output"].value_counts()
     yield title
-    yield (
-        f"{file}: {found.scenes:,} of {counted(found.total, 'scene')} recomputed (--seed {found.seed}), "
-        f"{counted(len(every), 'value')}, solver {' and '.join(found.solvers)}"
-    )
-    heads = f"{'deviation':<10} {'stated':<10} {'share':<9}"
-    yield from ("", f"{'worst first':<{width}} {heads} scene")
-    for one in every[:ROWS]:
-        place = [f"{name} = {value if isinstance(value, str) else f'{value:g}'}" for name, value in one.scene.items()]
-        yield row(one, ", ".join(place) or "the only scene")
-    if len(every) > ROWS:
-        yield f"... and {len(every) - ROWS:,} more, none beyond {every[ROWS].share:.2g} of its stated error"
-    yield from ("", f"{'worst of each':<{width}} {heads} values")
-    for output in dict.fromkeys(one.output for one in every):
-        of_output = [one for one in every if one.output == output]
-        yield row(of_output[0], f"{len(of_output):,}")
+    drawn = f"{found.scenes:,} of {counted(found.total, 'scene')} recomputed (--seed {found.seed})"
+    yield f"{file}: {drawn}, {counted(len(every), 'value')}, solver {' and '.join(found.solvers)}"
+    for words, rows in (("worst first", table.head(ROWS).assign(scene=places)), ("of each", of_each.reset_index())):
+        yield from ("", words, *rows.to_string(index=False, float_format="{:.2g}".format).splitlines())
     reasons = [
         (found.beyond, "sampled scenes have more waves than can be followed; others were drawn instead"),
         (found.failed, "sampled scenes have failed, as their status shows"),
@@ -230,8 +223,6 @@ def in_words(found: Recomputed, title: str, file: Path) -> Iterator[str]:
     written = [f"  {count:,} {reason}" for count, reason in reasons if count]
     if found.unknown:
         written.append(f"  {', '.join(found.unknown)}: there is no independent solution to compare with")
-    if written:
-        yield from ("", "left out", *written)
-    yield ""
+    yield from ("", "left out", *written, "") if written else ("",)
     exceeding = f"{found.exceeding:,} of {counted(len(every), 'value')} deviate by more than their stated errors"
     yield exceeding if found.exceeding else f"all {len(every):,} values are within their stated errors"

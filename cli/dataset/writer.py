@@ -71,12 +71,10 @@ def write(
     solved by the `engine`, or by `threads` of this process.
     """
     parts = Parts(path, study)
-    with writing(path):
-        is_new = not parts.folder.is_dir()
-    if is_new or shard:
-        refuse_existing(path, overwrite=overwrite)
     with ExitStack() as stack:
         with writing(path):
+            if shard or not parts.folder.is_dir():
+                refuse_existing(path, overwrite=overwrite)
             stack.enter_context(claimed(path, f"-{shard[0]}-of-{shard[1]}" if shard else ""))
         if not (overwrite or shard) and (complete := _written_before(parts)) is not None:
             clear(parts.folder)
@@ -85,9 +83,8 @@ def write(
         with writing(path):
             parts.begin(fresh=fresh)
         first, step = (shard[0] - 1, shard[1]) if shard else (0, 1)
-        numbers = range(first, len(study.tiling), step)
+        numbers, written = range(first, len(study.tiling), step), Written()
         engine = engine or partial(in_threads, threads=threads)
-        written = Written()
         blocks = stack.enter_context(closing(_blocks(parts, numbers, engine, written, advance)))
         if shard:
             for _ in blocks:  # each is kept
