@@ -47,7 +47,7 @@ def study_of(
             data["outputs"] = [name for name in data["outputs"] if name not in GIVEN_UP]
         kind = data.get("kind", "map")
         study = study_from(_with_fit(dataset, data), "its study", columns=columns or None) if kind in kinds else None
-    except ValueError as error:  # of the study, or of what was fitted to the file of its profile
+    except (ValueError, RecursionError) as error:  # of the study, or of what was fitted to the file of its profile
         reason = error.mistakes[0] if isinstance(error, StudyError) else str(error)
         raise DatasetError(f"{path}: its study is not valid in this version ({reason}); write it again") from None
     if study is None or study.search.is_front:

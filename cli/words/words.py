@@ -12,7 +12,7 @@ import pandas as pd
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by, is_cone, steep_waves
+from gradhesion.cli.dataset.read.model_range import LIMITS, count_beyond, is_cone
 from gradhesion.cli.dataset.read.reader import has_curves, tiling_of
 from gradhesion.cli.dataset.read.sensitivities import parts_of, strongest
 from gradhesion.cli.names.outputs import ON_BOUND, PARETO_POINT, SI, labels_of
@@ -200,13 +200,10 @@ def _sensitivities(variable: xarray.DataArray, name: str) -> Iterator[str]:
     labels = [str(label) for label in variable[labels_of(name)].values]
     values = variable.transpose(..., labels_of(name)).values.reshape(-1, len(labels))
     place = strongest(values, labels)
-    counts = np.bincount(place[place >= 0], minlength=len(labels))
-    order = [i for i in np.argsort(-counts, kind="stable") if counts[i]]
-    if len(order) == 1:
-        yield f"  strongest: {labels[order[0]]}"
-    elif order:
-        shares = (f"{labels[i]} in {counts[i] / counts.sum():.3g} of the scenes" for i in order)
-        yield f"  strongest: {', '.join(shares)}"
+    shares = pd.Series(place[place >= 0]).value_counts(normalize=True)
+    if shares.size:
+        written = (f"{labels[i]} in {100.0 * share:.3g} % of the scenes" for i, share in shares.items())
+        yield f"  strongest: {', '.join(written)}"
     for label, own in zip(labels, values.T, strict=True):
         finite = own[np.isfinite(own)]
         if finite.size:
@@ -232,17 +229,10 @@ def _share(count: int, scenes: int) -> str:
 
 def _beyond_the_model(dataset: xarray.Dataset) -> Iterator[str]:
     """Tell how many scenes leave the range of the model, by each number that is known."""
-    scenes = dataset["status"].size
     for name, limit in LIMITS.items():
-        blocks = (beyond_by(name, dataset, block) for block in tiling_of(dataset["status"]))
-        count = sum(int(beyond.sum()) for beyond in blocks if beyond is not None)
-        condition = f"{limit.condition}: {limit.words}"
-        if name == "wave_slope" and name not in dataset:
-            count = steep_waves(dataset)
-        if name == CONTACT_SLOPE and is_cone(dataset):
-            count, condition = scenes, "1 at every radius: slopes of a cone are not small"
-        if count:
-            yield told(name, _share(count, scenes), condition)
+        if count := count_beyond(name, dataset):
+            condition = "1 at every radius of a cone" if name == CONTACT_SLOPE and is_cone(dataset) else limit.condition
+            yield told(name, _share(count, dataset["status"].size), f"{condition}: {limit.words}")
 
 
 def origin_lines(dataset: xarray.Dataset) -> Iterator[str]:

@@ -102,6 +102,16 @@ def beyond_by(number: str, dataset: "xarray.Dataset", block: Block = ()) -> "xar
     return None
 
 
+def count_beyond(number: str, dataset: "xarray.Dataset") -> int:
+    """Count the scenes of a dataset that a validity number puts beyond its limit, as far as that is known."""
+    if number == CONTACT_SLOPE and is_cone(dataset):
+        return dataset["status"].size
+    if number == "wave_slope" and number not in dataset:
+        return _steep_waves(dataset)
+    blocks = (beyond_by(number, dataset, block) for block in tiling_of(dataset["status"]))
+    return sum(int(beyond.sum()) for beyond in blocks if beyond is not None)
+
+
 def is_cone(dataset: "xarray.Dataset") -> bool:
     """Report whether the punch of a dataset is a cone, whose slope is 1 at every radius."""
     return str(dataset.attrs.get("profile", "")).partition(" ")[0] == "r"
@@ -112,9 +122,7 @@ def slope_warnings(dataset: "xarray.Dataset") -> Iterator[str]:
     scenes = counted(dataset["status"].size, "scene")
     if is_cone(dataset):
         yield f"a cone of slope 1: slopes are not small in any of {scenes}"
-        return
-    blocks = (beyond_by(CONTACT_SLOPE, dataset, block) for block in tiling_of(dataset["status"]))
-    if steep := sum(int(beyond.sum()) for beyond in blocks if beyond is not None):
+    elif steep := count_beyond(CONTACT_SLOPE, dataset):
         yield f"{steep:,} of {scenes}: {LIMITS[CONTACT_SLOPE].words} (a > R)"
 
 
@@ -142,7 +150,7 @@ def steepness(rows: NDArray[np.float64]) -> float:
     return 2.0 * math.pi * max(swings(-1.0, tuple(map(tuple, rows.tolist())))) if len(rows) else 0.0
 
 
-def steep_waves(dataset: "xarray.Dataset") -> int:
+def _steep_waves(dataset: "xarray.Dataset") -> int:
     """Count the scenes whose waves are steep; 0 where that is not known: without a study, or of random waves."""
     if "study" not in dataset.attrs or "A" not in dataset.coords:
         return 0
