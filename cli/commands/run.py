@@ -116,8 +116,9 @@ def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> 
     from gradhesion.cli.dataset.fits import cautions_of_fit, dataset_of, refuse_size
     from gradhesion.cli.dataset.select import write_dataset
     from gradhesion.cli.disk import refuse_existing
+    from gradhesion.cli.words.fit_words import doubts_of
     from gradhesion.cli.work.compiling import prepare
-    from gradhesion.cli.work.solve.fitting import doubts_of, fits_of
+    from gradhesion.cli.work.solve.fitting import fits_of
 
     refuse_existing(path, overwrite=overwrite)
     refuse_size(study)
@@ -128,7 +129,8 @@ def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> 
     with progress(len(study.loops), quiet=quiet or len(study.loops) == 1, noun="loop") as advance:
         fits = fits_of(study, advance)
     seconds = time.monotonic() - start
-    write_dataset(dataset_of(study, fits, shared.history_now()), path, overwrite=overwrite)
+    dataset = dataset_of(study, fits, shared.history_now())
+    write_dataset(dataset, path, overwrite=overwrite)
 
     about = {fit.loop.file: path if study.is_of_one else f"{path}: {fit.loop.file}" for fit in fits}
     if not quiet:
@@ -137,9 +139,10 @@ def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> 
         said = [(fit.loop.file, one) for fit in fits if fit.found for one in cautions_of_fit(study, fit.found)]
         for sentence in _first([f"{about[file]}: {one}" for file, one in said]):
             messages.say(sentence)
-    doubts = [(fit.loop.file, one) for fit in fits for one in (doubts_of(fit.found) if fit.found else [fit.problem])]
-    if doubts:
-        raise DoubtfulError(_first([f"{about[file]}: {one}" for file, one in doubts]))
+    rows = [dataset] if study.is_of_one else [dataset.isel(loop=i) for i in range(len(fits))]
+    each = zip(fits, rows, strict=True)
+    if doubts := [f"{about[fit.loop.file]}: {one}" for fit, row in each for one in doubts_of(row)]:
+        raise DoubtfulError(_first(doubts))
 
 
 def _done(study: "FitStudy", fits: Sequence["Fit"], took: str) -> str:

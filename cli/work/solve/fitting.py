@@ -1,6 +1,6 @@
-"""The fits of a study: points given to the core, what cannot be fitted, and why a fit is not to be trusted."""
+"""The fits of a study: points given to the core, and what cannot be fitted."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Final, NamedTuple
 
 from gradhesion.cli.errors import StudyError
@@ -9,21 +9,12 @@ from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.core.closed.applicability import validity
 from gradhesion.core.closed.reduced import parameters_from
 from gradhesion.core.loops.fit import fit_loop
-from gradhesion.core.loops.fitted import FittedLoop, poor_from
-from gradhesion.core.loops.paths.model import AMPLITUDES, EXPONENT, Model
-from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
-from gradhesion.core.problem.names import CLOSING, PARAMETERS, RANGE
-from gradhesion.core.problem.status import POOR_FIT
+from gradhesion.core.loops.fitted import FittedLoop
+from gradhesion.core.loops.paths.model import EXPONENT, Model
+from gradhesion.core.problem.names import PARAMETERS, RANGE
 
 USUAL_RANGE: Final = 3e-10
 """The range of the attraction in m where a study has none: about the distance of atoms."""
-_AT_AN_END: Final = {
-    **dict.fromkeys(OFFSETS, "widen it with offsets under [fit], or look at the base line of the data"),
-    **dict.fromkeys(AMPLITUDES, "widen the range; at its lower end the loop shows no waves: leave them out"),
-    "k": "widen the range; at 0 the loop shows no gradient of the modulus: write k = 0",
-    CLOSING: f"widen the range; at 1 the loop shows one work of adhesion: leave {CLOSING} out",
-}
-"""What to do about a value at an end of its range."""
 
 
 class Fit(NamedTuple):
@@ -93,24 +84,3 @@ def range_words(study: FitStudy) -> str:
     """Say which range of the attraction that is."""
     source = "assumed, as adhesion_range is not given" if study.adhesion_range is None else "given"
     return f"with a range of the attraction of {1e9 * (study.adhesion_range or USUAL_RANGE):.3g} nm, {source}"
-
-
-def doubts_of(found: FittedLoop) -> Iterator[str]:
-    """Say why a fit is not to be trusted; nothing if it is."""
-    if not found.converged:
-        yield "the fit did not converge; give more starts, or narrower ranges"
-    if found.status & POOR_FIT:
-        most = f"{poor_from(found.degrees_of_freedom):.3g} is the most that noise explains"
-        remedy = "try another model, wider ranges, or other noise (fit.noise), and check the signs of depth and load"
-        yield f"a poor fit: reduced chi square {found.reduced_chi_square:.3g}, where {most}; {remedy}"
-    for other in found.others:
-        here, there = (
-            f"{one.chi_square:.6g} at " + ", ".join(f"{name} = {value:.4g}" for name, value in one.values.items())
-            for one in (found, other)
-        )
-        remedy = "narrow the ranges to the one that is meant"
-        yield f"another minimum is within the noise: chi square {there}, beside {here}; {remedy}"
-    for name in found.on_bound:
-        low, high = found.ranges[name]
-        remedy = _AT_AN_END.get(name, "widen the range, or give it as a number; or the data do not show it")
-        yield f"{name} is at an end of its range ({found.values[name]:.4g} of {low:.4g} to {high:.4g}); {remedy}"
