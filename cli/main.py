@@ -11,13 +11,12 @@ from typing import Any, Final, NoReturn
 import click
 
 from gradhesion.cli.commands.init import init
-from gradhesion.cli.commands.merge import merge
 from gradhesion.cli.commands.plan import plan, validate
 from gradhesion.cli.commands.profile import profile
 from gradhesion.cli.commands.results import explore, info, plot, select, verify
 from gradhesion.cli.commands.run import run
 from gradhesion.cli.commands.setup import completion, schema, warmup
-from gradhesion.cli.commands.status import status
+from gradhesion.cli.commands.status import merge, status
 from gradhesion.cli.errors import GradhesionError, OutputError
 from gradhesion.cli.installation import misfit, refuse_without_threads
 from gradhesion.cli.terminal import interrupts, messages

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.cli.dataset.cautions import CONE
-from gradhesion.cli.dataset.dataset import driven_in_words, origin
+from gradhesion.cli.dataset.dataset import CONE, driven_in_words, origin
 from gradhesion.cli.dataset.describe import flags_of
 from gradhesion.cli.dataset.read.model_range import tabor_warnings
 from gradhesion.cli.errors import StudyError
@@ -59,9 +58,7 @@ def refuse_size(study: FitStudy) -> None:
     """Refuse loops that would take too much memory side by side, before they are fitted (StudyError)."""
     longest = max(loop.depth.size for loop in study.loops)
     if not study.is_of_one and (size := _BYTES * longest * len(study.loops)) > _MOST:
-        many = (
-            f"{len(study.loops):,} loops side by side, the longest of {longest:,} points, take {bytes_in_words(size)}"
-        )
+        many = f"{len(study.loops):,} loops side by side, of up to {longest:,} points, take {bytes_in_words(size)}"
         raise StudyError(f"{study.file}: {many}; write average = true under [fit], or fit them in several studies")
 
 
@@ -80,12 +77,10 @@ def dataset_of(study: FitStudy, fits: Sequence[Fit], history: str) -> "xarray.Da
         return xarray.Variable((dimension,), np.array(items, dtype=object), {"long_name": about})
 
     coordinates = {
-        PARAMETER: words(PARAMETER, study.parameters, "fitted quantity"),
-        names.OTHER_PARAMETER: words(names.OTHER_PARAMETER, study.parameters, "fitted quantity"),
-        names.PARAMETER_UNITS: words(
-            PARAMETER, [*map(unit_of_parameter, study.parameters)], "unit of the fitted quantity"
-        ),
+        name: words(name, study.parameters, "fitted quantity") for name in (PARAMETER, names.OTHER_PARAMETER)
     }
+    units = [*map(unit_of_parameter, study.parameters)]
+    coordinates[names.PARAMETER_UNITS] = words(PARAMETER, units, "unit of the fitted quantity")
     if not study.is_of_one:
         own = {
             "file": [fit.loop.file for fit in fits],

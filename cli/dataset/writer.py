@@ -13,8 +13,7 @@ import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.cautions import cautions, flagged_in
-from gradhesion.cli.dataset.dataset import attributes
+from gradhesion.cli.dataset.dataset import attributes, cautions, flagged_in
 from gradhesion.cli.dataset.describe import Variable, steep_contact, variables
 from gradhesion.cli.disk import refuse_existing, settle, writing
 from gradhesion.cli.errors import DatasetError
