@@ -1,4 +1,4 @@
-"""A study's dataset in memory, as xarray reads that which a run writes; its attributes, and what is to be known of it."""
+"""A study's dataset in memory, as xarray reads that which a run writes; its attributes, and what to know of it."""
 
 import math
 import platform

@@ -132,10 +132,10 @@ def doubts_of(one: xarray.Dataset) -> Iterator[str]:
             place = ", ".join(f"{name} = {value:.6g}" for name, value in zip(names, values, strict=True))
             other = f"chi square {float(one['minimum_chi_square'][i]):.6g} at {place}, beside {chi_square:.6g}"
             yield f"another minimum is within the noise: {other}; narrow the ranges to the one that is meant"
-    for i in np.flatnonzero(one["on_bound"].values):
-        ends = " to ".join(f"{float(one[name][i]):.4g}" for name in ("low_searched", "high_searched") if name in one)
-        remedy = _AT_AN_END.get(names[i], "widen the range, or give it as a number; or the data do not show it")
-        yield f"{names[i]} is at an end of its range{f' of {ends}' if ends else ''}; {remedy}"
+    for at in np.flatnonzero(one["on_bound"].values):
+        ends = " to ".join(f"{float(one[name][at]):.4g}" for name in ("low_searched", "high_searched") if name in one)
+        remedy = _AT_AN_END.get(names[at], "widen the range, or give it as a number; or the data do not show it")
+        yield f"{names[at]} is at an end of its range{f' of {ends}' if ends else ''}; {remedy}"
 
 
 def _cautions(one: xarray.Dataset) -> Iterator[str]:

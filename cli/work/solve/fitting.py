@@ -1,7 +1,7 @@
 """The fits of a study: points given to the core, and what cannot be fitted."""
 
 from collections.abc import Callable
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.fit.loop_file import LoopFile
@@ -25,44 +25,26 @@ class Fit(NamedTuple):
     problem: str = ""
 
 
-def fitted(study: FitStudy, loop: LoopFile) -> FittedLoop:
-    """Fit a loop; StudyError where what is searched cannot be told apart, has no effect, or has no path."""
-    try:
-        return fit_loop(
-            loop.depth,
-            loop.load,
-            loop.unloading,
-            study.fixed,
-            study.free,
-            noise=study.noise_of(loop),
-            noise_is_given=study.given_noise is not None,
-            counts=loop.counts,
-            offsets=study.offsets,
-            profile=study.profile,
-            loading=study.loading,
-            toughness=study.toughness,
-            rate=study.rate,
-            intervals=study.intervals,
-            starts=study.starts,
-        )
-    except ValueError as error:
-        raise StudyError(f"{study.name if study.is_of_one else loop.file}: {error}") from None
-
-
 def fits_of(study: FitStudy, advance: Callable[[int], None] = lambda _: None) -> list[Fit]:
     """Fit every loop of a study, one after the other; `advance` is called with 1 after each.
 
-    Of several, those that cannot be fitted have a `problem`; StudyError with that of the first if none can.
+    Of several, those in which what is searched cannot be told apart, has no effect or has no path have a `problem`;
+    StudyError with that of the first if none is fitted.
     """
+    own = ("offsets", "profile", "loading", "toughness", "rate", "intervals", "starts")
+    settings: dict[str, Any] = {name: getattr(study, name) for name in own}
+    settings["noise_is_given"] = study.given_noise is not None
     fits = []
     for loop in study.loops:
-        found, problem = None, loop.problem
+        found, problem, points = None, loop.problem, (loop.depth, loop.load, loop.unloading)
         try:
-            found = None if problem else fitted(study, loop)
-        except StudyError as error:
+            if not problem:
+                settings |= {"noise": study.noise_of(loop), "counts": loop.counts}
+                found = fit_loop(*points, study.fixed, study.free, **settings)
+        except ValueError as error:
             if study.is_of_one:
-                raise
-            problem = str(error).removeprefix(f"{loop.file}: ")
+                raise StudyError(f"{study.name}: {error}") from None
+            problem = str(error)
         fits.append(Fit(loop, found, problem))
         advance(1)
     if all(fit.found is None for fit in fits):
