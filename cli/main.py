@@ -57,9 +57,8 @@ class Commands(click.Group):
         width = len("Exit codes:") - 2
         for words, commands in SECTIONS.items():
             with formatter.section(words):
-                formatter.write_dl(
-                    [(f"{one.name:{width}}", one.get_short_help_str(formatter.width)) for one in commands]
-                )
+                rows = [(f"{one.name:{width}}", one.get_short_help_str(formatter.width)) for one in commands]
+                formatter.write_dl(rows)
         formatter.write_paragraph()
         formatter.write_dl([("Set up:", ", ".join(str(one.name) for one in SET_UP)), ("Exit codes:", EXITS)])
 

@@ -94,18 +94,7 @@ def info(files: tuple[Path, ...], at: tuple[str, ...], form: str, variables: tup
 @shared.quietly
 @shared.given_up("--inset", "draw one with `inset_axes` of matplotlib on the axes that `gr.plot` returns")
 def plot(
-    file: Path,
-    output: Path | None,
-    variables: tuple[str, ...],
-    at: tuple[str, ...],
-    interpolate: bool,
-    over: tuple[str, ...],
-    x: str | None,
-    y: str | None,
-    data: Path | None,
-    overwrite: bool,
-    quiet: bool,
-    **looks: Any,
+    file: Path, output: Path | None, variables: tuple[str, ...], overwrite: bool, quiet: bool, **settings: Any
 ) -> None:
     """Draw a dataset: lines, maps, panels or curves.
 
@@ -122,8 +111,8 @@ def plot(
     from gradhesion.cli.picture.picture import picture_of
     from gradhesion.cli.picture.pictured import save
 
-    chosen, notes = looks_of(**looks), list[str]()
-    choices: dict[str, Any] = {"at": at, "over": over, "interpolate": interpolate, "x": x, "y": y, "data": data}
+    choices = {name: settings.pop(name) for name in ("at", "over", "interpolate", "x", "y", "data")}
+    chosen, notes = looks_of(**settings), list[str]()
     with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary:
         figure = picture_of(dataset, shared.listed(variables), chosen, **choices, notes=notes.append)
         with writing(path):
@@ -217,7 +206,7 @@ def verify(file: Path, sample: int, seed: int | None) -> None:
     for line in in_words(found, title, file):
         show(line)
     if found.exceeding:
-        raise DoubtfulError(
-            f"{file}: {found.exceeding:,} of {counted(len(found.deviations), 'value')} deviate by more than their "
-            "stated errors; write it again with `gradhesion run`, and report it if they still do"
+        many = (
+            f"{found.exceeding:,} of {counted(len(found.deviations), 'value')} deviate by more than their stated errors"
         )
+        raise DoubtfulError(f"{file}: {many}; write it again with `gradhesion run`, and report it if they still do")

@@ -17,21 +17,13 @@ OF_DATASETS: Final = (".nc", ".nc4", ".cdf", ".netcdf")
 OF_PICTURES: Final = (".png", ".svg", ".pdf")
 """How the names of files end."""
 A_PATH: Final = click.Path(path_type=Path)
-overriding = click.option(
-    "--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a key of the study; repeatable."
-)
+overriding = click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a key; repeatable.")
 overwriting = click.option("--overwrite", is_flag=True, help="Replace an existing file.")
-threading = click.option(
-    "--threads", type=click.IntRange(min=1), help="Threads to use [all available to the process]; values stay the same."
-)
+threading = click.option("--threads", type=click.IntRange(min=1), help="Threads [all]; values do not depend on them.")
 quietly = click.option("--quiet", is_flag=True, help="Print errors only.")
 as_json = click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
-choosing = click.option(
-    "--at",
-    multiple=True,
-    metavar="AXIS=VALUE",
-    help="Fix an axis at its nearest value, or cut it: A=0.01:0.05; repeatable.",
-)
+AT: Final = "Fix an axis at its nearest value, or cut it: A=0.01:0.05; repeatable."
+choosing = click.option("--at", multiple=True, metavar="AXIS=VALUE", help=AT)
 
 
 def example(*calls: str) -> str:

@@ -19,17 +19,12 @@ from gradhesion.cli.study.study import Study
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.outputs import GIVEN_UP
 
+MAPS: Final = "`gradhesion verify` accepts only maps"
 CLOSE: Final = 16 * 2.0**-52
 """Of a coordinate: logarithmic spacing may differ by some units in the last place from one numpy to the next."""
 
 
-def study_of(
-    dataset: xarray.Dataset,
-    path: Path,
-    *,
-    kinds: Sequence[str] = ("map",),
-    wanted: str = "`gradhesion verify` accepts only maps",
-) -> Study:
+def study_of(dataset: xarray.Dataset, path: Path, kinds: Sequence[str] = ("map",), wanted: str = MAPS) -> Study:
     """Read the study of some kinds out of its dataset; DatasetError if it is another's, or of a kind not `wanted`."""
     if not {"study", "study_sha256"} <= dataset.attrs.keys():  # as of named dimensions
         raise DatasetError(f"{path}: lacks its study; compute it from a study, with `gradhesion run`")
@@ -107,6 +102,5 @@ def _check(dataset: xarray.Dataset, study: Study, path: Path) -> None:
 
 def _apart(path: Path, what: str) -> DatasetError:
     """Make the error of a dataset that is not that of the study in it."""
-    return DatasetError(
-        f"{path}: {what}, so that its study and its values do not belong together; write it again with `gradhesion run`"
-    )
+    remedy = "its study and its values do not belong together; write it again with `gradhesion run`"
+    return DatasetError(f"{path}: {what}: {remedy}")

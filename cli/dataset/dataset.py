@@ -38,26 +38,12 @@ _MANY: Final = 0.1
 """The share of scenes from which on it is said that they are not one disc."""
 _NOT_ONE_DISC: Final = "loading_contact_not_one_disc"
 _SAID: Final = {
-    "steep": (
-        f"contact reaches slopes of the punch above {SMALL:g} (a > R) in {{share}}, which are not small; bound it with "
-        "a_max_over_R or indentation_max_over_R"
-    ),
+    "steep": f"contact reaches slopes above {SMALL:g} (a > R) in {{share}}: not small; bound a_max or indentation_max",
     "waves": f"the waves have slopes above {STEEPEST:g} in {{share}}, which are not small; lower A",
-    _NOT_ONE_DISC: (
-        "contact on loading is not one disc in {share}: values of loading are doubtful there; lower A, or look at "
-        "johnson_alpha"
-    ),
-    "resolution_too_coarse": (
-        "a sweep finer than the resolution finds another optimum in {share}, and there may be others; raise "
-        "resolution = {resolution} under [optimum]"
-    ),
-    "nothing_feasible": (
-        "no point meets the requirements in {share}, which have no optimum; require less, or widen the bounds"
-    ),
-    "linear_deviation_off": (
-        "the linear standard deviation is off in {share}: a kink lies within the spread of the inputs, or the value "
-        "bends; use that of samples, with samples = 1024 under [uncertainty]"
-    ),
+    _NOT_ONE_DISC: "contact on loading is not one disc in {share}: its values are doubtful; lower A, or see johnson_alpha",
+    "resolution_too_coarse": "a finer sweep finds another optimum in {share}; raise resolution = {resolution} ([optimum])",
+    "nothing_feasible": "no point meets the requirements in {share}; require less, or widen the bounds",
+    "linear_deviation_off": "the linear deviation is off in {share}: the value bends; set samples = 1024 ([uncertainty])",
 }
 """What is said of a share of the scenes, most of it by the flag."""
 

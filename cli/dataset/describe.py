@@ -185,9 +185,7 @@ def _of_curve(study: Study, name: str) -> Variable:
     if name in curves.MEANINGS:
         attributes |= {"flag_values": np.array([0, 1], dtype=dtype), "flag_meanings": curves.MEANINGS[name]}
     if name in curves.RAGGED.values():
-        attributes["sample_dimension"] = next(
-            curves.EXTENTS[one] for one in curves.RAGGED if name in curves.CURVES[one]
-        )
+        attributes["sample_dimension"] = curves.extent_of(name)
         return Variable(scenes, dtype, attributes)
     if curves.is_ragged(name):
         del attributes["ancillary_variables"]  # `status` has other dimensions

@@ -31,9 +31,7 @@ def joined(sources: Mapping[Path, xarray.Dataset], history: str) -> tuple[Study,
     DatasetError: they differ in something else than the values of axes, in nothing, or lack scenes of the grid of all;
     or one was changed since it was written.
     """
-    studies = {
-        file: study_of(dataset, file, kinds=("map", "optimum"), wanted=WANTED) for file, dataset in sources.items()
-    }
+    studies = {file: study_of(dataset, file, ("map", "optimum"), WANTED) for file, dataset in sources.items()}
     (first, one), *_ = studies.items()
     for file, study in studies.items():
         if study.layout != "grid":

@@ -2,7 +2,7 @@
 
 import math
 import random
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -114,9 +114,7 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
     return found
 
 
-def _drawn(
-    dataset: xarray.Dataset, study: Study, outputs: Collection[str], sample: int, found: Recomputed
-) -> list[Scene]:
+def _drawn(dataset: xarray.Dataset, study: Study, outputs: list[str], sample: int, found: Recomputed) -> list[Scene]:
     """Draw scenes until `sample` of them have values that can be recomputed."""
     names = [name for name in (*study.parameters, *study.made, SOLVER, REALISATION) if name in dataset.coords]
     cells = dataset[names].load().assign(status=dataset["status"])
@@ -172,9 +170,7 @@ def _scene(dataset: xarray.Dataset, study: Study, cells: xarray.Dataset, number:
     return Scene(index=index, solver=solver, parameters=parameters, place=place, shape=shape)
 
 
-def _compared(
-    dataset: xarray.Dataset, scene: Scene, outputs: Collection[str], found: Recomputed
-) -> Iterator[Deviation]:
+def _compared(dataset: xarray.Dataset, scene: Scene, outputs: list[str], found: Recomputed) -> Iterator[Deviation]:
     """Recompute one scene and compare."""
     try:
         expected = stated.expected(scene.parameters, outputs, scene.solver, scene.shape)

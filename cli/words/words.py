@@ -238,9 +238,8 @@ def _beyond_the_model(dataset: xarray.Dataset) -> Iterator[str]:
 def origin_lines(dataset: xarray.Dataset) -> Iterator[str]:
     """Report where a dataset comes from, and whether the study in it was changed since."""
     attributes = dataset.attrs
-    versions = (
-        f"{name} {attributes.get(f'{name}_version', 'unknown')}" for name in ("python", "numpy", "numba", "scipy")
-    )
+    parts = ("python", "numpy", "numba", "scipy")
+    versions = (f"{name} {attributes.get(f'{name}_version', 'unknown')}" for name in parts)
     yield ""
     yield "origin"
     yield f"  {attributes['source']} ({', '.join(versions)})"

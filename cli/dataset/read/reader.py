@@ -119,9 +119,7 @@ def refuse_fit(dataset: "xarray.Dataset", what: str, path: Path | str = "the dat
 
 def has_curves(dataset: "xarray.Dataset") -> bool:
     """Report whether a dataset is that of a curve study."""
-    return any(extent in dataset.dims for extent in EXTENTS.values()) or any(
-        name in dataset for name in RAGGED.values()
-    )
+    return not {*EXTENTS.values(), *RAGGED.values()}.isdisjoint({*dataset.dims, *dataset.variables})
 
 
 def tiling_of(variable: "xarray.DataArray") -> Tiling:

@@ -68,9 +68,7 @@ def reduced(taken: Taken, axis: str, how: str) -> Taken:
     """
     coordinate = taken.values[axis].values
     going = [name for name in taken.values.coords if axis in taken.values[name].dims]
-    values, status = (
-        one.drop_vars([name for name in going if name in one.coords]) for one in (taken.values, taken.status)
-    )
+    values, status = (one.drop_vars(going, errors="ignore") for one in (taken.values, taken.status))
     there = values.notnull()
     if how in ("mean", "sum", *QUANTILES):
         flags = status.where(there, 0).astype(status.dtype).reduce(np.bitwise_or.reduce, axis)

@@ -146,9 +146,7 @@ def is_log(values: NDArray[np.float64]) -> bool:
     return bool(finite.size == 2 or np.std(ratios) / np.mean(ratios) < np.std(steps) / np.mean(steps))
 
 
-def _wishes(
-    dataset: xarray.Dataset, option: str, words: Sequence[str], named: set[str]
-) -> Iterator[tuple[str, str, str]]:
+def _wishes(dataset: xarray.Dataset, option: str, words: Sequence[str], named: set[str]) -> Iterator[tuple[str, ...]]:
     """Take wishes apart: what was written, the axis and the rest; each axis of the dataset may be named once."""
     for word in words:
         axis, sign, rest = (part.strip() for part in word.partition("="))

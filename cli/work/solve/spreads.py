@@ -100,9 +100,8 @@ def _off_the_line(centre: _Centre, seed: int, found: Arrays, linear: Mapping[str
         moves = {key: centre.aligned(given[key] - _cut(centre.given[key], place)) for key in centre.spreads}
         for name, slopes in linear.items():
             line = np.sum([slopes[key][place] * move for key, move in moves.items()], axis=0)
-            off[name][place] = uncertainty.differ(
-                np.std(samples[name], axis=0), np.std(line, axis=0), uncertainty.AT_FEW
-            )
+            deviations = np.std(samples[name], axis=0), np.std(line, axis=0)
+            off[name][place] = uncertainty.differ(*deviations, uncertainty.AT_FEW)
     return [*off.values()]
 
 
