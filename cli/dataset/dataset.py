@@ -40,10 +40,10 @@ _NOT_ONE_DISC: Final = "loading_contact_not_one_disc"
 _SAID: Final = {
     "steep": f"contact reaches slopes above {SMALL:g} (a > R) in {{share}}: not small; bound a_max or indentation_max",
     "waves": f"the waves have slopes above {STEEPEST:g} in {{share}}, which are not small; lower A",
-    _NOT_ONE_DISC: "contact on loading is not one disc in {share}: its values are doubtful; lower A, or see johnson_alpha",
-    "resolution_too_coarse": "a finer sweep finds another optimum in {share}; raise resolution = {resolution} ([optimum])",
+    _NOT_ONE_DISC: "contact on loading is not one disc in {share}, and its values doubtful; lower A (johnson_alpha)",
+    "resolution_too_coarse": "a finer sweep finds another optimum in {share}; raise optimum.resolution from {resolution}",
     "nothing_feasible": "no point meets the requirements in {share}; require less, or widen the bounds",
-    "linear_deviation_off": "the linear deviation is off in {share}: the value bends; set samples = 1024 ([uncertainty])",
+    "linear_deviation_off": "the linear deviation is off in {share}: the value bends; set uncertainty.samples = 1024",
 }
 """What is said of a share of the scenes, most of it by the flag."""
 
