@@ -3,8 +3,8 @@
 import math
 import tomllib
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Final
+from operator import gt, lt
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,7 @@ from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core import doubts_about
 from gradhesion.core.answers.flags import LINEAR_DEVIATION_OFF, RESOLUTION_TOO_COARSE
-from gradhesion.core.closed.reach import SMALL, is_steep
+from gradhesion.core.closed.reach import SMALL
 from gradhesion.core.problem.names import CONTACT_SLOPE, RANGE, TURNS
 from gradhesion.core.problem.profile import Harmonic, Profile, rows_of, swings
 from gradhesion.core.problem.status import DOUBTFUL
@@ -57,31 +57,23 @@ def doubts_of(variable: str, dataset: "xarray.Dataset") -> int:
     return bits | LINEAR_DEVIATION_OFF if variable.removesuffix("_si").endswith(linear) else bits
 
 
-@dataclass(frozen=True)
-class Limit:
-    """Beyond what a validity number leaves the range of the model, and what that means."""
+class Limit(NamedTuple):
+    """When a validity number leaves the range of the model, and what that means."""
 
-    beyond: Callable[[NDArray[np.float64]], NDArray[np.bool_]]
+    compare: Callable[[Any, float], Any]
+    value: float
     condition: str
     words: str
 
 
 LIMITS: Final = {
-    "tabor_parameter": Limit(
-        lambda values: values < SHORT_RANGED, f"below {SHORT_RANGED:g}", "the attraction is too long-ranged for JKR"
-    ),
+    "tabor_parameter": Limit(lt, SHORT_RANGED, f"below {SHORT_RANGED:g}", "the attraction is too long-ranged for JKR"),
     "wave_tabor_parameter": Limit(
-        lambda values: values < SHORT_RANGED,
-        f"below {SHORT_RANGED:g}, waves higher than the range",
-        "the attraction is too long-ranged for the crests",
+        lt, SHORT_RANGED, "below 5, waves higher than the range", "the attraction is too long-ranged for the crests"
     ),
-    "wave_slope": Limit(
-        lambda values: values > STEEPEST, f"above {STEEPEST:g}", "slopes are not small, as a linear half-space needs"
-    ),
-    "johnson_alpha": Limit(
-        lambda values: values < ONE_DISC, "below 1.13 (chi above 1/2)", "contact on loading may not be one disc"
-    ),
-    CONTACT_SLOPE: Limit(is_steep, f"above {SMALL:g} (a > R)", "contact reaches slopes that are not small"),
+    "wave_slope": Limit(gt, STEEPEST, f"above {STEEPEST:g}", "slopes are not small, as a linear half-space needs"),
+    "johnson_alpha": Limit(lt, ONE_DISC, "below 1.13 (chi above 1/2)", "contact on loading may not be one disc"),
+    CONTACT_SLOPE: Limit(gt, SMALL, f"above {SMALL:g} (a > R)", "contact reaches slopes that are not small"),
 }
 """By the validity number."""
 
@@ -93,7 +85,7 @@ def beyond_by(number: str, dataset: "xarray.Dataset", block: Block = ()) -> "xar
     """
     if number in dataset.data_vars:
         part = dataset[number][block]
-        beyond = part.copy(data=LIMITS[number].beyond(part.values))
+        beyond = part.copy(data=LIMITS[number].compare(part.values, LIMITS[number].value))
         if number == "wave_tabor_parameter":  # waves shallower than the range are not felt
             beyond = beyond & (part["A"] * part["lambda_over_R"] > part[RANGE])
         return beyond

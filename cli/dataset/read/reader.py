@@ -57,9 +57,8 @@ def found(path: Path, *, kept: bool) -> "xarray.Dataset":
         reason = getattr(error, "strerror", None) or str(error)
         if kind and not kind.startswith("a dataset"):
             reason = f"it is {kind}"
-        raise DatasetError(
-            f"{path}: cannot be read as NetCDF ({reason}); name one that `gradhesion run` wrote, or write it again"
-        ) from error
+        remedy = "name one that `gradhesion run` wrote, or write it again"
+        raise DatasetError(f"{path}: cannot be read as NetCDF ({reason}); {remedy}") from error
 
 
 def check_ours(dataset: "xarray.Dataset", path: Path | str = "this") -> None:
