@@ -9,7 +9,7 @@ import click
 
 from gradhesion.cli.commands import shared
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted, duration
-from gradhesion.cli.terminal.messages import say, show, show_block
+from gradhesion.cli.terminal.messages import say, show
 
 
 @click.command(epilog=shared.example("validate study.toml", "validate study.toml --set parameters.A=0.02"))
@@ -26,8 +26,7 @@ def validate(study: Path, overrides: tuple[str, ...]) -> None:
     requested = load_any(study, overrides)
     if isinstance(requested, FitStudy):
         show(f"{study}: valid; a fit of {requested.in_words}; fitted: {', '.join(requested.parameters)}")
-        for note in requested.notes:
-            say(note)
+        say(*requested.notes)
         return
     axes = ", ".join(f"{name} ({size:,})" for name, size in requested.sizes.items()) or "none"
     outputs = ", ".join(requested.outputs or requested.variables)
@@ -79,10 +78,8 @@ def plan(study: Path, output: Path | None, overrides: tuple[str, ...], threads: 
         found = estimate(loaded, path, threads)
         lines = _in_words(found)
     if as_json:
-        show_block(json.dumps(found, indent=2))
-    else:
-        for line in lines:
-            show(line)
+        lines = json.dumps(found, indent=2).splitlines()
+    show(*lines)
 
 
 def _in_words(found: dict[str, Any]) -> Iterator[str]:

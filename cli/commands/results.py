@@ -53,8 +53,7 @@ def info(files: tuple[Path, ...], at: tuple[str, ...], form: str, variables: tup
             from gradhesion.cli.words.fit_words import fits_compared, fits_described
 
             lines = fits_compared(datasets, files) if len(files) > 1 else fits_described(dataset, file)
-        for line in lines:
-            show(line)
+        show(*lines)
 
 
 @click.command(
@@ -203,8 +202,7 @@ def verify(file: Path, sample: int, seed: int | None) -> None:
     with opened(file) as dataset:
         found = recompute(dataset, file, sample=sample, seed=seed, progress=lambda total: progress(total, quiet=False))
         title = str(dataset.attrs["title"])
-    for line in in_words(found, title, file):
-        show(line)
+    show(*in_words(found, title, file))
     if found.exceeding:
         many = (
             f"{found.exceeding:,} of {counted(len(found.deviations), 'value')} deviate by more than their stated errors"

@@ -104,8 +104,7 @@ def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet
         reused = f"; reused {counted(written.reused, 'block')}, computed {written.computed:,}" if written.reused else ""
         took = f"{count} in {seconds:.2f} s ({rate(scenes, seconds)} per s), {size}{reused}"
         messages.say(f"{path}: {f'{count}, {size}, were complete already' if written.complete else took}")
-        for sentence in written.cautions:
-            messages.say(f"{path}: {sentence}")
+        messages.say(*(f"{path}: {sentence}" for sentence in written.cautions))
     if written.failed:
         failed = f"{written.failed:,} of {counted(scenes, 'scene')} failed"
         raise DoubtfulError(f"{path}: {failed}; `gradhesion info {path}` reports why")
@@ -122,8 +121,7 @@ def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> 
 
     refuse_existing(path, overwrite=overwrite)
     refuse_size(study)
-    for note in () if quiet else _first(study.notes):
-        messages.say(note)
+    messages.say(*_first(() if quiet else study.notes))
     prepare()
     start = time.monotonic()
     with progress(len(study.loops), quiet=quiet or len(study.loops) == 1, noun="loop") as advance:
@@ -132,16 +130,14 @@ def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> 
     dataset = dataset_of(study, fits, shared.history_now())
     write_dataset(dataset, path, overwrite=overwrite)
 
-    about = {fit.loop.file: path if study.is_of_one else f"{path}: {fit.loop.file}" for fit in fits}
+    about = [f"{path}" if study.is_of_one else f"{path}: {fit.loop.file}" for fit in fits]
     if not quiet:
         took = f"fitted in {seconds:.1f} s, {bytes_in_words(path.stat().st_size)}"
         messages.say(f"{path}: {_done(study, fits, took)}")
-        said = [(fit.loop.file, one) for fit in fits if fit.found for one in cautions_of_fit(study, fit.found)]
-        for sentence in _first([f"{about[file]}: {one}" for file, one in said]):
-            messages.say(sentence)
+        known = [(one, fit.found) for one, fit in zip(about, fits, strict=True) if fit.found]
+        messages.say(*_first([f"{one}: {said}" for one, found in known for said in cautions_of_fit(study, found)]))
     rows = [dataset] if study.is_of_one else [dataset.isel(loop=i) for i in range(len(fits))]
-    each = zip(fits, rows, strict=True)
-    if doubts := [f"{about[fit.loop.file]}: {one}" for fit, row in each for one in doubts_of(row)]:
+    if doubts := [f"{one}: {said}" for one, row in zip(about, rows, strict=True) for said in doubts_of(row)]:
         raise DoubtfulError(_first(doubts))
 
 

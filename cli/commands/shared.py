@@ -81,6 +81,4 @@ def history_now() -> str:
 
 def say_written(path: Path, notes: Iterable[str] = ()) -> None:
     """Say that a file was written, and what is to be known of it."""
-    for note in notes:
-        messages.say(note)
-    messages.say(f"{path}: written, {bytes_in_words(path.stat().st_size)}")
+    messages.say(*notes, f"{path}: written, {bytes_in_words(path.stat().st_size)}")

@@ -68,8 +68,8 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
     """
     prepare(study)
     found = _joined(study, in_threads(study, range(len(study.tiling)), threads))
-    for sentence in cautions(study, flagged_in(found["status"]), int(np.count_nonzero(found.get(STEEP, 0)))):
-        messages.say(f"{study.name}: {sentence}")
+    steep = int(np.count_nonzero(found.get(STEEP, 0)))
+    messages.say(*(f"{study.name}: {sentence}" for sentence in cautions(study, flagged_in(found["status"]), steep)))
     return assembled(study, found, "computed in memory")
 
 

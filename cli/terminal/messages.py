@@ -31,9 +31,9 @@ def printable_line(text: str) -> str:
     return printable(text).replace("\n", "\\n")
 
 
-def show(line: str) -> None:
-    """Print a line of what was asked for to stdout, as `show_block`."""
-    show_block(printable_line(line))
+def show(*lines: str) -> None:
+    """Print lines of what was asked for to stdout, as `show_block`."""
+    show_block("\n".join(map(printable_line, lines)))
 
 
 def show_block(text: str) -> None:
@@ -49,9 +49,10 @@ def show_block(text: str) -> None:
         raise OutputError(f"standard output: cannot be written ({error.strerror}); {remedy}") from error
 
 
-def say(sentence: str) -> None:
-    """Print a sentence on a line of stderr."""
-    complain(printable_line(sentence))
+def say(*sentences: str) -> None:
+    """Print each sentence on a line of stderr."""
+    for sentence in sentences:
+        complain(printable_line(sentence))
 
 
 def complain(text: str) -> None:
