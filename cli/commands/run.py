@@ -79,13 +79,13 @@ def run(study: Path, output: Path | None, overrides: tuple[str, ...], engine: st
         prepare(loaded)
     solver = None  # this process
     if engine == "dask":
-        from gradhesion.cli.work.cluster import on_cluster, require_dask
+        from gradhesion.cli.work.cluster import on_cluster
 
-        require_dask()
-        if loaded.has_parts:
-            solver = on_cluster(scheduler, threads, quiet=quiet)
-        elif not quiet:
-            messages.say("the study has one block or consists of curves, and is solved in this process")
+        solver = on_cluster(scheduler, threads, quiet=quiet)
+        if not loaded.has_parts:
+            solver = None
+            if not quiet:
+                messages.say("the study has one block or consists of curves, and is solved in this process")
     start = time.monotonic()
     with progress(loaded.scenes // (shard[1] if shard else 1), quiet=quiet) as advance:
         done = write(loaded, path, history=shared.history_now(), engine=solver, advance=advance, **how)

@@ -42,7 +42,6 @@ LEFT: Final = rf"{UNFINISHED}|{PARTS}|lock-.*|(study|state.*|finished)\.json"
 version 0.3."""
 PATIENCE: Final = 0.5
 """Seconds to wait for a lock, which others take for a moment to see whether it is free."""
-Results = dict[str, NDArray[Any]]
 
 
 def folder_of(output: Path) -> Path:
@@ -62,6 +61,7 @@ class Parts:
     def __init__(self, output: Path, study: Study) -> None:
         self.output, self.study = output, study
         self.folder = folder_of(output)
+        self.merged = self.folder / "merged.nc"
 
     @cached_property
     def key(self) -> str:
@@ -71,16 +71,11 @@ class Parts:
         everything = json.dumps([data, self.study.chunk, versions()], sort_keys=True, default=str)
         return hashlib.sha256(everything.encode()).hexdigest()
 
-    @property
-    def merged(self) -> Path:
-        """The dataset in the making."""
-        return self.folder / "merged.nc"
-
     def part(self, number: int) -> Path:
         """Name the file of a block."""
         return self.folder / f"{number:06}.npz"
 
-    def read(self, number: int) -> Results | None:
+    def read(self, number: int) -> dict[str, NDArray[Any]] | None:
         """Read a block; None if it is not there, not whole (each array has a checksum), or of another study."""
         try:
             with self.part(number).open("rb") as file, np.load(file) as arrays:
