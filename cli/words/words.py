@@ -84,29 +84,27 @@ def _parameters(dataset: xarray.Dataset) -> Iterator[str]:
     known = [name for name in _coordinates(dataset) if name != SOLVER]
     varying = [name for name in _varying(dataset) if name != SOLVER]
     fixed = [name for name in known if dataset[name].ndim == 0]
-    following = [name for name in known if name not in (*varying, *fixed)]
     if SOLVER in dataset.dims:
         yield from ("", "solvers, each for all scenes: " + ", ".join(dataset[SOLVER].values))
-    yield from ("", "points: one scene for each item of" if points else "axes")
-    for name in varying:
-        values, unit = dataset[name].values, unit_behind(dataset[name])
-        if values.size <= FEW:
-            written = ", ".join(f"{value:g}" for value in values) + unit
-        else:
-            written = f"{values.size:,} values from {np.nanmin(values):g} to {np.nanmax(values):g}{unit}"
-            written += "" if points else f", {_spacing(values)}"
-        yield told(name, written, width=17)
-    if not varying:
-        yield "  none: a single scene"
-    yield from ("", "fixed") if fixed else ()
-    for name in fixed:
-        comment = str(dataset[name].attrs.get("comment", "")).partition(";")[0]
-        remark = f"  ({comment})" if comment.startswith(IDLE) else ""
-        yield told(name, f"{dataset[name].item():g}{unit_behind(dataset[name])}{remark}", width=17)
-    yield from ("", "following from these") if following else ()
-    for name in following:
-        extremes = [f"{value:g}" for value, _ in _extremes(dataset[name])]
-        yield told(name, " to ".join(extremes) or "no finite value in any scene", width=17)
+    groups = {"points: one scene for each item of" if points else "axes": varying, "fixed": fixed}
+    groups["following from these"] = [name for name in known if name not in (*varying, *fixed)]
+    for heading, names in groups.items():
+        lines = [told(name, _written(dataset[name], points=points), width=17) for name in names]
+        yield from ("", heading, *lines) if names else ()
+
+
+def _written(variable: xarray.DataArray, *, points: bool) -> str:
+    """Write the value of a parameter, a few, or between what its values lie."""
+    unit, comment = unit_behind(variable), str(variable.attrs.get("comment", "")).partition(";")[0]
+    if variable.ndim == 0:
+        return f"{variable.item():g}{unit}" + (f"  ({comment})" if comment.startswith(IDLE) else "")
+    if not points and variable.dims != (variable.name,):  # it follows from axes
+        return " to ".join(f"{value:g}" for value, _ in _extremes(variable)) or "no finite value in any scene"
+    values = variable.values
+    if values.size <= FEW:
+        return ", ".join(f"{value:g}" for value in values) + unit
+    span = f"{values.size:,} values from {np.nanmin(values):g} to {np.nanmax(values):g}{unit}"
+    return span if points else f"{span}, {_spacing(values)}"
 
 
 def _spacing(values: NDArray[np.float64]) -> str:

@@ -6,8 +6,6 @@ from typing import Final
 import numpy as np
 import xarray
 
-from gradhesion.core import FAILED
-
 QUANTILES: Final = {"p05": 0.05, "p50": 0.5, "median": 0.5, "p95": 0.95}
 """The quantiles that an axis may be reduced to, by what they are called."""
 REDUCTIONS: Final = ("max", "min", "mean", "sum", *QUANTILES, "argmax", "argmin")
@@ -39,12 +37,6 @@ class Taken:
     """Whether an extreme whose place is taken is at an end of its axis, beyond which it may lie."""
     flat: int = 0
     """The places left out because the values along the axis are equal but for rounding: no extreme has a place."""
-
-
-def without_failed(taken: Taken) -> Taken:
-    """Give scenes that have failed no value; count those that have none."""
-    there = taken.values.notnull() & ((taken.status & FAILED) == 0)
-    return replace(taken, values=taken.values.where(there), left_out=int((~there).sum()))
 
 
 def interpolated(taken: Taken, place: Between) -> Taken:

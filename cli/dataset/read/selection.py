@@ -4,19 +4,20 @@ The words of `--at` and `--over` become a `Selection` here; it narrows a dataset
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.read.reductions import REDUCTIONS, Between, Taken, interpolated, reduced, without_failed
+from gradhesion.cli.dataset.read.reductions import REDUCTIONS, Between, Taken, interpolated, reduced
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.curves import EXTENTS, RAGGED
 from gradhesion.cli.names.scenes import SCENE, SOLVER
 from gradhesion.cli.study.text.quantities import si_value
 from gradhesion.cli.terminal.wording import did_you_mean
+from gradhesion.core import FAILED
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
 
 SLACK: Final = 1e-9
@@ -60,7 +61,9 @@ class Selection:
         taken = Taken(values=values, status=status.load())
         for one in self.between:
             taken = interpolated(taken, one)
-        taken = without_failed(taken) if self.over else taken
+        if self.over:
+            there = taken.values.notnull() & ((taken.status & FAILED) == 0)
+            taken = replace(taken, values=taken.values.where(there), left_out=int((~there).sum()))
         for axis, how in self.over.items():
             taken = reduced(taken, axis, how)
         return taken
