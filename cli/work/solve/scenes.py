@@ -142,6 +142,16 @@ def _with_units(study: Study, given: Arrays, found: Arrays) -> Arrays:
     return more
 
 
+def value_slopes(study: Study, given: Arrays, keys: Sequence[str], name: str, found: Arrays) -> Arrays:
+    """Give the slopes of a value, in SI units or not, to keys of a study, by the sensitivities that were found."""
+    from gradhesion.core.answers.slopes_to_keys import POWERS, slopes_to_keys  # noqa: PLC0415 (300 ms for SciPy)
+
+    sensitivity = f"{name.removesuffix(SI)}_sensitivity"
+    labels = replace(study, outputs=(sensitivity,)).labels[PARAMETER]
+    powers = POWERS[sensitivity] if name.endswith(SI) else {}
+    return slopes_to_keys(given, keys, labels, found[name], found[sensitivity], powers)
+
+
 def _stacked(found: Sequence[Arrays], axis: int) -> Arrays:
     """Put results beside each other along a new axis."""
     return {name: np.stack([values[name] for values in found], axis) for name in found[0]}

@@ -7,15 +7,14 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.names.outputs import PARAMETER, SI, SPREADABLE
+from gradhesion.cli.names.outputs import SI, SPREADABLE
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.rules.form import Uncertainty
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, shape_of
-from gradhesion.cli.work.solve.scenes import Arrays, solve_given
+from gradhesion.cli.work.solve.scenes import Arrays, solve_given, value_slopes
 from gradhesion.core.answers import uncertainty
 from gradhesion.core.answers.flags import LINEAR_DEVIATION_OFF
-from gradhesion.core.answers.slopes_to_keys import POWERS, slopes_to_keys
 from gradhesion.core.problem.status import NO_VALUE
 
 SCENES: Final = 2**20
@@ -55,10 +54,11 @@ def solve_uncertain(study: Study, block: Block, threads: int | None) -> Arrays:
     more = tuple(f"{name}_sensitivity" for name in study.linear)
     watch = study.watches_slope
     found = centre.solve(centre.given, tuple(dict.fromkeys((*study.outputs, *more))), watch=watch)
-    linear = {name: values for one in study.linear for name, values in _linear(centre, one, found).items()}
+    given = {key: centre.aligned(values) for key, values in centre.given.items()}
+    known = [name for one in study.linear for name in (one, one + SI) if name in found]
+    linear = {name: value_slopes(centre.study, given, [*centre.spreads], name, found) for name in known}
     by_slopes = "std_linear" if study.uncertainty.samples else "std"
-    inputs = {key: centre.aligned(centre.given[key]) for key in centre.spreads}
-    deviations = [spread.standard_deviation(inputs[key]) for key, spread in centre.spreads.items()]
+    deviations = [spread.standard_deviation(given[key]) for key, spread in centre.spreads.items()]
     made = {
         _named(name, by_slopes): uncertainty.linear_deviation([*slopes.values()], deviations)
         for name, slopes in linear.items()
@@ -78,18 +78,6 @@ def solve_uncertain(study: Study, block: Block, threads: int | None) -> Arrays:
 def _named(name: str, way: str) -> str:
     """Name the variable of a spread: `pull_off_force_std_si` of `pull_off_force_si`."""
     return f"{name.removesuffix(SI)}_{way}" + (SI if name.endswith(SI) else "")
-
-
-def _linear(centre: _Centre, name: str, found: Arrays) -> dict[str, Arrays]:
-    """Give the slopes of a value to its uncertain inputs, of the value in SI units as well if it has them."""
-    given = {key: centre.aligned(values) for key, values in centre.given.items()}
-    sensitivity = f"{name}_sensitivity"
-    labels = replace(centre.study, outputs=(sensitivity,)).labels[PARAMETER]
-    return {
-        own: slopes_to_keys(given, [*centre.spreads], labels, found[own], found[sensitivity], powers)
-        for own, powers in {name: {}, name + SI: POWERS[sensitivity]}.items()
-        if own in found
-    }
 
 
 def _off_the_line(centre: _Centre, seed: int, found: Arrays, linear: Mapping[str, Arrays]) -> list[NDArray[np.bool_]]:
