@@ -1,9 +1,8 @@
 """The variables of a study's dataset by CF-1.11: dimensions, types and attributes, and where coordinates come from."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import partial
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,8 +30,7 @@ RMS: Final = {
 """What the amplitude is of random roughness."""
 
 
-@dataclass(frozen=True)
-class Variable:
+class Variable(NamedTuple):
     """A variable of a dataset; a coordinate knows its values, an output gets them block by block."""
 
     dimensions: tuple[str, ...]

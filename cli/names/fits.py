@@ -1,7 +1,6 @@
 """The datasets of fits: every variable, declared once, and what their dimensions are called."""
 
-from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 from gradhesion.cli.names.outputs import PARAMETER
 
@@ -15,8 +14,7 @@ MINIMUM: Final = "minimum"
 """The dimension of other minima that the noise of a loop allows, the best first."""
 
 
-@dataclass(frozen=True)
-class FitVariable:
+class FitVariable(NamedTuple):
     """A variable of a fit."""
 
     dims: tuple[str, ...]

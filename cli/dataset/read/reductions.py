@@ -1,7 +1,7 @@
 """Values between two items of an axis, and reductions of an axis: each with the status that belongs to it."""
 
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 import xarray
@@ -14,8 +14,7 @@ FLAT: Final = 1e-9
 """Values that differ by less, over their size, are equal: what is left is rounding."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Between:
+class Between(NamedTuple):
     """A place between two items of an axis."""
 
     axis: str
