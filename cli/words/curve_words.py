@@ -100,4 +100,4 @@ def jump_lines(dataset: xarray.Dataset) -> Iterator[str]:
         varying = [name for name in INPUTS if name in dataset and dataset[name].ndim]
         place = {name: values[scene] for name, values in columns_of(dataset, varying, dataset["status"]).items()}
         known = {name: jumps[name].values[item] for name in names} | place
-        yield f"  the largest: {', '.join(f'{name} = {value:.6g}' for name, value in known.items())}"
+        yield f"  the one that dissipates most: {', '.join(f'{name} = {value:.6g}' for name, value in known.items())}"
