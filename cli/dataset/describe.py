@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.names import curves
 from gradhesion.cli.names.outputs import BEST, OF_PHYSICAL, ON_BOUND, OUTPUTS, PARETO_POINT, SI, SPREADS, labels_of
-from gradhesion.cli.names.scenes import IDLE, REALISATION, REALISATIONS, SOLVER, SOLVERS, STATUS, STEEP_CONTACT
+from gradhesion.cli.names.scenes import IDLE, REALISATION, SOLVER, SOLVERS, STATUS, STEEP_CONTACT
 from gradhesion.cli.names.units import unit_of
 from gradhesion.cli.study.files import COMMENT
 from gradhesion.cli.study.study import Study
@@ -80,8 +80,9 @@ def _labels(study: Study) -> dict[str, Variable]:
     if SOLVER in study.sizes:
         found[SOLVER] = _words(SOLVER, study.method.solver, SOLVERS)
     if study.spectrum is not None:
+        about = {"units": "1", "long_name": "realisation of the random roughness"}
         numbers = np.arange(study.spectrum.realisations, dtype=np.int32)
-        found[REALISATION] = Variable((REALISATION,), "i4", {"units": "1", "long_name": REALISATIONS}, numbers)
+        found[REALISATION] = Variable((REALISATION,), "i4", about, numbers)
     if study.states:
         about = {"units": "1", "long_name": "contact radius a/R of a state of equilibrium"}
         found[curves.STATE] = Variable((curves.STATE,), "f8", about, np.array(study.states))

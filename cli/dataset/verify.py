@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 import xarray
 
-from gradhesion.cli.dataset.belonging import study_of
+from gradhesion.cli.dataset.joining import study_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import SI, labels_of
 from gradhesion.cli.names.scenes import REALISATION, SOLVER
