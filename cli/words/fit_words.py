@@ -15,7 +15,7 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.fits import LOOP, MINIMUM, PARAMETER_UNITS
 from gradhesion.cli.names.outputs import PARAMETER
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
-from gradhesion.cli.words.curve_words import unit_behind
+from gradhesion.cli.words.table import unit_behind
 from gradhesion.cli.words.words import origin_lines
 from gradhesion.core.answers.flags import FLAG_WORDS
 from gradhesion.core.loops.fitted import poor_from

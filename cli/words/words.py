@@ -20,8 +20,7 @@ from gradhesion.cli.names.scenes import IDLE, REALISATION, SCENE, SOLVER
 from gradhesion.cli.study.shape_words import CONTROLS
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted, percent
 from gradhesion.cli.terminal.wording import shown
-from gradhesion.cli.words.curve_words import about, curve_lines, jump_lines, number_range, told, unit_behind
-from gradhesion.cli.words.table import columns_of
+from gradhesion.cli.words.table import about, columns_of, curve_lines, jump_lines, number_range, told, unit_behind
 from gradhesion.core import FAILED
 from gradhesion.core.answers.flags import FLAG_WORDS
 from gradhesion.core.problem.inputs import INPUTS
