@@ -159,9 +159,10 @@ def _of_loops(dataset: xarray.Dataset) -> Iterator[str]:
             for one, least, most in zip(value[:, j], low[:, j], high[:, j], strict=True)
         ]
     table["reduced chi square"] = ["-" if np.isnan(one) else f"{one:.3g}" for one in reduced]
-    table["flags"] = [" ".join(flags_of(dataset, i)) or "-" for i in range(len(files))]
+    flags, status = FLAGS | OF_FITS, dataset["status"].values
+    table["flags"] = [" ".join(name for name, bit in flags.items() if one & bit) or "-" for one in status]
     yield from (line.rstrip() for line in table.to_string(index=False, justify="left").splitlines())
-    doubtful = dataset["status"].values & (FAILED | POOR_FIT | ANOTHER_MINIMUM) != 0
+    doubtful = status & (FAILED | POOR_FIT | ANOTHER_MINIMUM) != 0
     sound = value[~doubtful & ~np.isnan(value).any(axis=1)]
     yield ""
     yield f"median of {counted(len(sound), 'loop')} without such a flag, with quartiles"
@@ -173,17 +174,6 @@ def _of_loops(dataset: xarray.Dataset) -> Iterator[str]:
     for i, file in enumerate(files):
         one = dataset.isel({LOOP: i})
         yield from (f"{file}: {line}" for line in (*doubts_of(one), *_cautions(one)))
-
-
-def flags_of(dataset: xarray.Dataset, loop: int) -> list[str]:
-    """Name what is flagged of one of several loops."""
-    status = int(dataset["status"].values[loop])
-    flags = [name for name, bit in (FLAGS | OF_FITS).items() if status & bit]
-    if flags == ["no_value"]:
-        return flags
-    names = dataset[PARAMETER].values[dataset["on_bound"].values[loop] > 0]
-    converged = [] if dataset["converged"].values[loop] else ["not_converged"]
-    return [*flags, *converged, *(f"on_bound:{name}" for name in names)]
 
 
 def fits_compared(datasets: Sequence[xarray.Dataset], files: Sequence[Path]) -> Iterator[str]:
