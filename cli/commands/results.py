@@ -139,7 +139,7 @@ def explore(
     shared.ending_of(path, "page", (".html", ".htm"))
 
     from gradhesion.cli.dataset.read.reader import opened, refuse_fit
-    from gradhesion.cli.dataset.read.selection import nearest_values
+    from gradhesion.cli.dataset.read.selection import selection_of
     from gradhesion.cli.disk import replacement, writing
     from gradhesion.cli.explorer.page import page
 
@@ -148,7 +148,7 @@ def explore(
         text = page(dataset, file.name, shared.listed(variables), at)
         with writing(path):
             temporary.write_text(text, encoding="utf-8")
-        notes = nearest_values(dataset, at)
+        notes = selection_of(dataset, at).notes
     if not quiet:
         shared.say_written(path, notes)
 
@@ -167,14 +167,14 @@ def select(file: Path, at: tuple[str, ...], over: tuple[str, ...], output: Path,
     and the like (--over). Of fits of several loops, --at loop=0 takes one.
     """
     from gradhesion.cli.dataset.read.reader import is_fit, opened
-    from gradhesion.cli.dataset.read.selection import nearest_values
+    from gradhesion.cli.dataset.read.selection import selection_of
     from gradhesion.cli.dataset.select import selected, write_dataset
 
     if not at and not over:
         raise click.UsageError("nothing is selected; add --at AXIS=VALUE or --over AXIS=HOW")
     with opened(file) as dataset:
         part = selected(dataset, at, over)
-        notes = [] if is_fit(dataset) else nearest_values(dataset, at)
+        notes = [] if is_fit(dataset) else selection_of(dataset, at).notes
         part = part.assign_attrs(history=f"{part.attrs.get('history', '')}\n{shared.history_now()}".strip())
         write_dataset(part, output, overwrite=overwrite)
     if not quiet:

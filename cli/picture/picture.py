@@ -7,7 +7,7 @@ import xarray
 from matplotlib.figure import Figure
 
 from gradhesion.cli.dataset.read.reader import has_curves, is_fit
-from gradhesion.cli.dataset.read.selection import nearest_values, selection_of
+from gradhesion.cli.dataset.read.selection import selection_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import PARETO_POINT
 from gradhesion.cli.picture.curves import drawn_curves
@@ -37,7 +37,7 @@ def picture_of(
         choices = {"--over": over, "--variable": variables, "--x": x, "--y": y, "--data": data}
         return drawn_fits(dataset, looks, [word for word, value in choices.items() if value], at)
     selection = selection_of(dataset, at, over, interpolate=interpolate)
-    for note in [] if interpolate else nearest_values(dataset, at):
+    for note in selection.notes:
         notes(note)
     if not has_curves(dataset):
         if data is not None:

@@ -38,6 +38,8 @@ class Selection:
     """Axes fixed at a value between two items."""
     over: Mapping[str, str] = field(default_factory=dict)
     """The reduction of each of some axes, in the order in which they are done."""
+    notes: tuple[str, ...] = ()
+    """What was wished and is met by another value, the nearest of the axis."""
 
     def narrowed(self, dataset: xarray.Dataset) -> xarray.Dataset:
         """Fix axes, whose values stay as coordinates, and cut others, to two items where one is to interpolate.
@@ -83,6 +85,7 @@ def selection_of(
     parts: dict[str, NDArray[np.intp]] = {}
     between: list[Between] = []
     named: set[str] = set()
+    notes: list[str] = []
     for option, axis, text in _wishes(dataset, "--at", at, named):
         if axis == SOLVER:
             known = [str(solver) for solver in dataset[SOLVER].values]
@@ -96,14 +99,18 @@ def selection_of(
         else:
             value = _number(option, axis, text)
             nearest = _nearest(option, values, axis, value)
-            left = np.flatnonzero(values == values[nearest])
+            near = float(values[nearest])
+            left = np.flatnonzero(values == near)
+            is_there = np.isinf(value) or abs(near - value) <= SAME * abs(value)
+            if not (is_there or interpolate):
+                notes.append(f"{option}: shows {axis} = {near:.10g}{_unit(axis)}, its nearest value")
         if axis not in dims:  # of points, which have it along their scenes
             if interpolate:
                 raise DatasetError(f"{option}: points cannot be interpolated; leave --interpolate out")
             parts[SCENE] = np.intersect1d(parts.get(SCENE, left), left)
         elif ":" in text:
             parts[axis] = left
-        elif interpolate and not _is_same(value, values[nearest]):
+        elif interpolate and not is_there:
             between.append(_between(values, axis, value))
         else:
             fixed[axis] = nearest
@@ -120,24 +127,7 @@ def selection_of(
         if how.startswith("arg") and any(other.startswith("arg") for other in reductions.values()):
             raise DatasetError(f"{option}: the place of an extreme is already requested; reduce by max, min or mean")
         reductions[axis] = how
-    return Selection(fixed=fixed, parts=parts, between=tuple(between), over=reductions)
-
-
-def nearest_values(dataset: xarray.Dataset, at: Sequence[str]) -> list[str]:
-    """Say which wishes of `--at` are met by another value, the nearest of the axis."""
-    notes = []
-    for option, axis, text in _wishes(dataset, "--at", at, set()):
-        if axis != SOLVER and ":" not in text:
-            values, value = np.asarray(dataset[axis].values, dtype=float), _number(option, axis, text)
-            near = float(values[_nearest(option, values, axis, value)])
-            if not _is_same(value, near):
-                notes.append(f"{option}: shows {axis} = {near:.10g}{_unit(axis)}, its nearest value")
-    return notes
-
-
-def _is_same(value: float, near: float) -> bool:
-    """Report whether a value that is wished is that of an axis, but for rounding."""
-    return bool(np.isinf(value) or abs(near - value) <= SAME * abs(value))
+    return Selection(fixed=fixed, parts=parts, between=tuple(between), over=reductions, notes=tuple(notes))
 
 
 def is_log(values: NDArray[np.float64]) -> bool:
