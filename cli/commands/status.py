@@ -4,6 +4,7 @@ import json
 import os
 import time
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -101,7 +102,7 @@ def merge(files: tuple[Path, ...], output: Path | None, overwrite: bool, quiet: 
     else:
         settings: dict[str, Any] = {"history": shared.history_now(), "overwrite": overwrite}
         with progress(shards.scenes, quiet=quiet) as advance:
-            written = write(shards, files[0], **settings, engine=only_kept(files[0]), advance=advance)
+            written = write(shards, files[0], **settings, engine=partial(only_kept, files[0]), advance=advance)
         finish(files[0], shards.scenes, written, time.monotonic() - start, quiet=quiet)
 
 

@@ -86,7 +86,7 @@ def _labels(study: Study) -> dict[str, Variable]:
     if study.states:
         about = {"units": "1", "long_name": "contact radius a/R of a state of equilibrium"}
         found[curves.STATE] = Variable((curves.STATE,), "f8", about, np.array(study.states))
-    elif any(curves.is_of_a_state(name) for name in study.outputs):
+    elif any(curves.curve_of(name) in curves.STATE_CURVES for name in study.outputs):
         found[curves.STATE] = _words(curves.STATE, curves.NAMED_STATES, "state of a loading cycle")
     return found | {name: _words(name, own, "parameter of the sensitivity") for name, own in study.labels.items()}
 
@@ -180,14 +180,16 @@ def _of_curve(study: Study, name: str) -> Variable:
     """Describe a variable of a curve, along a dimension of its own."""
     scenes, dtype = tuple(study.sizes), curves.INTEGERS.get(name, "f8")
     attributes: dict[str, Any] = {"units": "1", "ancillary_variables": "status"}
-    attributes["long_name"] = next(own[name] for own in curves.CURVES.values() if name in own)
+    curve = curves.curve_of(name) or ""
+    extent = curves.EXTENTS[curve]
+    attributes["long_name"] = curves.CURVES[curve][name]
     if name in curves.MEANINGS:
         attributes |= {"flag_values": np.array([0, 1], dtype=dtype), "flag_meanings": curves.MEANINGS[name]}
     if name in curves.RAGGED.values():
-        attributes["sample_dimension"] = curves.extent_of(name)
+        attributes["sample_dimension"] = extent
         return Variable(scenes, dtype, attributes)
     if curves.is_ragged(name):
         del attributes["ancillary_variables"]  # `status` has other dimensions
-        return Variable((curves.extent_of(name),), dtype, attributes)
-    states = (curves.STATE,) if curves.is_of_a_state(name) else ()
-    return Variable((*scenes, *states, curves.extent_of(name)), dtype, attributes, blank=blank_of(name))
+        return Variable((extent,), dtype, attributes)
+    states = (curves.STATE,) if curve in curves.STATE_CURVES else ()
+    return Variable((*scenes, *states, extent), dtype, attributes, blank=blank_of(name))

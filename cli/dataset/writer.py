@@ -127,18 +127,14 @@ def _blocks(
         advance(size_of(parts.study.tiling[number]), reused=reused)
 
 
-def only_kept(output: Path) -> Engine:
-    """Make an engine that solves nothing: DatasetError says which blocks the shards of an output lack."""
-
-    def engine(study: Study, numbers: Sequence[int]) -> Iterator[tuple[int, Arrays]]:
-        if numbers:
-            shown = ", ".join(str(number + 1) for number in numbers[:8]) + (", ..." if len(numbers) > 8 else "")
-            of_all = f"{len(numbers):,} of {counted(len(study.tiling), 'block')}"
-            remedy = "run the shards that have them, or `gradhesion run`, which computes the rest"
-            raise DatasetError(f"{output}: {of_all} are missing or damaged ({shown}); {remedy}")
-        return iter(())
-
-    return engine
+def only_kept(output: Path, study: Study, numbers: Sequence[int]) -> Iterator[tuple[int, Arrays]]:
+    """Solve nothing, in the place of an engine: DatasetError says which blocks the shards of an output lack."""
+    if numbers:
+        shown = ", ".join(str(number + 1) for number in numbers[:8]) + (", ..." if len(numbers) > 8 else "")
+        of_all = f"{len(numbers):,} of {counted(len(study.tiling), 'block')}"
+        remedy = "run the shards that have them, or `gradhesion run`, which computes the rest"
+        raise DatasetError(f"{output}: {of_all} are missing or damaged ({shown}); {remedy}")
+    return iter(())
 
 
 def _merge(parts: Parts, history: str, blocks: Iterable[tuple[int, Arrays]]) -> tuple[str, ...]:

@@ -37,24 +37,6 @@ def curve_of(variable: str) -> str | None:
     return _CURVE_OF.get(variable.removesuffix(SI))
 
 
-def is_of_a_state(variable: str) -> bool:
-    """Report whether a variable belongs to a curve of a state.
-
-    >>> is_of_a_state("surface_gap_si"), is_of_a_state("path_load")
-    (True, False)
-    """
-    return curve_of(variable) in STATE_CURVES
-
-
-def extent_of(variable: str) -> str:
-    """Name the dimension along the curve that a variable belongs to.
-
-    >>> extent_of("path_load")
-    'path_point'
-    """
-    return EXTENTS[_CURVE_OF[variable.removesuffix(SI)]]
-
-
 def is_ragged(variable: str) -> bool:
     """Report whether a variable has the items of one scene after those of the other.
 
