@@ -61,8 +61,13 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
     yield from ("", f"status: {written} have values", *_flag_counts(status))
     if not has_curves(dataset) and not any(name in dataset for name in RESULTS if name not in PULL_OFF):
         yield "  whether the contact is one disc was not tested: nothing but the pull-off was asked for"
-    if beyond := list(_beyond_the_model(dataset)):
-        yield from ("", "outside the range of the model", *beyond)
+    cone = {CONTACT_SLOPE: "1 at every radius of a cone"} if is_cone(dataset) else {}
+    beyond = [
+        told(name, _share(count, scenes), f"{cone.get(name, limit.condition)}: {limit.words}")
+        for name, limit in LIMITS.items()
+        if (count := count_beyond(name, dataset))
+    ]
+    yield from ("", "outside the range of the model", *beyond) if beyond else ()
     yield from origin_lines(dataset)
 
 
@@ -222,14 +227,6 @@ def _flag_counts(variable: xarray.DataArray) -> list[str]:
 def _share(count: int, scenes: int) -> str:
     """Write how many of some scenes."""
     return f"{count:,} of {counted(scenes, 'scene')} ({percent(count, scenes)})"
-
-
-def _beyond_the_model(dataset: xarray.Dataset) -> Iterator[str]:
-    """Tell how many scenes leave the range of the model, by each number that is known."""
-    for name, limit in LIMITS.items():
-        if count := count_beyond(name, dataset):
-            condition = "1 at every radius of a cone" if name == CONTACT_SLOPE and is_cone(dataset) else limit.condition
-            yield told(name, _share(count, dataset["status"].size), f"{condition}: {limit.words}")
 
 
 def origin_lines(dataset: xarray.Dataset) -> Iterator[str]:
