@@ -51,7 +51,10 @@ def _of_a_dataset(_context: click.Context, _option: click.Parameter, path: Path 
     """Check the name of a dataset: another ending, or none, promises another kind of file."""
     if path is None or path.suffix.lower() in OF_DATASETS:
         return path
-    if path.exists() and not path.is_file():
+    try:
+        if path.exists() and not path.is_file():
+            return path
+    except OSError:  # no such name can be: whoever writes there says why
         return path
     name = path.with_suffix(".nc") if path.suffix[1:].isalpha() else f"{path}.nc"
     raise StudyError(f"-o {path}: a dataset is a NetCDF file, and its name ends in .nc; write -o {name}")
