@@ -23,10 +23,8 @@ def writing(path: Path) -> Iterator[None]:
         with suppress(OSError):
             free = shutil.disk_usage(path.resolve().parent).free
             reason += f"; {bytes_in_words(free)} are free on its disk" if free < 2**20 else ""
-        raise OutputError(
-            f"{path}: cannot be written ({reason}); any earlier file is untouched; "
-            "free some space or get write permission, or name another output with -o"
-        ) from error
+        remedy = "free some space or get write permission, or name another output with -o"
+        raise OutputError(f"{path}: cannot be written ({reason}); any earlier file is untouched; {remedy}") from error
 
 
 @contextmanager
@@ -47,13 +45,8 @@ def rewritten(path: Path) -> Iterator[BinaryIO]:
 def replacement(path: Path, *, overwrite: bool) -> Iterator[Path]:
     """Give a temporary file beside `path` that takes its place, complete and on disk, when the body ends.
 
-    If the body fails, or is interrupted, the temporary file goes and what stood at `path` is as it was.
-
-    Raises
-    ------
-    OutputError
-        At once, if `path` exists and may not be replaced or its folder cannot be written; later, if it cannot be
-        finished, or if a file has appeared there meanwhile: then the new one is kept beside it.
+    If the body fails, or is interrupted, it goes, and what stood at `path` is as it was. OutputError comes at once if
+    `path` exists and may not be replaced, or cannot be written; later as `settle` raises it.
     """
     refuse_existing(path, overwrite=overwrite)
     target = Path(os.path.realpath(path))
@@ -83,10 +76,7 @@ def refuse_existing(path: Path, *, overwrite: bool) -> None:
 def settle(temporary: Path, path: Path, *, overwrite: bool) -> None:
     """Give a finished file its name as soon as it is on disk; nothing is replaced without `overwrite`.
 
-    Raises
-    ------
-    OutputError
-        It cannot be written; or something has appeared there meanwhile, and the file is kept under a name beside it.
+    OutputError: it cannot be; or something has appeared there meanwhile, and the file is kept under a name beside it.
     """
     target = Path(os.path.realpath(path))
     place = target
@@ -101,10 +91,8 @@ def settle(temporary: Path, path: Path, *, overwrite: bool) -> None:
     with suppress(OSError):  # some file systems cannot sync a folder
         to_disk(target.parent)
     if place != target:
-        raise OutputError(
-            f"{path}: appeared during the run and is untouched; the new file is complete and kept as "
-            f"{place if path.is_symlink() else path.with_name(place.name)}; move it where it belongs"
-        )
+        kept = f"the new file is complete and kept as {place if path.is_symlink() else path.with_name(place.name)}"
+        raise OutputError(f"{path}: appeared during the run and is untouched; {kept}; move it where it belongs")
 
 
 def _rename_anew(source: Path, target: Path) -> None:

@@ -22,13 +22,7 @@ EXIT_CODES: Final = {
 
 
 class GradhesionError(Exception):
-    """A failure that the user can fix: `mistakes` has a sentence for each thing that is wrong, `str()` all of them.
-
-    Parameters
-    ----------
-    mistakes
-        The sentence, or several of them.
-    """
+    """A failure that the user can fix: `mistakes` has a sentence for each thing that is wrong, `str()` all of them."""
 
     exit_code: int = 1
     """What the command line returns for it."""

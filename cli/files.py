@@ -15,7 +15,6 @@ _MAGIC: Final = {
     b"\x1f\x8b": "a compressed file (gzip)",
 }
 """How files begin that no text does."""
-
 _ENDINGS: Final = {
     ".toml": "a study (TOML)",
     ".csv": "a table (CSV)",
@@ -26,13 +25,7 @@ _ENDINGS: Final = {
 
 
 def read_at_most(path: Path, most: int) -> bytes:
-    """Read a file of at most so many bytes, and nothing else: a device has no end, and a pipe may never begin.
-
-    Raises
-    ------
-    OSError
-        It cannot be read, is no file, or is larger.
-    """
+    """Read a file of at most so many bytes (OSError), and no device or pipe, which may have no end or beginning."""
     handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0))  # Windows has no such flag
     with os.fdopen(handle, "rb") as file:
         found = os.fstat(handle)

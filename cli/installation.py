@@ -10,12 +10,7 @@ from gradhesion.cli.errors import MissingExtraError, SetupError
 
 
 def unmet() -> list[tuple[str, str, str]]:
-    """List the requirements that the installed packages do not meet: of this package, and of those that it needs.
-
-    Returns
-    -------
-    For each what needs it, what is needed ("bokeh>=3.6"), and the version that is installed, "" if there is none.
-    """
+    """List what the installed packages lack: what needs it, what it needs ("bokeh>=3.6"), the version there or ""."""
     from importlib.metadata import PackageNotFoundError, requires, version  # noqa: PLC0415 (10 ms)
 
     from packaging.requirements import Requirement  # noqa: PLC0415
@@ -70,19 +65,13 @@ def checked() -> Iterator[None]:
 
 
 def refuse_without_threads() -> None:
-    """Make sure that the compiler may have a thread: numba fails at its import otherwise, or prints a traceback.
+    """Make sure that the compiler may have a thread (SetupError): numba fails at its import otherwise.
 
     An empty number is that of a shell variable which is not set; it is removed.
-
-    Raises
-    ------
-    SetupError
-        The environment says that it may not.
     """
     number = os.environ.get("NUMBA_NUM_THREADS", "").strip()
     if not number:
         os.environ.pop("NUMBA_NUM_THREADS", None)
     elif not number.isdecimal() or int(number) < 1:
-        raise SetupError(
-            f"NUMBA_NUM_THREADS = {number}: the number of threads is a whole number from 1 on; change it, or unset it"
-        )
+        remedy = "the number of threads is a whole number from 1 on; change it, or unset it"
+        raise SetupError(f"NUMBA_NUM_THREADS = {number}: {remedy}")

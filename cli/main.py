@@ -10,19 +10,13 @@ from typing import Any, Final, NoReturn
 
 import click
 
-from gradhesion.cli.commands.explore import explore
-from gradhesion.cli.commands.info import info
 from gradhesion.cli.commands.init import init
-from gradhesion.cli.commands.merge import merge
-from gradhesion.cli.commands.plan import plan
-from gradhesion.cli.commands.plot import plot
+from gradhesion.cli.commands.plan import plan, validate
 from gradhesion.cli.commands.profile import profile
+from gradhesion.cli.commands.results import explore, info, plot, select, verify
 from gradhesion.cli.commands.run import run
-from gradhesion.cli.commands.select import select
 from gradhesion.cli.commands.setup import completion, schema, warmup
-from gradhesion.cli.commands.status import status
-from gradhesion.cli.commands.validate import validate
-from gradhesion.cli.commands.verify import verify
+from gradhesion.cli.commands.status import merge, status
 from gradhesion.cli.errors import GradhesionError, OutputError
 from gradhesion.cli.installation import misfit, refuse_without_threads
 from gradhesion.cli.terminal import interrupts, messages
@@ -37,10 +31,8 @@ SECTIONS: Final = {
     "Results": (info, plot, explore, select, verify, merge),
 }
 """The commands of a user, in the order of the work."""
-
 SET_UP: Final = (warmup, completion, schema)
 """Commands for an installation, a shell and an editor, each needed once if at all: they have one line together."""
-
 EXITS: Final = (
     "0 success, 2 wrong command, study or dataset, 3 failed or doubtful scenes, 4 the output cannot be written, "
     f"{INTERRUPTED} interrupted, {UNHEARD} the reader of the output has closed it"
@@ -52,33 +44,21 @@ class Commands(click.Group):
     """The commands in sections, and the exit codes after them; what a user can fix is printed without a traceback."""
 
     def invoke(self, context: click.Context) -> Any:
-        """Run a command."""
+        """Run a command, which may compile unless its help is asked for."""
         try:
+            if not {"-h", "--help"} & {*context.args}:
+                refuse_without_threads()
             return super().invoke(context)
         except GradhesionError as error:
             raise messages.Failure(error) from error
-
-    def resolve_command(
-        self, context: click.Context, args: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Find the command, and make sure that it may compile."""
-        name, command, rest = super().resolve_command(context, args)
-        if name is not None and not {"-h", "--help"} & {*rest}:
-            refuse_without_threads()
-        return name, command, rest
-
-    def list_commands(self, _context: click.Context) -> list[str]:
-        """List the commands in the order of the work."""
-        return list(self.commands)
 
     def format_commands(self, _context: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the sections, and in short what stands beside them: help fits a screen."""
         width = len("Exit codes:") - 2
         for words, commands in SECTIONS.items():
             with formatter.section(words):
-                formatter.write_dl(
-                    [(f"{one.name:{width}}", one.get_short_help_str(formatter.width)) for one in commands]
-                )
+                rows = [(f"{one.name:{width}}", one.get_short_help_str(formatter.width)) for one in commands]
+                formatter.write_dl(rows)
         formatter.write_paragraph()
         formatter.write_dl([("Set up:", ", ".join(str(one.name) for one in SET_UP)), ("Exit codes:", EXITS)])
 

@@ -1,25 +1,45 @@
-"""`gradhesion plan`: what a run would do and cost; nothing is written."""
+"""`gradhesion validate` and `plan`: whether a study is valid, and what a run of it would do and cost."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from gradhesion.cli.commands import shared
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted, duration
-from gradhesion.cli.terminal.messages import show, show_block
+from gradhesion.cli.terminal.messages import say, show
 
-if TYPE_CHECKING:
+
+@click.command(epilog=shared.example("validate study.toml", "validate study.toml --set parameters.A=0.02"))
+@click.argument("study", type=shared.A_PATH)
+@shared.overriding
+def validate(study: Path, overrides: tuple[str, ...]) -> None:
+    """Check a study and report every error.
+
+    STUDY is a TOML file. Each error is printed with its line and a suggested fix. Nothing is computed.
+    """
     from gradhesion.cli.study.fit.study import FitStudy
+    from gradhesion.cli.study.reading import load_any
+
+    requested = load_any(study, overrides)
+    if isinstance(requested, FitStudy):
+        show(f"{study}: valid; a fit of {requested.in_words}; fitted: {', '.join(requested.parameters)}")
+        say(*requested.notes)
+        return
+    axes = ", ".join(f"{name} ({size:,})" for name, size in requested.sizes.items()) or "none"
+    outputs = ", ".join(requested.outputs or requested.variables)
+    kind = f"{'an' if requested.kind[0] in 'aeiou' else 'a'} {requested.kind}"
+    scenes = counted(requested.scenes, "scene")
+    show(f"{study}: valid; {kind} of {scenes}; axes: {axes}; outputs: {outputs}")
 
 
 @click.command(epilog=shared.example("plan study.toml"))
 @click.argument("study", type=shared.A_PATH)
 @click.option("-o", "--output", type=shared.A_PATH, help="Output of the run.")
 @shared.overriding
-@click.option("--threads", type=click.IntRange(min=1), help="Threads of the run [all available to the process].")
+@shared.threading
 @shared.as_json
 @shared.given_up("--chunk", "the size of blocks is chosen by itself")
 def plan(study: Path, output: Path | None, overrides: tuple[str, ...], threads: int | None, as_json: bool) -> None:
@@ -36,42 +56,33 @@ def plan(study: Path, output: Path | None, overrides: tuple[str, ...], threads: 
     loaded = load_any(study, overrides)
     path = output or Path("outputs") / f"{loaded.name}.nc"
     if isinstance(loaded, FitStudy):
-        found, lines = _of_fit(loaded, path), _fit_in_words(loaded, path)
+        found = {
+            "output": str(path),
+            "output_exists": path.exists(),
+            "kind": loaded.kind,
+            "points": sum(loop.points for loop in loaded.loops),
+            "cycles": sum(loop.cycles for loop in loaded.loops),
+            "loops": len(loaded.loops),
+            "parameters": list(loaded.parameters),
+            "starts": loaded.starts,
+        }
+        lines: Iterable[str] = [
+            f"output    {path} ({_state(exists=path.exists())})",
+            f"points    {loaded.in_words}",
+            f"fitted    {', '.join(loaded.parameters)}; from at most {counted(loaded.starts, 'start')}",
+            *(f"note      {note}" for note in loaded.notes),
+        ]
     else:
         if loaded.kind == "map":  # of which some scenes are solved
             prepare(loaded)
         found = estimate(loaded, path, threads)
-        lines = _run_in_words(found)
+        lines = _in_words(found)
     if as_json:
-        show_block(json.dumps(found, indent=2))
-    else:
-        for line in lines:
-            show(line)
+        lines = json.dumps(found, indent=2).splitlines()
+    show(*lines)
 
 
-def _of_fit(study: "FitStudy", output: Path) -> dict[str, Any]:
-    """List what a fit would do."""
-    return {
-        "output": str(output),
-        "output_exists": output.exists(),
-        "kind": study.kind,
-        "points": sum(loop.points for loop in study.loops),
-        "cycles": sum(loop.cycles for loop in study.loops),
-        "loops": len(study.loops),
-        "parameters": list(study.parameters),
-        "starts": study.starts,
-    }
-
-
-def _fit_in_words(study: "FitStudy", output: Path) -> Iterator[str]:
-    """Describe the plan of a fit."""
-    yield f"output    {output} ({_state(exists=output.exists())})"
-    yield f"points    {study.in_words}"
-    yield f"fitted    {', '.join(study.parameters)}; from at most {counted(study.starts, 'start')}"
-    yield from (f"note      {note}" for note in study.notes)
-
-
-def _run_in_words(found: dict[str, Any]) -> Iterator[str]:
+def _in_words(found: dict[str, Any]) -> Iterator[str]:
     """Describe the plan of a run."""
     axes = ", ".join(f"{name} ({size:,})" for name, size in found["sizes"].items()) or "none"
     solutions = found["solutions_of_scene"]

@@ -5,7 +5,7 @@ import statistics
 import time
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import click
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from gradhesion.cli.study.fit.study import FitStudy
     from gradhesion.cli.work.solve.fitting import Fit
 
+ENGINES: Final = click.Choice(["threads", "dask"])
 SAID: Final = 20
 """Sentences on the loops of a fit that are printed; `gradhesion info` has all of them."""
 
@@ -42,36 +43,15 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
 @shared.overwriting
 @click.option("--fresh", is_flag=True, help="Discard the finished blocks of an earlier run.")
 @click.option("--shard", metavar="I/N", callback=_shard, help="Compute every N-th block, for `merge`.")
-@click.option(
-    "--engine",
-    type=click.Choice(["threads", "dask"]),
-    default="threads",
-    show_default=True,
-    help="Where blocks are computed: local threads, or a Dask cluster.",
-)
+@click.option("--engine", type=ENGINES, default="threads", show_default=True, help="Local threads, or a Dask cluster.")
 @click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler or its file [a cluster on this machine].")
-@click.option(
-    "--threads",
-    type=click.IntRange(min=1),
-    help="Threads to use [all available to the process]; values do not depend on it.",
-)
+@shared.threading
 @shared.quietly
 @shared.given_up("--dry-run", "use `gradhesion plan`")
 @shared.given_up("--chunk", "the size of blocks is chosen by itself")
 @shared.given_up("--fail-fast", "run fewer scenes first, and `gradhesion info` reports which have failed, and why")
 @shared.given_up("--log-json", "`gradhesion status FILE --json` shows how far a run is")
-def run(
-    study: Path,
-    output: Path | None,
-    overrides: tuple[str, ...],
-    overwrite: bool,
-    fresh: bool,
-    shard: tuple[int, int] | None,
-    engine: str,
-    scheduler: str | None,
-    threads: int | None,
-    quiet: bool,
-) -> None:
+def run(study: Path, output: Path | None, overrides: tuple[str, ...], engine: str, quiet: bool, **how: Any) -> None:
     """Compute a study into a dataset (NetCDF).
 
     STUDY is a TOML file. Interrupted runs resume where they stopped: give the same command again.
@@ -81,6 +61,7 @@ def run(
     from gradhesion.cli.study.reading import load_any
     from gradhesion.cli.work.compiling import prepare
 
+    scheduler, shard, fresh, threads = how.pop("scheduler"), how["shard"], how["fresh"], how["threads"]
     if scheduler is not None and (engine != "dask" or threads is not None):
         raise click.UsageError("--scheduler needs --engine dask, without --threads: its workers have their own")
     if shard is not None and fresh:
@@ -90,7 +71,7 @@ def run(
     if isinstance(loaded, FitStudy):
         if shard is not None or fresh or engine != "threads":
             raise click.UsageError("a fit has no blocks of scenes; run it without --shard, --fresh and --engine")
-        _run_fit(loaded, path, overwrite=overwrite, quiet=quiet)
+        _run_fit(loaded, path, overwrite=how["overwrite"], quiet=quiet)
         return
     if shard is not None and not loaded.has_parts:
         raise click.UsageError("--shard: the study has one block only, and needs no shards; run it without --shard")
@@ -98,33 +79,22 @@ def run(
         prepare(loaded)
     solver = None  # this process
     if engine == "dask":
-        from gradhesion.cli.work.cluster import on_cluster, require_dask
+        from gradhesion.cli.work.cluster import on_cluster
 
-        require_dask()
-        if loaded.has_parts:
-            solver = on_cluster(scheduler, threads, quiet=quiet)
-        elif not quiet:
-            messages.say("the study has one block or consists of curves, and is solved in this process")
+        solver = on_cluster(scheduler, threads, quiet=quiet)
+        if not loaded.has_parts:
+            solver = None
+            if not quiet:
+                messages.say("the study has one block or consists of curves, and is solved in this process")
     start = time.monotonic()
     with progress(loaded.scenes // (shard[1] if shard else 1), quiet=quiet) as advance:
-        done = write(
-            loaded,
-            path,
-            history=shared.history_now(),
-            overwrite=overwrite,
-            fresh=fresh,
-            shard=shard,
-            threads=threads,
-            engine=solver,
-            advance=advance,
-        )
+        done = write(loaded, path, history=shared.history_now(), engine=solver, advance=advance, **how)
     if shard is None:
         finish(path, loaded.scenes, done, time.monotonic() - start, quiet=quiet)
     elif not quiet:
-        messages.say(
-            f"{path}.parts: shard {shard[0]} of {shard[1]}: reused {counted(done.reused, 'block')}, computed "
-            f"{done.computed:,}; `gradhesion merge {path}` joins them when all shards are done"
-        )
+        did = f"reused {counted(done.reused, 'block')}, computed {done.computed:,}"
+        end = f"`gradhesion merge {path}` joins them when all shards are done"
+        messages.say(f"{path}.parts: shard {shard[0]} of {shard[1]}: {did}; {end}")
 
 
 def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet: bool) -> None:
@@ -134,12 +104,10 @@ def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet
         reused = f"; reused {counted(written.reused, 'block')}, computed {written.computed:,}" if written.reused else ""
         took = f"{count} in {seconds:.2f} s ({rate(scenes, seconds)} per s), {size}{reused}"
         messages.say(f"{path}: {f'{count}, {size}, were complete already' if written.complete else took}")
-        for sentence in written.cautions:
-            messages.say(f"{path}: {sentence}")
+        messages.say(*(f"{path}: {sentence}" for sentence in written.cautions))
     if written.failed:
-        raise DoubtfulError(
-            f"{path}: {written.failed:,} of {counted(scenes, 'scene')} failed; `gradhesion info {path}` reports why"
-        )
+        failed = f"{written.failed:,} of {counted(scenes, 'scene')} failed"
+        raise DoubtfulError(f"{path}: {failed}; `gradhesion info {path}` reports why")
 
 
 def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> None:
@@ -147,30 +115,30 @@ def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> 
     from gradhesion.cli.dataset.fits import cautions_of_fit, dataset_of, refuse_size
     from gradhesion.cli.dataset.select import write_dataset
     from gradhesion.cli.disk import refuse_existing
+    from gradhesion.cli.words.fit_words import doubts_of
     from gradhesion.cli.work.compiling import prepare
-    from gradhesion.cli.work.solve.fitting import doubts_of, fits_of
+    from gradhesion.cli.work.solve.fitting import fits_of
 
     refuse_existing(path, overwrite=overwrite)
     refuse_size(study)
-    for note in () if quiet else _first(study.notes):
-        messages.say(note)
+    messages.say(*_first(() if quiet else study.notes))
     prepare()
     start = time.monotonic()
     with progress(len(study.loops), quiet=quiet or len(study.loops) == 1, noun="loop") as advance:
         fits = fits_of(study, advance)
     seconds = time.monotonic() - start
-    write_dataset(dataset_of(study, fits, shared.history_now()), path, overwrite=overwrite)
+    dataset = dataset_of(study, fits, shared.history_now())
+    write_dataset(dataset, path, overwrite=overwrite)
 
-    about = {fit.loop.file: path if study.is_of_one else f"{path}: {fit.loop.file}" for fit in fits}
+    about = [f"{path}" if study.is_of_one else f"{path}: {fit.loop.file}" for fit in fits]
     if not quiet:
         took = f"fitted in {seconds:.1f} s, {bytes_in_words(path.stat().st_size)}"
         messages.say(f"{path}: {_done(study, fits, took)}")
-        said = [(fit.loop.file, one) for fit in fits if fit.found for one in cautions_of_fit(study, fit.found)]
-        for sentence in _first([f"{about[file]}: {one}" for file, one in said]):
-            messages.say(sentence)
-    doubts = [(fit.loop.file, one) for fit in fits for one in (doubts_of(fit.found) if fit.found else [fit.problem])]
-    if doubts:
-        raise DoubtfulError(_first([f"{about[file]}: {one}" for file, one in doubts]))
+        known = [(one, fit.found) for one, fit in zip(about, fits, strict=True) if fit.found]
+        messages.say(*_first([f"{one}: {said}" for one, found in known for said in cautions_of_fit(study, found)]))
+    rows = [dataset] if study.is_of_one else [dataset.isel(loop=i) for i in range(len(fits))]
+    if doubts := [f"{one}: {said}" for one, row in zip(about, rows, strict=True) for said in doubts_of(row)]:
+        raise DoubtfulError(_first(doubts))
 
 
 def _done(study: "FitStudy", fits: Sequence["Fit"], took: str) -> str:

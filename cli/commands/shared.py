@@ -16,20 +16,14 @@ from gradhesion.cli.terminal.amounts import bytes_in_words
 OF_DATASETS: Final = (".nc", ".nc4", ".cdf", ".netcdf")
 OF_PICTURES: Final = (".png", ".svg", ".pdf")
 """How the names of files end."""
-
 A_PATH: Final = click.Path(path_type=Path)
-overriding = click.option(
-    "--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a key of the study; repeatable."
-)
+overriding = click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a key; repeatable.")
 overwriting = click.option("--overwrite", is_flag=True, help="Replace an existing file.")
+threading = click.option("--threads", type=click.IntRange(min=1), help="Threads [all]; values do not depend on them.")
 quietly = click.option("--quiet", is_flag=True, help="Print errors only.")
 as_json = click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
-choosing = click.option(
-    "--at",
-    multiple=True,
-    metavar="AXIS=VALUE",
-    help="Fix an axis at its nearest value, or cut it: A=0.01:0.05; repeatable.",
-)
+AT: Final = "Fix an axis at its nearest value, or cut it: A=0.01:0.05; repeatable."
+choosing = click.option("--at", multiple=True, metavar="AXIS=VALUE", help=AT)
 
 
 def example(*calls: str) -> str:
@@ -90,6 +84,4 @@ def history_now() -> str:
 
 def say_written(path: Path, notes: Iterable[str] = ()) -> None:
     """Say that a file was written, and what is to be known of it."""
-    for note in notes:
-        messages.say(note)
-    messages.say(f"{path}: written, {bytes_in_words(path.stat().st_size)}")
+    messages.say(*notes, f"{path}: written, {bytes_in_words(path.stat().st_size)}")

@@ -1,21 +1,30 @@
-"""`gradhesion status`: how far a run is, from another shell."""
+"""`gradhesion status` and `merge`: how far a run is, and the blocks that shards have computed, or datasets, joined."""
 
 import json
+import os
 import time
+from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from gradhesion.cli.commands.shared import A_PATH, as_json, example
+from gradhesion.cli.commands import shared
+from gradhesion.cli.commands.run import finish
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted, duration
-from gradhesion.cli.terminal.messages import show, show_block
+from gradhesion.cli.terminal.messages import say, show, show_block
+from gradhesion.cli.terminal.progress import progress
+
+if TYPE_CHECKING:
+    from gradhesion.cli.dataset.writer import Written
+    from gradhesion.cli.study.study import Study
 
 
-@click.command(epilog=example("status outputs/study.nc"))
-@click.argument("file", type=A_PATH)
-@as_json
+@click.command(epilog=shared.example("status outputs/study.nc"))
+@click.argument("file", type=shared.A_PATH)
+@shared.as_json
 def status(file: Path, as_json: bool) -> None:
     """Show the progress of a run.
 
@@ -31,9 +40,7 @@ def status(file: Path, as_json: bool) -> None:
         left = found["seconds_left"]
         end = f"; about {duration(left)} left" if left is not None else ""
         if found["state"] == "stopped":
-            whole = found["kept"] == found["blocks"] > 0
-            end = "; `gradhesion merge` joins shards, and" if whole else ";"
-            end += " the same command resumes"
+            end = "; the same command resumes, and `gradhesion merge` joins shards when all are done"
         kept = f"{found['kept']:,} of {counted(found['blocks'], 'block')} ({found['scenes']:,} scenes) are kept"
         show(f"{file}: {found['state']}; {kept}{end}")
 
@@ -65,3 +72,75 @@ def status_of(file: Path) -> dict[str, Any]:
     except (OSError, RuntimeError, AttributeError, UnicodeError) as error:
         raise DatasetError(f"{file}: is neither a whole dataset nor one that a run is writing ({error})") from None
     return {"output": str(file), "state": "complete", "bytes": found.st_size, "written": found.st_mtime}
+
+
+@click.command(epilog=shared.example("merge big.nc", "merge first.nc second.nc -o all.nc"))
+@click.argument("files", nargs=-1, required=True, type=shared.A_PATH)
+@shared.dataset_to_write("Dataset to write, if several are joined.")
+@shared.overwriting
+@shared.quietly
+@shared.given_up("--chunk", "the size of blocks is chosen by itself")
+@shared.given_up("--log-json", "`gradhesion status FILE --json` shows how far a run is")
+def merge(files: tuple[Path, ...], output: Path | None, overwrite: bool, quiet: bool) -> None:
+    """Join the blocks of shards, or datasets.
+
+    With one FILE, join the blocks left by `gradhesion run STUDY.toml --shard I/N -o FILE`. With several FILES and -o,
+    join maps or optima whose studies differ along axes; the result has the values of all, and none may be missing.
+    """
+    from gradhesion.cli.dataset.writer import only_kept, write
+
+    start = time.monotonic()
+    if output is not None and len(files) > 1:
+        if len({*files}) < len(files):
+            raise click.UsageError("the same dataset is named twice; name each once")
+        study, written = _joined(files, output, overwrite=overwrite)
+        finish(output, study.scenes, written, time.monotonic() - start, quiet=quiet)
+    elif output is not None or len(files) > 1:
+        raise click.UsageError("several datasets need an output, named with -o; the blocks of shards of one need none")
+    elif (shards := _of_shards(files[0])) is None:
+        say(f"{files[0]}: was complete already")
+    else:
+        settings: dict[str, Any] = {"history": shared.history_now(), "overwrite": overwrite}
+        with progress(shards.scenes, quiet=quiet) as advance:
+            written = write(shards, files[0], **settings, engine=partial(only_kept, files[0]), advance=advance)
+        finish(files[0], shards.scenes, written, time.monotonic() - start, quiet=quiet)
+
+
+def _of_shards(file: Path) -> "Study | None":
+    """Give the study of the blocks of shards; None if they are joined already."""
+    from gradhesion.cli.work.folder import claimed, folder_of, study_in
+
+    folder = folder_of(file)
+    study = study_in(folder)
+    if study is None and not os.path.isfile(file):  # noqa: PTH113 (that of pathlib raises where a name is too long)
+        raise DatasetError(f"{file}: has no blocks to join; compute them first, with `gradhesion run --shard`")
+    if study is None:
+        status_of(file)  # which refuses what is no dataset
+        if folder.is_dir():  # of a merge that was killed when it was done
+            with claimed(file):
+                pass
+    return study
+
+
+def _joined(files: tuple[Path, ...], output: Path, *, overwrite: bool) -> "tuple[Study, Written]":
+    """Join datasets along the axes in which they differ."""
+    import numpy as np
+
+    from gradhesion.cli.dataset.dataset import cautions, flagged_in
+    from gradhesion.cli.dataset.joining import joined
+    from gradhesion.cli.dataset.read.reader import opened
+    from gradhesion.cli.dataset.select import write_dataset
+    from gradhesion.cli.dataset.writer import Written
+    from gradhesion.cli.disk import refuse_existing
+    from gradhesion.cli.names.scenes import STEEP
+    from gradhesion.core import FAILED
+
+    refuse_existing(output, overwrite=overwrite)
+    with ExitStack() as stack:
+        sources = {file: stack.enter_context(opened(file)) for file in files}
+        history = "\n".join([*(str(source.attrs["history"]) for source in sources.values()), shared.history_now()])
+        study, dataset = joined(sources, history)
+        write_dataset(dataset, output, overwrite=overwrite)
+    status, steep = dataset["status"].values, int(dataset[STEEP].sum()) if STEEP in dataset else 0
+    failed = int(np.count_nonzero(status & FAILED))
+    return study, Written(failed=failed, cautions=tuple(cautions(study, flagged_in(status), steep)))

@@ -1,29 +1,51 @@
-"""A study's dataset in memory, as xarray reads that which a run writes."""
+"""A study's dataset in memory, as xarray reads that which a run writes; its attributes, and what to know of it."""
 
+import math
 import platform
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from importlib.metadata import version
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.cautions import cautions, flagged_in
 from gradhesion.cli.dataset.describe import steep_contact, variables
+from gradhesion.cli.dataset.read.model_range import STEEPEST, steepness
 from gradhesion.cli.names.curves import INTEGERS, is_ragged
 from gradhesion.cli.names.scenes import REFERENCES, STEEP
 from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.study.shape_words import profile_table, rate_in_words, shape_in_words, toughness_in_words
 from gradhesion.cli.study.study import Study
+from gradhesion.cli.study.tiling import Tiling
 from gradhesion.cli.terminal import messages
+from gradhesion.cli.terminal.amounts import counted, percent
 from gradhesion.cli.work.compiling import prepare
 from gradhesion.cli.work.solve.blocks import in_threads, within
-from gradhesion.cli.work.solve.curves import blank_of
-from gradhesion.cli.work.solve.scenes import Arrays
+from gradhesion.cli.work.solve.scenes import Arrays, blank_of
+from gradhesion.core.answers.flags import ANSWER_FLAGS
+from gradhesion.core.closed.reach import SMALL, depends_on_contact
+from gradhesion.core.problem.profile import rows_of
+from gradhesion.core.problem.status import FLAGS
 
 if TYPE_CHECKING:
     import xarray
+
+
+CONE: Final = "the punch is a cone of slope 1, which is not small, at every contact radius of {}"
+"""What is said once of a study of a cone."""
+_MANY: Final = 0.1
+"""The share of scenes from which on it is said that they are not one disc."""
+_NOT_ONE_DISC: Final = "loading_contact_not_one_disc"
+_SAID: Final = {
+    "steep": f"contact reaches slopes above {SMALL:g} (a > R) in {{share}}: not small; bound a_max or indentation_max",
+    "waves": f"the waves have slopes above {STEEPEST:g} in {{share}}, which are not small; lower A",
+    _NOT_ONE_DISC: "contact on loading is not one disc in {share}, and its values doubtful; lower A (johnson_alpha)",
+    "resolution_too_coarse": "a finer sweep finds another optimum in {share}; raise optimum.resolution ({resolution})",
+    "nothing_feasible": "no point meets the requirements in {share}; require less, or widen the bounds",
+    "linear_deviation_off": "the linear deviation is off in {share}: the value bends; set uncertainty.samples = 1024",
+}
+"""What is said of a share of the scenes, most of it by the flag."""
 
 
 def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
@@ -46,8 +68,8 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
     """
     prepare(study)
     found = _joined(study, in_threads(study, range(len(study.tiling)), threads))
-    for sentence in cautions(study, flagged_in(found["status"]), int(np.count_nonzero(found.get(STEEP, 0)))):
-        messages.say(f"{study.name}: {sentence}")
+    steep = int(np.count_nonzero(found.get(STEEP, 0)))
+    messages.say(*(f"{study.name}: {sentence}" for sentence in cautions(study, flagged_in(found["status"]), steep)))
     return assembled(study, found, "computed in memory")
 
 
@@ -130,3 +152,38 @@ def _versions() -> Mapping[str, str]:
     """List the versions of what the values come from, which are read once: that takes a millisecond each."""
     packages = {f"{package}_version": version(package) for package in ("gradhesion", "numpy", "numba", "scipy")}
     return {"python_version": platform.python_version(), **packages}
+
+
+def flagged_in(status: NDArray[np.integer]) -> dict[str, int]:
+    """Count the cells that have each flag that there is something to say of."""
+    flags = ANSWER_FLAGS | {_NOT_ONE_DISC: FLAGS[_NOT_ONE_DISC]}
+    return {name: int(np.count_nonzero(status.astype(np.int16) & bit)) for name, bit in flags.items()}
+
+
+def cautions(study: Study, flagged: Mapping[str, int], steep: int = 0) -> Iterator[str]:
+    """Say of each flag in what share of the cells it is set, and what to do; and how many contacts are `steep`."""
+    if study.is_cone and depends_on_contact(study.solved):
+        yield CONE.format(f"all of {counted(study.scenes, 'scene')}")
+        steep = 0
+    counts = {"steep": steep, "waves": _steep_waves(study), **flagged}
+    if counts.get(_NOT_ONE_DISC, 0) < _MANY * study.scenes:
+        counts[_NOT_ONE_DISC] = 0
+    for name, sentence in _SAID.items():
+        if count := counts.get(name):
+            share = f"{count:,} of {counted(study.scenes, 'scene')} ({percent(count, study.scenes)})"
+            yield sentence.format(share=share, resolution=study.search.resolution)
+
+
+def _steep_waves(study: Study) -> int:
+    """Count the scenes whose waves are steep; 0 where the study asks for their slope itself, or searches A."""
+    amplitude = variables(study).get("A")
+    if amplitude is None or "wave_slope" in study.variables:
+        return 0
+    _, _, profiles = study.apart(tuple(slice(0, size) for size in study.shape))
+    slopes = [steepness(rows_of(profile)) for profile in profiles]
+    sizes = [study.axes[axis] for axis in amplitude.dimensions]
+    steep = 0
+    for block in Tiling(tuple(sizes)):
+        values = amplitude.made(block) if amplitude.made else np.asarray(amplitude.values)[block]
+        steep += sum(int(np.count_nonzero(values * slope > STEEPEST)) for slope in slopes)
+    return steep * study.scenes // (math.prod(sizes) * len(slopes))

@@ -1,33 +1,20 @@
 """The variables of a study's dataset by CF-1.11: dimensions, types and attributes, and where coordinates come from."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import partial
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.names.curves import (
-    CURVES,
-    EXTENTS,
-    INTEGERS,
-    MEANINGS,
-    NAMED_STATES,
-    RAGGED,
-    STATE,
-    extent_of,
-    is_of_a_state,
-    is_ragged,
-)
+from gradhesion.cli.names import curves
 from gradhesion.cli.names.outputs import BEST, OF_PHYSICAL, ON_BOUND, OUTPUTS, PARETO_POINT, SI, SPREADS, labels_of
-from gradhesion.cli.names.scenes import IDLE, REALISATION, REALISATIONS, SOLVER, SOLVERS, STATUS, STEEP_CONTACT
+from gradhesion.cli.names.scenes import IDLE, REALISATION, SOLVER, SOLVERS, STATUS, STEEP_CONTACT
 from gradhesion.cli.names.units import unit_of
 from gradhesion.cli.study.files import COMMENT
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of
-from gradhesion.cli.work.solve.curves import blank_of
-from gradhesion.cli.work.solve.scenes import scenes_from
+from gradhesion.cli.work.solve.scenes import blank_of, scenes_from
 from gradhesion.core import FLAGS
 from gradhesion.core.answers.flags import FLAGS as ALL_FLAGS
 from gradhesion.core.problem.inputs import INPUTS, REDUCED
@@ -43,8 +30,7 @@ RMS: Final = {
 """What the amplitude is of random roughness."""
 
 
-@dataclass(frozen=True)
-class Variable:
+class Variable(NamedTuple):
     """A variable of a dataset; a coordinate knows its values, an output gets them block by block."""
 
     dimensions: tuple[str, ...]
@@ -60,7 +46,7 @@ class Variable:
 def variables(study: Study) -> dict[str, Variable]:
     """Describe the variables of a study's dataset, coordinates first."""
     found = _labels(study) | _parameters(study)
-    apart = (*study.sizes, *study.labels, STATE)
+    apart = (*study.sizes, *study.labels, curves.STATE)
     beside = " ".join(name for name in found if name not in apart)
     outputs = {name: _output(study, name) for name in study.variables}
     own = ALL_FLAGS if study.has_answers else FLAGS if study.turn == TURNS[0] else OF_EVERY_MAP
@@ -69,7 +55,7 @@ def variables(study: Study) -> dict[str, Variable]:
     attributes = {"units": "1", "long_name": STATUS} | flags_of(flags, study.status_type)
     outputs["status"] = Variable(tuple(study.sizes), study.status_type, attributes)
     for name, variable in outputs.items():
-        if beside and not is_ragged(name):
+        if beside and not curves.is_ragged(name):
             variable.attributes["coordinates"] = beside
     return found | outputs
 
@@ -88,27 +74,20 @@ def steep_contact(study: Study) -> Variable | None:
     return Variable(tuple(study.sizes), "i1", attributes)
 
 
-def _following(study: Study, name: str) -> tuple[str, ...]:
-    """Name the axes along which a parameter varies that is not given but made from others."""
-    from gradhesion.core.closed.reduced import sources_of  # noqa: PLC0415 (300 ms for SciPy)
-
-    sources = sources_of(name, dict.fromkeys(study.given))
-    return tuple(axis for axis in study.axes if axis in sources or study.layout == "points")
-
-
 def _labels(study: Study) -> dict[str, Variable]:
     """Describe the coordinates that are no parameters: solvers, realisations, states, and what sensitivities are to."""
     found = {}
     if SOLVER in study.sizes:
         found[SOLVER] = _words(SOLVER, study.method.solver, SOLVERS)
     if study.spectrum is not None:
+        about = {"units": "1", "long_name": "realisation of the random roughness"}
         numbers = np.arange(study.spectrum.realisations, dtype=np.int32)
-        found[REALISATION] = Variable((REALISATION,), "i4", {"units": "1", "long_name": REALISATIONS}, numbers)
+        found[REALISATION] = Variable((REALISATION,), "i4", about, numbers)
     if study.states:
         about = {"units": "1", "long_name": "contact radius a/R of a state of equilibrium"}
-        found[STATE] = Variable((STATE,), "f8", about, np.array(study.states))
-    elif any(is_of_a_state(name) for name in study.outputs):
-        found[STATE] = _words(STATE, NAMED_STATES, "state of a loading cycle")
+        found[curves.STATE] = Variable((curves.STATE,), "f8", about, np.array(study.states))
+    elif any(curves.curve_of(name) in curves.STATE_CURVES for name in study.outputs):
+        found[curves.STATE] = _words(curves.STATE, curves.NAMED_STATES, "state of a loading cycle")
     return found | {name: _words(name, own, "parameter of the sensitivity") for name, own in study.labels.items()}
 
 
@@ -135,7 +114,10 @@ def _parameters(study: Study) -> dict[str, Variable]:
                 own, values = axes, np.broadcast_to(values, tuple(study.axes.values()))
             found[name] = Variable(own, "f8", attributes, values)
         elif name in study.made:
-            own = _following(study, name)
+            from gradhesion.core.closed.reduced import sources_of  # noqa: PLC0415 (300 ms for SciPy)
+
+            sources = sources_of(name, dict.fromkeys(study.given))
+            own = tuple(axis for axis in axes if axis in sources or study.layout == "points")
             blank = np.nan if REDUCED.keys() & study.parameters.keys() else None  # where there is no a_2
             found[name] = Variable(own, "f8", attributes, made=partial(_made, study, name, own), blank=blank)
     return found
@@ -152,15 +134,7 @@ def _made(study: Study, name: str, own: tuple[str, ...], block: Block) -> NDArra
 def _output(study: Study, name: str) -> Variable:
     """Describe a result, perhaps in SI units."""
     plain = name.removesuffix(SI)
-    if study.kind == "curve":
-        found = _of_curve(study, plain)
-    elif plain == ON_BOUND:
-        ends = [f"{one}_at_its_{end}_bound" for one in study.searched for end in ("lower", "upper")]
-        attributes: dict[str, Any] = {"units": "1", "long_name": "bounds at which the optimum lies (0: none)"}
-        attributes |= flags_of({end: 1 << i for i, end in enumerate(ends)}, "i1")
-        found = Variable(tuple(study.sizes), "i1", attributes)
-    else:
-        found = _of_scenes(study, plain)
+    found = _of_curve(study, plain) if study.kind == "curve" else _of_scenes(study, plain)
     if plain != name:
         unit = unit_of(name)
         found.attributes.update(units=unit, long_name=without_scale(found.attributes["long_name"], unit))
@@ -169,6 +143,11 @@ def _output(study: Study, name: str) -> Variable:
 
 def _of_scenes(study: Study, name: str) -> Variable:
     """Describe a value of each scene of a map, or of each optimum."""
+    if name == ON_BOUND:
+        ends = [f"{one}_at_its_{end}_bound" for one in study.searched for end in ("lower", "upper")]
+        about: dict[str, Any] = {"units": "1", "long_name": "bounds at which the optimum lies (0: none)"}
+        about |= flags_of({end: 1 << i for i, end in enumerate(ends)}, "i1")
+        return Variable(tuple(study.sizes), "i1", about)
     attributes = {"units": "1", "ancillary_variables": "status", "long_name": _long_name(study, name)}
     if name.endswith("_std"):
         sampled = bool(study.uncertainty.samples)
@@ -199,16 +178,18 @@ def _long_name(study: Study, name: str) -> str:
 
 def _of_curve(study: Study, name: str) -> Variable:
     """Describe a variable of a curve, along a dimension of its own."""
-    scenes, dtype = tuple(study.sizes), INTEGERS.get(name, "f8")
+    scenes, dtype = tuple(study.sizes), curves.INTEGERS.get(name, "f8")
     attributes: dict[str, Any] = {"units": "1", "ancillary_variables": "status"}
-    attributes["long_name"] = next(own[name] for own in CURVES.values() if name in own)
-    if name in MEANINGS:
-        attributes |= {"flag_values": np.array([0, 1], dtype=dtype), "flag_meanings": MEANINGS[name]}
-    if name in RAGGED.values():
-        attributes["sample_dimension"] = next(EXTENTS[one] for one in RAGGED if name in CURVES[one])
+    curve = curves.curve_of(name) or ""
+    extent = curves.EXTENTS[curve]
+    attributes["long_name"] = curves.CURVES[curve][name]
+    if name in curves.MEANINGS:
+        attributes |= {"flag_values": np.array([0, 1], dtype=dtype), "flag_meanings": curves.MEANINGS[name]}
+    if name in curves.RAGGED.values():
+        attributes["sample_dimension"] = extent
         return Variable(scenes, dtype, attributes)
-    if is_ragged(name):
+    if curves.is_ragged(name):
         del attributes["ancillary_variables"]  # `status` has other dimensions
-        return Variable((extent_of(name),), dtype, attributes)
-    states = (STATE,) if is_of_a_state(name) else ()
-    return Variable((*scenes, *states, extent_of(name)), dtype, attributes, blank=blank_of(name))
+        return Variable((extent,), dtype, attributes)
+    states = (curves.STATE,) if curve in curves.STATE_CURVES else ()
+    return Variable((*scenes, *states, extent), dtype, attributes, blank=blank_of(name))

@@ -6,21 +6,11 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.cli.dataset.cautions import CONE
-from gradhesion.cli.dataset.dataset import driven_in_words, origin
+from gradhesion.cli.dataset.dataset import CONE, driven_in_words, origin
 from gradhesion.cli.dataset.describe import flags_of
 from gradhesion.cli.dataset.read.model_range import tabor_warnings
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.names.fits import (
-    FIT,
-    FIT_MORE,
-    FIT_POINTS,
-    FIT_WORDS,
-    LOOP,
-    OTHER_PARAMETER,
-    PARAMETER_UNITS,
-    FitVariable,
-)
+from gradhesion.cli.names import fits as names
 from gradhesion.cli.names.outputs import PARAMETER
 from gradhesion.cli.names.scenes import STEEP, STEEP_CONTACT
 from gradhesion.cli.study.fit.loop_file import fingerprint
@@ -41,13 +31,12 @@ if TYPE_CHECKING:
 
 Row = dict[str, NDArray[Any]]
 """The values of the variables of a fit."""
-
-VARIABLES: Final[Mapping[str, FitVariable]] = {
-    **FIT,
-    **FIT_MORE,
-    **{name: one for own in FIT_POINTS.values() for name, one in own.items()},
-    "status": FitVariable((), "flags of the fitted cycle (0: nothing to report)", "i2"),
-    STEEP: FitVariable((), STEEP_CONTACT, "i1"),
+VARIABLES: Final[Mapping[str, names.FitVariable]] = {
+    **names.FIT,
+    **names.FIT_MORE,
+    **{name: one for own in names.FIT_POINTS.values() for name, one in own.items()},
+    "status": names.FitVariable((), "flags of the fitted cycle (0: nothing to report)", "i2"),
+    STEEP: names.FitVariable((), STEEP_CONTACT, "i1"),
 }
 """Every variable that a fit may have."""
 _BYTES: Final = 45
@@ -69,10 +58,8 @@ def refuse_size(study: FitStudy) -> None:
     """Refuse loops that would take too much memory side by side, before they are fitted (StudyError)."""
     longest = max(loop.depth.size for loop in study.loops)
     if not study.is_of_one and (size := _BYTES * longest * len(study.loops)) > _MOST:
-        raise StudyError(
-            f"{study.file}: {len(study.loops):,} loops side by side, the longest of {longest:,} points, take "
-            f"{bytes_in_words(size)}; write average = true under [fit], or fit them in several studies"
-        )
+        many = f"{len(study.loops):,} loops side by side, of up to {longest:,} points, take {bytes_in_words(size)}"
+        raise StudyError(f"{study.file}: {many}; write average = true under [fit], or fit them in several studies")
 
 
 def dataset_of(study: FitStudy, fits: Sequence[Fit], history: str) -> "xarray.Dataset":
@@ -80,7 +67,7 @@ def dataset_of(study: FitStudy, fits: Sequence[Fit], history: str) -> "xarray.Da
     import xarray  # noqa: PLC0415 (450 ms)
 
     each = [_row_of(study, fit) for fit in fits]
-    rows, along = (each[0], ()) if study.is_of_one else (side_by_side(each), (LOOP,))
+    rows, along = (each[0], ()) if study.is_of_one else (side_by_side(each), (names.LOOP,))
     made = {
         name: xarray.Variable((*along, *VARIABLES[name].dims), values, _attributes_of(study, name))
         for name, values in rows.items()
@@ -90,10 +77,10 @@ def dataset_of(study: FitStudy, fits: Sequence[Fit], history: str) -> "xarray.Da
         return xarray.Variable((dimension,), np.array(items, dtype=object), {"long_name": about})
 
     coordinates = {
-        PARAMETER: words(PARAMETER, study.parameters, "fitted quantity"),
-        OTHER_PARAMETER: words(OTHER_PARAMETER, study.parameters, "fitted quantity"),
-        PARAMETER_UNITS: words(PARAMETER, [*map(unit_of_parameter, study.parameters)], "unit of the fitted quantity"),
+        name: words(name, study.parameters, "fitted quantity") for name in (PARAMETER, names.OTHER_PARAMETER)
     }
+    units = [*map(unit_of_parameter, study.parameters)]
+    coordinates[names.PARAMETER_UNITS] = words(PARAMETER, units, "unit of the fitted quantity")
     if not study.is_of_one:
         own = {
             "file": [fit.loop.file for fit in fits],
@@ -101,7 +88,7 @@ def dataset_of(study: FitStudy, fits: Sequence[Fit], history: str) -> "xarray.Da
             "problem": [fit.problem for fit in fits],
             "alike": ["; ".join(fit.found.alike) if fit.found else "" for fit in fits],
         }
-        coordinates |= {name: words(LOOP, items, FIT_WORDS[name]) for name, items in own.items()}
+        coordinates |= {name: words(names.LOOP, items, names.FIT_WORDS[name]) for name, items in own.items()}
     for name, key in INPUTS.items():
         value = study.adhesion_range if name == "adhesion_range" else study.fixed.get(name)
         if value is not None:
@@ -173,9 +160,10 @@ def _found(study: FitStudy, found: FittedLoop) -> dict[str, ArrayLike]:
     def along(values: Mapping[str, Any]) -> list[Any]:
         return [values[name] for name in found.names]
 
+    same = ("correlation", "chi_square", "reduced_chi_square", "degrees_of_freedom", "converged", "residual")
     path = np.concatenate([found.loading, found.unloading[1:]])
     low, high = zip(*along(found.ranges), strict=True)
-    values: dict[str, ArrayLike] = {
+    values: dict[str, ArrayLike] = {name: getattr(found, name) for name in same} | {
         "value": along(found.values),
         "standard_deviation": along(found.standard_deviations),
         "low": along(found.low),
@@ -183,14 +171,8 @@ def _found(study: FitStudy, found: FittedLoop) -> dict[str, ArrayLike]:
         "low_searched": low,
         "high_searched": high,
         "on_bound": [name in found.on_bound for name in found.names],
-        "correlation": found.correlation,
-        "chi_square": found.chi_square,
-        "reduced_chi_square": found.reduced_chi_square,
-        "degrees_of_freedom": found.degrees_of_freedom,
         "interval_widening": found.widening,
-        "converged": found.converged,
         "tabor_parameter": tabor_of(study, found),
-        "residual": found.residual,
         "fitted_indentation": path[:, 0],
         "fitted_load": path[:, 1],
         "fitted_unloading": np.arange(len(path)) >= len(found.loading),
@@ -225,16 +207,11 @@ def cautions_of_fit(study: FitStudy, found: FittedLoop) -> Iterator[str]:
     if study.profile.exponent == 1.0:
         yield CONE.format("the loop")
     elif is_steep(slopes_of(np.array(found.turning_radius), study.profile)):
-        yield (
-            f"contact reaches a = {found.turning_radius:.3g} R, where the punch has a slope above {SMALL:g}, which is "
-            "not small: the fitted values may be off"
-        )
+        slope = f"contact reaches a = {found.turning_radius:.3g} R, where the punch has a slope above {SMALL:g}"
+        yield f"{slope}, which is not small: the fitted values may be off"
     yield from tabor_warnings(tabor_of(study, found), range_words(study))
     line = found.base_line
     if line and OFFSETS[2] not in found.names and abs(line.slope) > _CLEAR * line.slope_deviation:
-        deviations = abs(line.slope) / line.slope_deviation
-        yield (
-            f"the base line is tilted by {line.slope:.3g} N/m, {deviations:.0f} standard deviations: write "
-            "offsets = { slope = true } under [fit]"
-        )
+        tilt = f"{line.slope:.3g} N/m, {abs(line.slope) / line.slope_deviation:.0f} standard deviations"
+        yield f"the base line is tilted by {tilt}: write offsets = {{ slope = true }} under [fit]"
     yield from found.alike

@@ -17,15 +17,9 @@ from gradhesion.cli.terminal.amounts import counted
 
 
 def selected(dataset: xarray.Dataset, at: Sequence[str] = (), over: Sequence[str] = ()) -> xarray.Dataset:
-    """Take a part of a dataset: axes fixed or cut, as `selection_of` reads it, then axes reduced; of fits one loop.
+    """Take a part of a dataset: axes fixed or cut, as `selection_of` reads it, then reduced; of fits one loop.
 
-    A flag of a reduced scene is that of any of those that it is reduced from. A part without reductions is loaded when
-    it is used.
-
-    Raises
-    ------
-    DatasetError
-        A wish cannot be read or met.
+    A reduced scene has the flags of all that it is reduced from. DatasetError says which wish cannot be met.
     """
     if is_fit(dataset):
         if over or LOOP not in dataset.dims:
@@ -61,22 +55,14 @@ def _reduced(dataset: xarray.Dataset, selection: Selection) -> xarray.Dataset:
 
 
 def one_loop(dataset: xarray.Dataset, choices: Sequence[str]) -> xarray.Dataset:
-    """Take the loop that `loop=FILE` or `loop=NUMBER` (from 0) wishes, without what it is padded with.
-
-    Raises
-    ------
-    DatasetError
-        Something else is wished, there is no such loop, or it has no fit.
-    """
+    """Take the loop that `loop=FILE` or `loop=NUMBER` (from 0) wishes, without its padding (DatasetError)."""
     axis, _, choice = (part.strip() for part in choices[0].partition("="))
     if len(choices) > 1 or axis != LOOP:
         raise DatasetError(f"--at {choices[-1]}: fits of several loops have only the axis {LOOP}; write --at {LOOP}=0")
     files = list(map(str, dataset["file"].values))
     if choice not in files and not (choice.isdecimal() and int(choice) < len(files)):
-        raise DatasetError(
-            f"--at {LOOP}={choice}: there are {counted(len(files), 'loop')}; "
-            f"write a number from 0 to {len(files) - 1}, or the name of a file"
-        )
+        known = f"a number from 0 to {len(files) - 1}, or the name of a file"
+        raise DatasetError(f"--at {LOOP}={choice}: there are {counted(len(files), 'loop')}; write {known}")
     number = files.index(choice) if choice in files else int(choice)
     one = dataset.isel({LOOP: number}).drop_vars([name for name in FIT_WORDS if name in dataset.variables])
     if problem := str(dataset["problem"].values[number]):

@@ -2,16 +2,17 @@
 
 import math
 import random
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
+import pandas as pd
 import xarray
 
-from gradhesion.cli.dataset.belonging import study_of
+from gradhesion.cli.dataset.joining import study_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import SI, labels_of
 from gradhesion.cli.names.scenes import REALISATION, SOLVER
@@ -27,7 +28,6 @@ CANDIDATES: Final = 20
 """Scenes that may be drawn for each one of the sample, where some are left out."""
 ROWS: Final = 12
 """Deviations that are printed one by one."""
-
 Progress = Callable[[int], AbstractContextManager[Callable[[int], None]]]
 
 
@@ -43,8 +43,7 @@ class Scene:
     """Of its punch, and what is prescribed."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Deviation:
+class Deviation(NamedTuple):
     """How far a value is from what it should be; `expected` has 30 digits or says what, both errors are absolute."""
 
     output: str
@@ -84,23 +83,15 @@ class Recomputed:
 
 
 def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | None, progress: Progress) -> Recomputed:
-    """Recompute a random sample of a dataset's scenes.
-
-    Raises
-    ------
-    DatasetError
-        The dataset and its study do not belong together, it is none that can be recomputed, or no scene of it can.
-    """
+    """Recompute a random sample of a dataset's scenes; DatasetError if none can be, or it is not that of its study."""
     study = study_of(dataset, path)
     if dataset["status"].dtype.kind not in "iu":
         raise DatasetError(f"{path}: its status is no integer; give the dataset as it was before `where`")
     solvers = [str(solver) for solver in np.ravel(dataset[SOLVER].values if SOLVER in dataset else study.method.solver)]
     known = tuple(solver for solver in solvers if solver in stated.SOLVERS)
     if not known or study.rate is not None:
-        raise DatasetError(
-            f"{path}: has no independent twin; `gradhesion verify` accepts the solvers "
-            f"{' and '.join(stated.SOLVERS)}, and edges at rest"
-        )
+        accepted = f"the solvers {' and '.join(stated.SOLVERS)}, and edges at rest"
+        raise DatasetError(f"{path}: has no independent twin; `gradhesion verify` accepts {accepted}")
     outputs = [name for name in study.outputs if name in stated.KNOWN]
     unknown = [name for name in study.outputs if name not in outputs]
     found = Recomputed(
@@ -116,17 +107,13 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
             found.deviations += _compared(dataset, scene, outputs, found)
             advance(1)
     if not found.deviations:
-        raise DatasetError(
-            f"{path}: none of the scenes drawn can be recomputed ({found.beyond} have too many waves, {found.failed} "
-            f"no value, {found.unsure} lie too close to where two folds meet); draw more with --sample"
-        )
+        reasons = f"{found.beyond} have too many waves, {found.failed} no value, {found.unsure} two folds that meet"
+        raise DatasetError(f"{path}: none of the scenes drawn can be recomputed ({reasons}); draw more with --sample")
     found.deviations.sort(key=lambda one: (-one.share, -one.deviation))
     return found
 
 
-def _drawn(
-    dataset: xarray.Dataset, study: Study, outputs: Collection[str], sample: int, found: Recomputed
-) -> list[Scene]:
+def _drawn(dataset: xarray.Dataset, study: Study, outputs: list[str], sample: int, found: Recomputed) -> list[Scene]:
     """Draw scenes until `sample` of them have values that can be recomputed."""
     names = [name for name in (*study.parameters, *study.made, SOLVER, REALISATION) if name in dataset.coords]
     cells = dataset[names].load().assign(status=dataset["status"])
@@ -140,13 +127,12 @@ def _drawn(
         status = int(dataset["status"][scene.index])
         if status & FAILED:
             found.failed += 1
-            if status & NO_VALUE:
-                found.deviations += _without_value(dataset, scene, study.variables)
+            for name in study.variables if status & NO_VALUE else ():
+                value = math.nan if labels_of(name) else float(dataset[name][scene.index])
+                if not (math.isnan(value) or (name.endswith("_jumps") and value == -1.0)):
+                    found.deviations.append(Deviation(name, scene.place, value, "none, by its status"))
         elif missing := [name for name in PARAMETERS if math.isnan(scene.parameters[name])]:
-            found.deviations += [
-                Deviation(output=name, scene=scene.place, value=math.nan, expected="a value, by its status")
-                for name in missing
-            ]
+            found.deviations += [Deviation(name, scene.place, math.nan, "a value, by its status") for name in missing]
         else:
             within = True
             with suppress(ArithmeticError):  # which says so again when it is solved
@@ -183,17 +169,7 @@ def _scene(dataset: xarray.Dataset, study: Study, cells: xarray.Dataset, number:
     return Scene(index=index, solver=solver, parameters=parameters, place=place, shape=shape)
 
 
-def _without_value(dataset: xarray.Dataset, scene: Scene, outputs: Collection[str]) -> Iterator[Deviation]:
-    """Check that a scene without values has none."""
-    for name in outputs:
-        value = float("nan") if labels_of(name) else float(dataset[name][scene.index])
-        if not (math.isnan(value) or (name.endswith("_jumps") and value == -1.0)):
-            yield Deviation(output=name, scene=scene.place, value=value, expected="none, by its status")
-
-
-def _compared(
-    dataset: xarray.Dataset, scene: Scene, outputs: Collection[str], found: Recomputed
-) -> Iterator[Deviation]:
+def _compared(dataset: xarray.Dataset, scene: Scene, outputs: list[str], found: Recomputed) -> Iterator[Deviation]:
     """Recompute one scene and compare."""
     try:
         expected = stated.expected(scene.parameters, outputs, scene.solver, scene.shape)
@@ -214,35 +190,25 @@ def _compared(
         if near and deviation > error:
             found.near[f"{name}: {near}"] = found.near.get(f"{name}: {near}", 0) + 1
             continue
-        yield Deviation(
-            output=name, scene=scene.place, value=value, expected=str(one), deviation=deviation, stated=error
-        )
+        yield Deviation(name, scene.place, value, str(one), deviation, error)
 
 
 def in_words(found: Recomputed, title: str, file: Path) -> Iterator[str]:
     """Report what was found, line by line: the deviations, the worst first, what was left out, and the verdict."""
     every = found.deviations
-    width = max(len("worst of each"), *(len(one.output) for one in every))
-
-    def row(one: Deviation, words: str) -> str:
-        return f"{one.output:<{width}} {one.deviation:<10.2g} {one.stated:<10.2g} {one.share:<9.2g} {words}"
-
+    columns = ["output", "deviation", "stated", "share"]
+    table = pd.DataFrame([[getattr(one, name) for name in columns] for one in every], columns=columns)
+    places = [
+        ", ".join(f"{name} = {value if isinstance(value, str) else f'{value:g}'}" for name, value in one.scene.items())
+        for one in every[:ROWS]
+    ]
+    of_each = table.groupby("output", sort=False).first()
+    of_each["values"] = table["output"].value_counts()
     yield title
-    yield (
-        f"{file}: {found.scenes:,} of {counted(found.total, 'scene')} recomputed (--seed {found.seed}), "
-        f"{counted(len(every), 'value')}, solver {' and '.join(found.solvers)}"
-    )
-    heads = f"{'deviation':<10} {'stated':<10} {'share':<9}"
-    yield from ("", f"{'worst first':<{width}} {heads} scene")
-    for one in every[:ROWS]:
-        place = [f"{name} = {value if isinstance(value, str) else f'{value:g}'}" for name, value in one.scene.items()]
-        yield row(one, ", ".join(place) or "the only scene")
-    if len(every) > ROWS:
-        yield f"... and {len(every) - ROWS:,} more, none beyond {every[ROWS].share:.2g} of its stated error"
-    yield from ("", f"{'worst of each':<{width}} {heads} values")
-    for output in dict.fromkeys(one.output for one in every):
-        of_output = [one for one in every if one.output == output]
-        yield row(of_output[0], f"{len(of_output):,}")
+    drawn = f"{found.scenes:,} of {counted(found.total, 'scene')} recomputed (--seed {found.seed})"
+    yield f"{file}: {drawn}, {counted(len(every), 'value')}, solver {' and '.join(found.solvers)}"
+    for words, rows in (("worst first", table.head(ROWS).assign(scene=places)), ("of each", of_each.reset_index())):
+        yield from ("", words, *rows.to_string(index=False, float_format="{:.2g}".format).splitlines())
     reasons = [
         (found.beyond, "sampled scenes have more waves than can be followed; others were drawn instead"),
         (found.failed, "sampled scenes have failed, as their status shows"),
@@ -252,10 +218,6 @@ def in_words(found: Recomputed, title: str, file: Path) -> Iterator[str]:
     written = [f"  {count:,} {reason}" for count, reason in reasons if count]
     if found.unknown:
         written.append(f"  {', '.join(found.unknown)}: there is no independent solution to compare with")
-    if written:
-        yield from ("", "left out", *written)
-    yield ""
-    if found.exceeding:
-        yield f"{found.exceeding:,} of {counted(len(every), 'value')} deviate by more than their stated errors"
-    else:
-        yield f"all {len(every):,} values are within their stated errors"
+    yield from ("", "left out", *written, "") if written else ("",)
+    exceeding = f"{found.exceeding:,} of {counted(len(every), 'value')} deviate by more than their stated errors"
+    yield exceeding if found.exceeding else f"all {len(every):,} values are within their stated errors"

@@ -5,6 +5,7 @@ from collections.abc import Generator, Iterable, Iterator, Sequence
 from contextlib import ExitStack, closing, suppress
 from dataclasses import dataclass
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from typing import Any, Final
 
@@ -12,8 +13,7 @@ import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.cautions import cautions, flagged_in
-from gradhesion.cli.dataset.dataset import attributes
+from gradhesion.cli.dataset.dataset import attributes, cautions, flagged_in
 from gradhesion.cli.dataset.describe import Variable, steep_contact, variables
 from gradhesion.cli.disk import refuse_existing, settle, writing
 from gradhesion.cli.errors import DatasetError
@@ -32,12 +32,8 @@ from gradhesion.core import FAILED
 CACHE: Final = 2**22
 """Bytes of chunks to be held of each variable: blocks are whole chunks, so there is nothing to wait for. The
 library's own choice took more memory than all else that a run has."""
-
 POINTS: Final = 1024
 """Points of a curve in a chunk: most curves have fewer, and unwritten chunks take no room."""
-
-Solved = Generator[tuple[int, Arrays, bool], None, None]
-"""Blocks by their numbers, each with its values, and whether these were kept by an earlier run."""
 
 
 @dataclass(kw_only=True)
@@ -67,34 +63,17 @@ def write(
     threads: int | None = None,
     advance: Advance = lambda *_, **__: None,
 ) -> Written:
-    """Compute a study into a file, which takes the place of `path` when it is complete and on disk.
+    """Compute a study into a file, which takes the place of `path` when it is complete and on disk (OutputError).
 
-    Until then each finished block of a map of several is kept beside it, and the next call reuses it.
-
-    Parameters
-    ----------
-    fresh
-        Drop the blocks of an earlier run.
-    shard
-        (i, N): solve the i-th of each N blocks, to be kept, beside others that do the rest; no dataset is written.
-    engine
-        Who solves blocks: `threads` of this process if not given.
-
-    Raises
-    ------
-    GradhesionError
-        A block cannot be had.
-    OutputError
-        It cannot be written: it exists, another run is writing it, blocks of another study are kept, the disk; or it
-        has appeared meanwhile, and the dataset is kept beside it.
+    Until then each finished block of a map of several is kept beside it, and the next call reuses it, unless `fresh`.
+    A `shard` (i, N) keeps the i-th of each N blocks, beside others that do the rest, and writes no dataset. Blocks are
+    solved by the `engine`, or by `threads` of this process.
     """
     parts = Parts(path, study)
-    with writing(path):
-        is_new = not parts.folder.is_dir()
-    if is_new or shard:
-        refuse_existing(path, overwrite=overwrite)
     with ExitStack() as stack:
         with writing(path):
+            if shard or not parts.folder.is_dir():
+                refuse_existing(path, overwrite=overwrite)
             stack.enter_context(claimed(path, f"-{shard[0]}-of-{shard[1]}" if shard else ""))
         if not (overwrite or shard) and (complete := _written_before(parts)) is not None:
             clear(parts.folder)
@@ -103,11 +82,9 @@ def write(
         with writing(path):
             parts.begin(fresh=fresh)
         first, step = (shard[0] - 1, shard[1]) if shard else (0, 1)
-        numbers = range(first, len(study.tiling), step)
+        numbers, written = range(first, len(study.tiling), step), Written()
         engine = engine or partial(in_threads, threads=threads)
-        solved = stack.enter_context(closing(_solved(parts, numbers, engine)))
-        written = Written()
-        blocks = stack.enter_context(closing(_kept(parts, solved, written, advance)))
+        blocks = stack.enter_context(closing(_blocks(parts, numbers, engine, written, advance)))
         if shard:
             for _ in blocks:  # each is kept
                 pass
@@ -118,29 +95,30 @@ def write(
     return written
 
 
-def _solved(parts: Parts, numbers: Sequence[int], engine: Engine) -> Solved:
-    """Give blocks with their numbers, their values, and whether they were kept: those that are not are solved."""
-    is_kept = {number: parts.study.has_parts and parts.part(number).exists() for number in numbers}
-    for number, values in engine(parts.study, [number for number in numbers if not is_kept[number]]):
-        yield number, values, False
-    damaged = []
-    for number in (number for number in numbers if is_kept[number]):
-        if (found := parts.read(number)) is not None:
-            yield number, found, True
-        else:
-            damaged.append(number)
-    for number, values in engine(parts.study, damaged):
-        yield number, values, False
-
-
-def _kept(
-    parts: Parts, solved: Solved, written: Written, advance: Advance
+def _blocks(
+    parts: Parts, numbers: Sequence[int], engine: Engine, written: Written, advance: Advance
 ) -> Generator[tuple[int, Arrays], None, None]:
-    """Give blocks by their numbers, each kept for the next run if it is one of several, and counted."""
-    for number, values, reused in solved:
-        if parts.study.has_parts and not reused:
-            with writing(parts.output):
-                parts.write(number, values)
+    """Give blocks by their numbers, and count them: those not kept are solved, and kept if there are several."""
+    several = parts.study.has_parts
+    kept = {number for number in numbers if several and parts.part(number).exists()}
+    damaged: list[int] = []
+
+    def solved(waiting: Sequence[int]) -> Iterator[tuple[int, Arrays, bool]]:
+        for number, values in engine(parts.study, waiting):
+            if several:
+                with writing(parts.output):
+                    parts.write(number, values)
+            yield number, values, False
+
+    def read() -> Iterator[tuple[int, Arrays, bool]]:
+        for number in sorted(kept):
+            if (values := parts.read(number)) is None:
+                damaged.append(number)
+            else:
+                yield number, values, True
+
+    missing = [number for number in numbers if number not in kept]
+    for number, values, reused in chain(solved(missing), read(), solved(damaged)):
         interrupts.check()  # a cluster may have swallowed it
         written.failed += int(np.count_nonzero(values["status"] & FAILED))
         written.reused += reused
@@ -149,20 +127,14 @@ def _kept(
         advance(size_of(parts.study.tiling[number]), reused=reused)
 
 
-def only_kept(output: Path) -> Engine:
-    """Make an engine that solves nothing: DatasetError says which blocks the shards of an output lack."""
-
-    def engine(study: Study, numbers: Sequence[int]) -> Iterator[tuple[int, Arrays]]:
-        if numbers:
-            shown = ", ".join(str(number + 1) for number in numbers[:8]) + (", ..." if len(numbers) > 8 else "")
-            of_all = f"{len(numbers):,} of {counted(len(study.tiling), 'block')}"
-            raise DatasetError(
-                f"{output}: {of_all} are missing or damaged ({shown}); run the shards that have them, or "
-                "`gradhesion run`, which computes the rest"
-            )
-        yield from ()
-
-    return engine
+def only_kept(output: Path, study: Study, numbers: Sequence[int]) -> Iterator[tuple[int, Arrays]]:
+    """Solve nothing, in the place of an engine: DatasetError says which blocks the shards of an output lack."""
+    if numbers:
+        shown = ", ".join(str(number + 1) for number in numbers[:8]) + (", ..." if len(numbers) > 8 else "")
+        of_all = f"{len(numbers):,} of {counted(len(study.tiling), 'block')}"
+        remedy = "run the shards that have them, or `gradhesion run`, which computes the rest"
+        raise DatasetError(f"{output}: {of_all} are missing or damaged ({shown}); {remedy}")
+    return iter(())
 
 
 def _merge(parts: Parts, history: str, blocks: Iterable[tuple[int, Arrays]]) -> tuple[str, ...]:

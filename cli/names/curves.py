@@ -9,25 +9,18 @@ from gradhesion.core.problem.outputs import VARIABLES
 
 EXTENTS: Final = {name: curve.extent for name, curve in outputs.CURVES.items()}
 """Every curve of a curve study, with the dimension along it."""
-
 STATE: Final = "state"
 """The dimension of the states whose curves are asked for, before that along the curve."""
-
 NAMED_STATES: Final = ("turning_point", "pull_off", "jump_out")
 """The states of a cycle that are drawn where a study gives no radii."""
-
 STATE_CURVES: Final = tuple(name for name, curve in outputs.CURVES.items() if curve.of_a_state)
 """Curves of a state of contact, along the radius, in the place of curves of a scene."""
-
 RAGGED: Final = {name: curve.count for name, curve in outputs.CURVES.items() if curve.count}
 """Curves kept as contiguous ragged arrays, one scene after the other, with the variable that counts what each has."""
-
 CURVES: Final = {name: {one.name: one.about for one in curve.variables} for name, curve in outputs.CURVES.items()}
 """Every curve of a curve study: its variables, with their `long_name`."""
-
 INTEGERS: Final = {name: one.dtype for name, one in VARIABLES.items() if one.dtype != "f8"}
 """The type of the variables of curves that are integers."""
-
 MEANINGS: Final = {name: one.meanings for name, one in VARIABLES.items() if one.meanings}
 """What 0 and 1 mean where an integer is a flag."""
 
@@ -42,24 +35,6 @@ def curve_of(variable: str) -> str | None:
     ('path', None)
     """
     return _CURVE_OF.get(variable.removesuffix(SI))
-
-
-def is_of_a_state(variable: str) -> bool:
-    """Report whether a variable belongs to a curve of a state.
-
-    >>> is_of_a_state("surface_gap_si"), is_of_a_state("path_load")
-    (True, False)
-    """
-    return curve_of(variable) in STATE_CURVES
-
-
-def extent_of(variable: str) -> str:
-    """Name the dimension along the curve that a variable belongs to.
-
-    >>> extent_of("path_load")
-    'path_point'
-    """
-    return EXTENTS[_CURVE_OF[variable.removesuffix(SI)]]
 
 
 def is_ragged(variable: str) -> bool:

@@ -7,25 +7,18 @@ from gradhesion.core.problem.names import SENSITIVITIES
 
 SI: Final = "_si"
 """What is added to the name of an output, for the variable that has it in SI units."""
-
 BEST: Final = "best_"
 """What a variable of a dataset of optima begins with, before the name of an output or of an input."""
-
 ON_BOUND: Final = "on_bound"
 """The flags of a dataset of optima that say at which bounds an optimum is."""
-
 PARETO_POINT: Final = "pareto_point"
 """The dimension of the best compromises of two outputs."""
-
 OUTPUTS: Final = {name: one.about for name, one in outputs.OUTPUTS.items()}
 """Every output of a map, with its `long_name`."""
-
 PARAMETER: Final = "parameter"
 """The dimension of parameter of the sensitivity, after those of the scenes."""
-
 PHYSICAL_PARAMETER: Final = "physical_parameter"
 """The same of the quantities with units."""
-
 OF_PHYSICAL: Final = "_physical"
 """What is added to the name of a sensitivity, for that of the value in SI units to the quantities with units."""
 
@@ -51,16 +44,12 @@ SPREAD: Final = {
 }
 """What a study with [uncertainty] has beside an output, by the ending, with its `long_name`: all with samples, else the
 first, which is then that by sensitivities."""
-
 SPREADABLE: Final = tuple(name for name, one in outputs.OUTPUTS.items() if one.has_spread)
 """The outputs that have a spread: values of a scene, which no count is, nor what is known of an error or of others."""
-
 OF_LINEAR: Final = tuple(name.removesuffix("_sensitivity") for name in SENSITIVITIES)
 """The outputs whose standard deviation is known by sensitivities."""
-
 SPREADS: Final = {f"{name}_{how}": words.format(OUTPUTS[name]) for name in SPREADABLE for how, words in SPREAD.items()}
 """Every variable of a spread, with its `long_name`."""
-
 _SPREAD_OF: Final = {f"{name}_{how}": name for name in SPREADABLE for how in SPREAD}
 
 

@@ -6,45 +6,29 @@ from gradhesion.cli.names.outputs import BEST, OF_PHYSICAL, ON_BOUND, SI, SPREAD
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.outputs import OUTPUTS, VARIABLES, Output
 
-SYMBOLS: Final[dict[str, str]] = {
-    **{name: one.symbol for name, one in (INPUTS | OUTPUTS).items()},
-    **{name + SI: one.symbol_in_si for name, one in OUTPUTS.items() if one.unit},
-    "pull_off_force_error_si": "error of the force",
-    "dissipated_energy_error_si": "error of the energy",
-    "status": "status",
-    "solver": "solver",
-    "realisation": "realisation",
-}
-"""Every variable as a picture names it; those of errors are of earlier versions."""
 
-
-def _sensitivity_symbols() -> dict[str, str]:
-    """Name each item of the sensitivities."""
-    found = {}
+def _symbols() -> dict[str, str]:
+    """Name the variables of maps and optima; those of errors are of earlier versions."""
+    found = {name: one.symbol for name, one in (INPUTS | OUTPUTS).items()}
+    found |= {name + SI: one.symbol_in_si for name, one in OUTPUTS.items() if one.unit}
+    found |= {"pull_off_force_error_si": "error of the force", "dissipated_energy_error_si": "error of the energy"}
+    found |= {name: name for name in ("status", "solver", "realisation")}
     for output, value in (("pull_off_force_sensitivity", "F"), ("dissipated_energy_sensitivity", "H")):
-        found[output + OF_PHYSICAL] = SYMBOLS[output]
+        found[output + OF_PHYSICAL] = found[output]
         for name, key in INPUTS.items():
             step = "d" if name in ("k", "nu") else r"d\,\ln"
             found[f"{output}_{name}"] = rf"$d\,\ln {value}/{step}$ {key.symbol}"
             found[f"{output}{OF_PHYSICAL}_{name}"] = found[f"{output}_{name}"]
-    return found
-
-
-SYMBOLS.update(_sensitivity_symbols())
-
-
-def _spread_symbols() -> dict[str, str]:
-    """Name the spread of each output."""
     words = {"std": "std of {}", "mean": "mean of {}", "p05": "{}, 5 %", "p50": "{}, median", "p95": "{}, 95 %"}
     words["std_linear"] = "linear std of {}"
-    ends = [(name, end) for name in SPREADABLE for end in ("", SI) if name + end in SYMBOLS]
-    return {f"{name}_{how}{end}": one.format(SYMBOLS[name + end]) for name, end in ends for how, one in words.items()}
+    ends = [(name, end) for name in SPREADABLE for end in ("", SI) if name + end in found]
+    found |= {f"{name}_{how}{end}": one.format(found[name + end]) for name, end in ends for how, one in words.items()}
+    found |= {BEST + name: f"best {symbol}" for name, symbol in found.items()}
+    return found | {ON_BOUND: "at a bound"}
 
 
-SYMBOLS.update(_spread_symbols())
-SYMBOLS.update({BEST + name: f"best {symbol}" for name, symbol in SYMBOLS.items()})
-SYMBOLS[ON_BOUND] = "at a bound"
-
+SYMBOLS: Final = _symbols()
+"""Every variable as a picture names it."""
 _QUANTITIES: Final = {
     "contact_radius": ("contact radius $a$", "m"),
     "indentation": (r"depth $\delta$", "m"),

@@ -16,7 +16,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import NullLocator
 
 from gradhesion.cli.dataset.read.reader import has_curves, is_fit
-from gradhesion.cli.dataset.read.selection import Selection, nearest_values, selection_of
+from gradhesion.cli.dataset.read.selection import Selection, selection_of
 from gradhesion.cli.dataset.read.sensitivities import parts_of, spread, with_influence
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import BEST, ON_BOUND, PARETO_POINT, SI
@@ -56,7 +56,7 @@ def picture_of(
     if x and x == y:
         raise DatasetError(f"--x {x} --y {y}: one axis cannot be both sides; choose another for one of them")
     selection = selection_of(dataset, at, over, interpolate=interpolate)
-    for note in [] if interpolate else nearest_values(dataset, at):
+    for note in selection.notes:
         notes(note)
     if not has_curves(dataset):
         if data is not None:

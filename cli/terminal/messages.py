@@ -31,21 +31,13 @@ def printable_line(text: str) -> str:
     return printable(text).replace("\n", "\\n")
 
 
-def show(line: str) -> None:
-    """Print a line of what was asked for to stdout, as `show_block`."""
-    show_block(printable_line(line))
+def show(*lines: str) -> None:
+    """Print lines of what was asked for to stdout, as `show_block`."""
+    show_block("\n".join(map(printable_line, lines)))
 
 
 def show_block(text: str) -> None:
-    """Print what was asked for to stdout: one or several lines.
-
-    Raises
-    ------
-    OutputError
-        It cannot be written.
-    BrokenPipeError
-        Nobody reads it any more.
-    """
+    """Print what was asked for to stdout, one or several lines (OutputError, or BrokenPipeError if nobody reads it)."""
     if getattr(sys, "stdout", None) is None:
         raise OutputError("standard output: is closed; redirect it, as with > FILE")
     try:
@@ -53,14 +45,14 @@ def show_block(text: str) -> None:
     except BrokenPipeError:
         raise
     except OSError as error:
-        raise OutputError(
-            f"standard output: cannot be written ({error.strerror}); make room, or redirect it to another file"
-        ) from error
+        remedy = "make room, or redirect it to another file"
+        raise OutputError(f"standard output: cannot be written ({error.strerror}); {remedy}") from error
 
 
-def say(sentence: str) -> None:
-    """Print a sentence on a line of stderr."""
-    complain(printable_line(sentence))
+def say(*sentences: str) -> None:
+    """Print each sentence on a line of stderr."""
+    for sentence in sentences:
+        complain(printable_line(sentence))
 
 
 def complain(text: str) -> None:

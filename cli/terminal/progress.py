@@ -10,7 +10,6 @@ from gradhesion.cli.terminal import messages
 
 Advance = Callable[..., None]
 """Counts so many scenes as done; with `reused=True` as done before."""
-
 PERIOD: Final = 10.0
 """Seconds between two plain lines."""
 

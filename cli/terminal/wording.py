@@ -9,7 +9,6 @@ from gradhesion.core.problem.inputs import INPUTS
 
 SLIP: Final = 0.8
 """How like each other two words are, from 0 to 1, of which one is the other with a letter or two wrong."""
-
 CALLED: Final[Mapping[str, tuple[str, ...]]] = {
     **{name: one.called for name, one in INPUTS.items()},
     "num": ("count", "n", "number", "points", "n_points", "steps", "size"),

@@ -15,11 +15,13 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.fits import LOOP, MINIMUM, PARAMETER_UNITS
 from gradhesion.cli.names.outputs import PARAMETER
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
-from gradhesion.cli.words.curve_words import unit_behind
+from gradhesion.cli.words.table import unit_behind
 from gradhesion.cli.words.words import origin_lines
 from gradhesion.core.answers.flags import FLAG_WORDS
 from gradhesion.core.loops.fitted import poor_from
+from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.problem.inputs import INPUTS
+from gradhesion.core.problem.names import CLOSING
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, FAILED, FLAGS, OF_FITS, POOR_FIT
 
 TOGETHER: Final = 0.9
@@ -27,6 +29,13 @@ TOGETHER: Final = 0.9
 WIDENED: Final = 1.1
 """The widening of intervals from which on it is said."""
 NOISE: Final = ("noise_of_indentation", "noise_of_load")
+_AT_AN_END: Final = {
+    **dict.fromkeys(OFFSETS, "widen it with offsets under [fit], or look at the base line of the data"),
+    **dict.fromkeys(("A", "chi", "amplitude"), "widen it; at its lower end the loop shows no waves: leave them out"),
+    "k": "widen the range; at 0 the loop shows no gradient of the modulus: write k = 0",
+    CLOSING: f"widen the range; at 1 the loop shows one work of adhesion: leave {CLOSING} out",
+}
+"""What to do about a value at an end of its range."""
 SAME: Final = ("data_sha256", "measured_unloading", "measured_indentation", "measured_load", *NOISE)
 """What fits that are compared have in common."""
 
@@ -81,27 +90,21 @@ def _of_one(dataset: xarray.Dataset) -> Iterator[str]:
     names, units = _names(dataset)
     width = max(20, *map(len, names))
     through_a_machine = dataset.attrs.get("control") == "machine"
-    for name, unit, one in zip(names, units, (dataset.isel({PARAMETER: i}) for i in range(len(names))), strict=True):
+    values = (dataset[name].values for name in ("value", "low", "high"))
+    for name, unit, value, low, high in zip(names, units, *values, strict=True):
         remark = "  of the machine's displacement" if through_a_machine and name == "indentation_offset" else ""
-        if one["on_bound"]:
-            remark += "  at an end of its range"
-            if "low_searched" in one:
-                remark += f", {float(one['low_searched']):.6g} to {float(one['high_searched']):.6g}"
-        written = f"{float(one['value']):.6g} {unit}".removesuffix(" 1")
-        yield f"  {name:<{width}} {written:<22} {float(one['low']):.6g} to {float(one['high']):.6g}{remark}"
+        written = f"{value:.6g} {unit}".removesuffix(" 1")
+        yield f"  {name:<{width}} {written:<22} {low:.6g} to {high:.6g}{remark}"
     yield ""
     chi_square, degrees, status = (dataset[name].item() for name in ("chi_square", "degrees_of_freedom", "status"))
     yield f"chi square: {chi_square:.6g} for {degrees:,} degrees of freedom; reduced {chi_square / degrees:.3g}"
-    if status & POOR_FIT or chi_square > poor_from(degrees) * degrees:
-        yield f"  a poor fit: the noise explains {poor_from(degrees):.3g} at most; try another model or other ranges"
-    if not int(dataset["converged"]):
-        yield "  it did not converge"
     for i, j in itertools.combinations(range(len(names)), 2):
         if abs(correlation := float(dataset["correlation"].values[i, j])) > TOGETHER:
             yield f"correlation of {names[i]} and {names[j]}: {correlation:.3f}"
     if "tabor_parameter" in dataset and (tabor := float(dataset["tabor_parameter"])) >= SHORT_RANGED:
         yield f"Tabor parameter {tabor:.3g} ({dataset['tabor_parameter'].attrs.get('comment', '')})"
-    yield from _doubts(dataset, str(dataset.attrs.get("alike", "")))
+    yield from doubts_of(dataset)
+    yield from _cautions(dataset)
     yield from (f"status: {name}: {FLAG_WORDS[name]}" for name, bit in FLAGS.items() if status & bit)
 
 
@@ -111,15 +114,33 @@ def _names(dataset: xarray.Dataset) -> tuple[list[str], list[str]]:
     return names, units
 
 
-def _doubts(one: xarray.Dataset, alike: str) -> Iterator[str]:
-    """Say of one fit which other minima there are, and what its loop cannot tell apart or does not obey."""
+def doubts_of(one: xarray.Dataset) -> Iterator[str]:
+    """Say why the fit of a loop is not to be trusted, or why it has none; nothing if it is."""
+    if "problem" in one.coords and (problem := str(one["problem"].values)):
+        yield problem
+        return
     names, _ = _names(one)
-    for i, each in enumerate(one["minimum_value"].values if MINIMUM in one.dims else ()):
-        if not np.isnan(each).any():
-            values = ", ".join(f"{name} = {value:.6g}" for name, value in zip(names, each, strict=True))
-            chi_square = float(one["minimum_chi_square"][i])
-            yield f"another minimum within the noise: chi square {chi_square:.6g} at {values}"
-    if alike:
+    chi_square, degrees, status = (one[name].item() for name in ("chi_square", "degrees_of_freedom", "status"))
+    if not int(one["converged"]):
+        yield "the fit did not converge; give more starts, or narrower ranges"
+    if status & POOR_FIT or chi_square > poor_from(degrees) * degrees:  # version 0.2 has no such flag
+        most = f"{poor_from(degrees):.3g} is the most that noise explains"
+        remedy = "try another model, wider ranges, or other noise (fit.noise), and check the signs of depth and load"
+        yield f"a poor fit: reduced chi square {chi_square / degrees:.3g}, where {most}; {remedy}"
+    for i, values in enumerate(one["minimum_value"].values if MINIMUM in one.dims else ()):
+        if not np.isnan(values).any():
+            place = ", ".join(f"{name} = {value:.6g}" for name, value in zip(names, values, strict=True))
+            other = f"chi square {float(one['minimum_chi_square'][i]):.6g} at {place}, beside {chi_square:.6g}"
+            yield f"another minimum is within the noise: {other}; narrow the ranges to the one that is meant"
+    for at in np.flatnonzero(one["on_bound"].values):
+        ends = " to ".join(f"{float(one[name][at]):.4g}" for name in ("low_searched", "high_searched") if name in one)
+        remedy = _AT_AN_END.get(names[at], "widen the range, or give it as a number; or the data do not show it")
+        yield f"{names[at]} is at an end of its range{f' of {ends}' if ends else ''}; {remedy}"
+
+
+def _cautions(one: xarray.Dataset) -> Iterator[str]:
+    """Say of one fit what its loop cannot tell apart or does not obey."""
+    if alike := str(one["alike"].values if "alike" in one.coords else one.attrs.get("alike", "")):
         yield f"indistinguishable: {alike}"
     if "tabor_parameter" in one:
         comment = str(one["tabor_parameter"].attrs.get("comment", ""))
@@ -138,9 +159,10 @@ def _of_loops(dataset: xarray.Dataset) -> Iterator[str]:
             for one, least, most in zip(value[:, j], low[:, j], high[:, j], strict=True)
         ]
     table["reduced chi square"] = ["-" if np.isnan(one) else f"{one:.3g}" for one in reduced]
-    table["flags"] = [" ".join(flags_of(dataset, i)) or "-" for i in range(len(files))]
+    flags, status = FLAGS | OF_FITS, dataset["status"].values
+    table["flags"] = [" ".join(name for name, bit in flags.items() if one & bit) or "-" for one in status]
     yield from (line.rstrip() for line in table.to_string(index=False, justify="left").splitlines())
-    doubtful = dataset["status"].values & (FAILED | POOR_FIT | ANOTHER_MINIMUM) != 0
+    doubtful = status & (FAILED | POOR_FIT | ANOTHER_MINIMUM) != 0
     sound = value[~doubtful & ~np.isnan(value).any(axis=1)]
     yield ""
     yield f"median of {counted(len(sound), 'loop')} without such a flag, with quartiles"
@@ -150,20 +172,8 @@ def _of_loops(dataset: xarray.Dataset) -> Iterator[str]:
             yield f"  {name:<20} {middle:<12.6g} {least:.6g} to {most:.6g}"
     yield ""
     for i, file in enumerate(files):
-        if problem := str(dataset["problem"].values[i]):
-            yield f"{file}: {problem}"
-        yield from (f"{file}: {line}" for line in _doubts(dataset.isel({LOOP: i}), str(dataset["alike"].values[i])))
-
-
-def flags_of(dataset: xarray.Dataset, loop: int) -> list[str]:
-    """Name what is flagged of one of several loops."""
-    status = int(dataset["status"].values[loop])
-    flags = [name for name, bit in (FLAGS | OF_FITS).items() if status & bit]
-    if flags == ["no_value"]:
-        return flags
-    names = dataset[PARAMETER].values[dataset["on_bound"].values[loop] > 0]
-    converged = [] if dataset["converged"].values[loop] else ["not_converged"]
-    return [*flags, *converged, *(f"on_bound:{name}" for name in names)]
+        one = dataset.isel({LOOP: i})
+        yield from (f"{file}: {line}" for line in (*doubts_of(one), *_cautions(one)))
 
 
 def fits_compared(datasets: Sequence[xarray.Dataset], files: Sequence[Path]) -> Iterator[str]:
@@ -175,19 +185,13 @@ def fits_compared(datasets: Sequence[xarray.Dataset], files: Sequence[Path]) -> 
         for name in SAME:
             one, other = (np.asarray(each.get(name, each.attrs.get(name))) for each in (first, dataset))
             if one.shape != other.shape or not np.array_equal(one, other, equal_nan=one.dtype.kind == "f"):
-                raise DatasetError(
-                    f"{file}: differs from {files[0]} in {name}, so that their misfits cannot be compared; fit the "
-                    "same points with the same noise"
-                )
+                remedy = "to compare their misfits, fit the same points with the same noise"
+                raise DatasetError(f"{file}: differs from {files[0]} in {name}; {remedy}")
         if np.isnan(dataset["chi_square"].values).any():
             raise DatasetError(f"{file}: a loop has no fit, so that the total misfit is undefined; leave its file out")
-    table = pd.DataFrame(
-        {
-            "file": [str(file) for file in files],
-            "p": [dataset.sizes[PARAMETER] * dataset.sizes.get(LOOP, 1) for dataset in datasets],
-            "chi square": [float(dataset["chi_square"].sum()) for dataset in datasets],
-        }
-    )
+    table = pd.DataFrame({"file": [str(file) for file in files]})
+    table["p"] = [dataset.sizes[PARAMETER] * dataset.sizes.get(LOOP, 1) for dataset in datasets]
+    table["chi square"] = [float(dataset["chi_square"].sum()) for dataset in datasets]
     criteria = table["chi square"] + 2.0 * table["p"]
     table["AIC - least"] = criteria - criteria.min()
     weights = np.exp(-0.5 * table["AIC - least"])
@@ -195,11 +199,8 @@ def fits_compared(datasets: Sequence[xarray.Dataset], files: Sequence[Path]) -> 
     points = int(np.sum(~np.isnan(first["residual"].values)))
     yield f"{counted(len(files), 'fit')} of the same {counted(points, 'point')}, by AIC = chi square + 2 p"
     yield ""
-    yield from (
-        table.sort_values("AIC - least", kind="stable")
-        .to_string(index=False, float_format="{:.6g}".format)
-        .splitlines()
-    )
+    table = table.sort_values("AIC - least", kind="stable")
+    yield from table.to_string(index=False, float_format="{:.6g}".format).splitlines()
     for dataset, file in zip(datasets, files, strict=True):
         if (dataset["status"].values & POOR_FIT).any():
             yield f"{file}: a poor fit: the residual exceeds the noise, and weights mean little"

@@ -12,7 +12,7 @@ import pandas as pd
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by, is_cone, steep_waves
+from gradhesion.cli.dataset.read.model_range import LIMITS, count_beyond, is_cone
 from gradhesion.cli.dataset.read.reader import has_curves, tiling_of
 from gradhesion.cli.dataset.read.sensitivities import parts_of, strongest
 from gradhesion.cli.names.outputs import ON_BOUND, PARETO_POINT, SI, labels_of
@@ -20,8 +20,7 @@ from gradhesion.cli.names.scenes import IDLE, REALISATION, SCENE, SOLVER
 from gradhesion.cli.study.shape_words import CONTROLS
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted, percent
 from gradhesion.cli.terminal.wording import shown
-from gradhesion.cli.words.curve_words import about, curve_lines, jump_lines, number_range, told, unit_behind
-from gradhesion.cli.words.table import columns_of
+from gradhesion.cli.words.table import about, columns_of, curve_lines, jump_lines, number_range, told, unit_behind
 from gradhesion.core import FAILED
 from gradhesion.core.answers.flags import FLAG_WORDS
 from gradhesion.core.problem.inputs import INPUTS
@@ -29,10 +28,8 @@ from gradhesion.core.problem.names import CONTACT_SLOPE, PULL_OFF, RESULTS
 
 FEW: Final = 8
 """Values of an axis that are listed one by one."""
-
 MOST: Final = 12
 """Scenes whose values are all told, at most."""
-
 WIDTH: Final = 100
 """Characters of a line of these, at most."""
 
@@ -64,8 +61,13 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
     yield from ("", f"status: {written} have values", *_flag_counts(status))
     if not has_curves(dataset) and not any(name in dataset for name in RESULTS if name not in PULL_OFF):
         yield "  whether the contact is one disc was not tested: nothing but the pull-off was asked for"
-    if beyond := list(_beyond_the_model(dataset)):
-        yield from ("", "outside the range of the model", *beyond)
+    cone = {CONTACT_SLOPE: "1 at every radius of a cone"} if is_cone(dataset) else {}
+    beyond = [
+        told(name, _share(count, scenes), f"{cone.get(name, limit.condition)}: {limit.words}")
+        for name, limit in LIMITS.items()
+        if (count := count_beyond(name, dataset))
+    ]
+    yield from ("", "outside the range of the model", *beyond) if beyond else ()
     yield from origin_lines(dataset)
 
 
@@ -86,29 +88,27 @@ def _parameters(dataset: xarray.Dataset) -> Iterator[str]:
     known = [name for name in _coordinates(dataset) if name != SOLVER]
     varying = [name for name in _varying(dataset) if name != SOLVER]
     fixed = [name for name in known if dataset[name].ndim == 0]
-    following = [name for name in known if name not in (*varying, *fixed)]
     if SOLVER in dataset.dims:
         yield from ("", "solvers, each for all scenes: " + ", ".join(dataset[SOLVER].values))
-    yield from ("", "points: one scene for each item of" if points else "axes")
-    for name in varying:
-        values, unit = dataset[name].values, unit_behind(dataset[name])
-        if values.size <= FEW:
-            written = ", ".join(f"{value:g}" for value in values) + unit
-        else:
-            written = f"{values.size:,} values from {np.nanmin(values):g} to {np.nanmax(values):g}{unit}"
-            written += "" if points else f", {_spacing(values)}"
-        yield told(name, written, width=17)
-    if not varying:
-        yield "  none: a single scene"
-    yield from ("", "fixed") if fixed else ()
-    for name in fixed:
-        comment = str(dataset[name].attrs.get("comment", "")).partition(";")[0]
-        remark = f"  ({comment})" if comment.startswith(IDLE) else ""
-        yield told(name, f"{dataset[name].item():g}{unit_behind(dataset[name])}{remark}", width=17)
-    yield from ("", "following from these") if following else ()
-    for name in following:
-        extremes = [f"{value:g}" for value, _ in _extremes(dataset[name])]
-        yield told(name, " to ".join(extremes) or "no finite value in any scene", width=17)
+    groups = {"points: one scene for each item of" if points else "axes": varying, "fixed": fixed}
+    groups["following from these"] = [name for name in known if name not in (*varying, *fixed)]
+    for heading, names in groups.items():
+        lines = [told(name, _written(dataset[name], points=points), width=17) for name in names]
+        yield from ("", heading, *lines) if names else ()
+
+
+def _written(variable: xarray.DataArray, *, points: bool) -> str:
+    """Write the value of a parameter, a few, or between what its values lie."""
+    unit, comment = unit_behind(variable), str(variable.attrs.get("comment", "")).partition(";")[0]
+    if variable.ndim == 0:
+        return f"{variable.item():g}{unit}" + (f"  ({comment})" if comment.startswith(IDLE) else "")
+    if not points and variable.dims != (variable.name,):  # it follows from axes
+        return " to ".join(f"{value:g}" for value, _ in _extremes(variable)) or "no finite value in any scene"
+    values = variable.values
+    if values.size <= FEW:
+        return ", ".join(f"{value:g}" for value in values) + unit
+    span = f"{values.size:,} values from {np.nanmin(values):g} to {np.nanmax(values):g}{unit}"
+    return span if points else f"{span}, {_spacing(values)}"
 
 
 def _spacing(values: NDArray[np.float64]) -> str:
@@ -202,13 +202,10 @@ def _sensitivities(variable: xarray.DataArray, name: str) -> Iterator[str]:
     labels = [str(label) for label in variable[labels_of(name)].values]
     values = variable.transpose(..., labels_of(name)).values.reshape(-1, len(labels))
     place = strongest(values, labels)
-    counts = np.bincount(place[place >= 0], minlength=len(labels))
-    order = [i for i in np.argsort(-counts, kind="stable") if counts[i]]
-    if len(order) == 1:
-        yield f"  strongest: {labels[order[0]]}"
-    elif order:
-        shares = (f"{labels[i]} in {counts[i] / counts.sum():.3g} of the scenes" for i in order)
-        yield f"  strongest: {', '.join(shares)}"
+    shares = pd.Series(place[place >= 0]).value_counts(normalize=True)
+    if shares.size:
+        written = (f"{labels[i]} in {100.0 * share:.3g} % of the scenes" for i, share in shares.items())
+        yield f"  strongest: {', '.join(written)}"
     for label, own in zip(labels, values.T, strict=True):
         finite = own[np.isfinite(own)]
         if finite.size:
@@ -232,27 +229,11 @@ def _share(count: int, scenes: int) -> str:
     return f"{count:,} of {counted(scenes, 'scene')} ({percent(count, scenes)})"
 
 
-def _beyond_the_model(dataset: xarray.Dataset) -> Iterator[str]:
-    """Tell how many scenes leave the range of the model, by each number that is known."""
-    scenes = dataset["status"].size
-    for name, limit in LIMITS.items():
-        blocks = (beyond_by(name, dataset, block) for block in tiling_of(dataset["status"]))
-        count = sum(int(beyond.sum()) for beyond in blocks if beyond is not None)
-        condition = f"{limit.condition}: {limit.words}"
-        if name == "wave_slope" and name not in dataset:
-            count = steep_waves(dataset)
-        if name == CONTACT_SLOPE and is_cone(dataset):
-            count, condition = scenes, "1 at every radius: slopes of a cone are not small"
-        if count:
-            yield told(name, _share(count, scenes), condition)
-
-
 def origin_lines(dataset: xarray.Dataset) -> Iterator[str]:
     """Report where a dataset comes from, and whether the study in it was changed since."""
     attributes = dataset.attrs
-    versions = (
-        f"{name} {attributes.get(f'{name}_version', 'unknown')}" for name in ("python", "numpy", "numba", "scipy")
-    )
+    parts = ("python", "numpy", "numba", "scipy")
+    versions = (f"{name} {attributes.get(f'{name}_version', 'unknown')}" for name in parts)
     yield ""
     yield "origin"
     yield f"  {attributes['source']} ({', '.join(versions)})"

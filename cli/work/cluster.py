@@ -29,21 +29,17 @@ LEAST: Final = 16
 """The same at least: a cluster that adapts sees what is to be done."""
 
 
-def require_dask() -> None:
-    """Make sure that Dask is there (MissingExtraError)."""
+def on_cluster(scheduler: str | None = None, workers: int | None = None, *, quiet: bool = False) -> Engine:
+    """Have blocks solved by the workers of a scheduler (its address or its file), or by processes of this machine.
+
+    MissingExtraError: there is no Dask. The engine raises SetupError where no scheduler answers or a worker has another
+    version, and OutputError where the cluster is lost.
+    """
     try:
         import cryptography  # noqa: F401, PLC0415 (for a cluster of this machine that is closed to others)
         import distributed  # noqa: F401, PLC0415 (half a second, and not always there)
     except ModuleNotFoundError:
         raise MissingExtraError("--engine dask needs Dask: pip install dask distributed cryptography") from None
-
-
-def on_cluster(scheduler: str | None = None, workers: int | None = None, *, quiet: bool = False) -> Engine:
-    """Have blocks solved by the workers of a scheduler (its address or its file), or by processes of this machine.
-
-    The engine raises SetupError where no scheduler answers or a worker has another version, and OutputError where the
-    cluster is lost.
-    """
 
     def engine(study: Study, numbers: Sequence[int]) -> Iterator[tuple[int, Arrays]]:
         if not numbers:
@@ -58,10 +54,8 @@ def on_cluster(scheduler: str | None = None, workers: int | None = None, *, quie
             except Exception as error:
                 # Dask has a dozen exceptions for a lost scheduler, a worker that dies, and what cannot be loaded.
                 interrupts.check()
-                raise OutputError(
-                    f"--engine dask: {type(error).__name__}: {error}; finished blocks are kept, and the same "
-                    "command resumes once there is a cluster with enough memory"
-                ) from error
+                remedy = "finished blocks are kept, and the same command resumes on a cluster with enough memory"
+                raise OutputError(f"--engine dask: {type(error).__name__}: {error}; {remedy}") from error
 
     return engine
 
@@ -93,10 +87,8 @@ def solve_there(study: Study, number: int, needed: dict[str, Any]) -> tuple[int,
     """Solve a block, as a worker does, on one thread; SetupError where its versions may round another way."""
     if (own := versions()) != needed:
         differing = ", ".join(name for name in own if own[name] != needed.get(name))
-        raise SetupError(
-            f"--engine dask: a worker has another version ({differing}); start workers in the environment of this "
-            "command"
-        )
+        remedy = "start workers in the environment of this command"
+        raise SetupError(f"--engine dask: a worker has another version ({differing}); {remedy}")
     prepare(study)
     return number, solve_block(study, study.tiling[number], 1)
 
@@ -130,10 +122,9 @@ def _client(scheduler: str | None, workers: int | None, most: int) -> Iterator[A
                 address = scheduler if "://" in scheduler else json.loads(Path(scheduler).read_bytes())["address"]
             client = stack.enter_context(Client(address, set_as_default=False))
         except (OSError, RuntimeError, ValueError, TypeError, KeyError) as error:
-            raise SetupError(
-                f"--engine dask: no cluster at {scheduler or 'this machine'} ({error}); start a scheduler with `dask "
-                "scheduler --scheduler-file FILE` and name FILE, or use --engine threads"
-            ) from error
+            where = f"--engine dask: no cluster at {scheduler or 'this machine'} ({error})"
+            remedy = "start one with `dask scheduler --scheduler-file FILE` and name FILE, or use --engine threads"
+            raise SetupError(f"{where}; {remedy}") from error
         yield client
 
 

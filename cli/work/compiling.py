@@ -27,10 +27,7 @@ _begun: Final[set[tuple[Path | None, str]]] = set()
 
 
 def need_of(study: Study | None) -> str:
-    """Return which of the kinds of SECONDS a study is; None stands for a fit.
-
-    What it needs first is marked in the folder of kernels by a file of that name.
-    """
+    """Return which of the kinds of SECONDS a study is (None: a fit); a file of that name marks what is compiled."""
     if study is None:
         return "fits"
     if study.kind != "map":

@@ -27,14 +27,11 @@ SECONDS_OF_PIECE: Final = 0.05
 
 
 def estimate(study: Study, output: Path, threads: int | None = None) -> dict[str, Any]:
-    """Find out what a run would do and cost; writes nothing.
+    """Find out what a run would do and cost, as `gradhesion plan --json` prints it; None is not known.
 
-    Returns
-    -------
-    What `gradhesion plan --json` prints; None is not known. `refusal` says why a run would not go on with the blocks
-    that are kept ("" if it would), `solutions_of_scene` how often a scene is solved with other inputs. Without `blocks`
-    scenes are computed one by one. In the file `bytes_of_values` are compressed; before it is whole, those of several
-    blocks are kept beside it as they are. `seconds_of_block` is of one core: what a worker of a cluster needs.
+    `refusal` says why a run would not go on with the blocks that are kept, `solutions_of_scene` how often a scene is
+    solved with other inputs. Without `blocks` scenes are computed one by one. In the file `bytes_of_values` are
+    compressed, in blocks that are kept they are not. `seconds_of_block` are those of one core.
     """
     parts = Parts(output, study)
     refusal = parts.refusal()

@@ -43,8 +43,6 @@ version 0.3."""
 PATIENCE: Final = 0.5
 """Seconds to wait for a lock, which others take for a moment to see whether it is free."""
 
-Results = dict[str, NDArray[Any]]
-
 
 def folder_of(output: Path) -> Path:
     """Name the folder of an output; a link is followed."""
@@ -63,6 +61,7 @@ class Parts:
     def __init__(self, output: Path, study: Study) -> None:
         self.output, self.study = output, study
         self.folder = folder_of(output)
+        self.merged = self.folder / "merged.nc"
 
     @cached_property
     def key(self) -> str:
@@ -72,16 +71,11 @@ class Parts:
         everything = json.dumps([data, self.study.chunk, versions()], sort_keys=True, default=str)
         return hashlib.sha256(everything.encode()).hexdigest()
 
-    @property
-    def merged(self) -> Path:
-        """The dataset in the making."""
-        return self.folder / "merged.nc"
-
     def part(self, number: int) -> Path:
         """Name the file of a block."""
         return self.folder / f"{number:06}.npz"
 
-    def read(self, number: int) -> Results | None:
+    def read(self, number: int) -> dict[str, NDArray[Any]] | None:
         """Read a block; None if it is not there, not whole (each array has a checksum), or of another study."""
         try:
             with self.part(number).open("rb") as file, np.load(file) as arrays:
@@ -101,10 +95,8 @@ class Parts:
         if not kept or mark.get("key") == self.key:
             return ""
         other = "study" if mark.get("versions") == versions() else "version"
-        return (
-            f"{self.output}: {counted(kept, 'finished block')} of another {other} in {self.output}.parts; "
-            "add --fresh to discard them, or name another output with -o"
-        )
+        there = f"{counted(kept, 'finished block')} of another {other} in {self.output}.parts"
+        return f"{self.output}: {there}; add --fresh to discard them, or name another output with -o"
 
     def begin(self, *, fresh: bool = False) -> None:
         """Make the folder that of this study; OutputError if blocks of another are there, and not to be dropped."""
@@ -163,12 +155,7 @@ def is_running(folder: Path, locks: str = r"lock.*") -> bool:
 def claimed(output: Path, shard: str = "") -> Iterator[None]:
     """Hold the folder of an output for one run, or for one shard beside others; it goes at the end if it has no block.
 
-    Raises
-    ------
-    OutputError
-        Another run is at work there, or it holds files that no run has made.
-    OSError
-        The folder cannot be made.
+    OutputError: another run is at work there, or it holds files that no run has made. OSError: it cannot be made.
     """
     folder = folder_of(output)
     ours = rf"{LEFT}|lock"
@@ -180,10 +167,8 @@ def claimed(output: Path, shard: str = "") -> Iterator[None]:
         with suppress(Timeout):
             lock.acquire(timeout=PATIENCE)
         if not lock.is_locked or is_running(folder, "lock" if shard else r"lock-.*"):
-            raise OutputError(
-                f"{output}: another run is writing it; wait for it (`gradhesion status {output}` shows how far it is), "
-                "or name another output with -o"
-            )
+            remedy = f"wait for it (`gradhesion status {output}` shows how far it is), or name another output with -o"
+            raise OutputError(f"{output}: another run is writing it; {remedy}")
         yield
     finally:
         kept = len(parts_in(folder))

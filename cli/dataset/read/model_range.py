@@ -3,13 +3,13 @@
 import math
 import tomllib
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Final
+from operator import gt, lt
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.read.reader import is_turned, tiling_of
+from gradhesion.cli.dataset.read.reader import tiling_of
 from gradhesion.cli.names.curves import curve_of
 from gradhesion.cli.names.outputs import BEST, value_of
 from gradhesion.cli.names.scenes import STEEP
@@ -17,8 +17,8 @@ from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core import doubts_about
 from gradhesion.core.answers.flags import LINEAR_DEVIATION_OFF, RESOLUTION_TOO_COARSE
-from gradhesion.core.closed.reach import SMALL, is_steep
-from gradhesion.core.problem.names import CONTACT_SLOPE, RANGE
+from gradhesion.core.closed.reach import SMALL
+from gradhesion.core.problem.names import CONTACT_SLOPE, RANGE, TURNS
 from gradhesion.core.problem.profile import Harmonic, Profile, rows_of, swings
 from gradhesion.core.problem.status import DOUBTFUL
 
@@ -48,7 +48,8 @@ def doubts_of(variable: str, dataset: "xarray.Dataset") -> int:
     True
     """
     plain = value_of(variable)
-    bits = doubts_about(curve_of(plain) or plain, turned=is_turned(dataset))
+    turned = any(name in dataset.coords for name in TURNS)  # at a depth or a load: loading decides on all that follows
+    bits = doubts_about(curve_of(plain) or plain, turned=turned)
     if variable.startswith(BEST):
         bits |= RESOLUTION_TOO_COARSE
     sampled = any(str(name).removesuffix("_si").endswith("_std_linear") for name in dataset.data_vars)
@@ -56,31 +57,23 @@ def doubts_of(variable: str, dataset: "xarray.Dataset") -> int:
     return bits | LINEAR_DEVIATION_OFF if variable.removesuffix("_si").endswith(linear) else bits
 
 
-@dataclass(frozen=True)
-class Limit:
-    """Beyond what a validity number leaves the range of the model, and what that means."""
+class Limit(NamedTuple):
+    """When a validity number leaves the range of the model, and what that means."""
 
-    beyond: Callable[[NDArray[np.float64]], NDArray[np.bool_]]
+    compare: Callable[[Any, float], Any]
+    value: float
     condition: str
     words: str
 
 
 LIMITS: Final = {
-    "tabor_parameter": Limit(
-        lambda values: values < SHORT_RANGED, f"below {SHORT_RANGED:g}", "the attraction is too long-ranged for JKR"
-    ),
+    "tabor_parameter": Limit(lt, SHORT_RANGED, f"below {SHORT_RANGED:g}", "the attraction is too long-ranged for JKR"),
     "wave_tabor_parameter": Limit(
-        lambda values: values < SHORT_RANGED,
-        f"below {SHORT_RANGED:g}, waves higher than the range",
-        "the attraction is too long-ranged for the crests",
+        lt, SHORT_RANGED, "below 5, waves higher than the range", "the attraction is too long-ranged for the crests"
     ),
-    "wave_slope": Limit(
-        lambda values: values > STEEPEST, f"above {STEEPEST:g}", "slopes are not small, as a linear half-space needs"
-    ),
-    "johnson_alpha": Limit(
-        lambda values: values < ONE_DISC, "below 1.13 (chi above 1/2)", "contact on loading may not be one disc"
-    ),
-    CONTACT_SLOPE: Limit(is_steep, f"above {SMALL:g} (a > R)", "contact reaches slopes that are not small"),
+    "wave_slope": Limit(gt, STEEPEST, f"above {STEEPEST:g}", "slopes are not small, as a linear half-space needs"),
+    "johnson_alpha": Limit(lt, ONE_DISC, "below 1.13 (chi above 1/2)", "contact on loading may not be one disc"),
+    CONTACT_SLOPE: Limit(gt, SMALL, f"above {SMALL:g} (a > R)", "contact reaches slopes that are not small"),
 }
 """By the validity number."""
 
@@ -92,13 +85,23 @@ def beyond_by(number: str, dataset: "xarray.Dataset", block: Block = ()) -> "xar
     """
     if number in dataset.data_vars:
         part = dataset[number][block]
-        beyond = part.copy(data=LIMITS[number].beyond(part.values))
+        beyond = part.copy(data=LIMITS[number].compare(part.values, LIMITS[number].value))
         if number == "wave_tabor_parameter":  # waves shallower than the range are not felt
             beyond = beyond & (part["A"] * part["lambda_over_R"] > part[RANGE])
         return beyond
     if number == CONTACT_SLOPE and STEEP in dataset.coords:
         return dataset[STEEP][block] > 0
     return None
+
+
+def count_beyond(number: str, dataset: "xarray.Dataset") -> int:
+    """Count the scenes of a dataset that a validity number puts beyond its limit, as far as that is known."""
+    if number == CONTACT_SLOPE and is_cone(dataset):
+        return dataset["status"].size
+    if number == "wave_slope" and number not in dataset:
+        return _steep_waves(dataset)
+    blocks = (beyond_by(number, dataset, block) for block in tiling_of(dataset["status"]))
+    return sum(int(beyond.sum()) for beyond in blocks if beyond is not None)
 
 
 def is_cone(dataset: "xarray.Dataset") -> bool:
@@ -111,9 +114,7 @@ def slope_warnings(dataset: "xarray.Dataset") -> Iterator[str]:
     scenes = counted(dataset["status"].size, "scene")
     if is_cone(dataset):
         yield f"a cone of slope 1: slopes are not small in any of {scenes}"
-        return
-    blocks = (beyond_by(CONTACT_SLOPE, dataset, block) for block in tiling_of(dataset["status"]))
-    if steep := sum(int(beyond.sum()) for beyond in blocks if beyond is not None):
+    elif steep := count_beyond(CONTACT_SLOPE, dataset):
         yield f"{steep:,} of {scenes}: {LIMITS[CONTACT_SLOPE].words} (a > R)"
 
 
@@ -141,7 +142,7 @@ def steepness(rows: NDArray[np.float64]) -> float:
     return 2.0 * math.pi * max(swings(-1.0, tuple(map(tuple, rows.tolist())))) if len(rows) else 0.0
 
 
-def steep_waves(dataset: "xarray.Dataset") -> int:
+def _steep_waves(dataset: "xarray.Dataset") -> int:
     """Count the scenes whose waves are steep; 0 where that is not known: without a study, or of random waves."""
     if "study" not in dataset.attrs or "A" not in dataset.coords:
         return 0

@@ -17,7 +17,6 @@ from gradhesion.cli.names.units import unit_of
 from gradhesion.cli.study.text.quantities import apart, factor_between, filled, scaled
 from gradhesion.cli.study.tiling import CHUNK, Tiling
 from gradhesion.core.problem.inputs import INPUTS
-from gradhesion.core.problem.names import TURNS
 
 if TYPE_CHECKING:
     import xarray
@@ -40,20 +39,10 @@ def opened(path: Path) -> Iterator["xarray.Dataset"]:
 
 
 def found(path: Path, *, kept: bool) -> "xarray.Dataset":
-    """Open a dataset; it is the caller's to close.
+    """Open a dataset, which is the caller's to close; DatasetError says what the file is instead.
 
-    Parameters
-    ----------
-    path
-        Of a file in NetCDF.
-    kept
-        Whether values that were read are kept, and axes indexed, so that `sel` finds their labels: for users. Commands
-        read each value once and take items by their numbers; what makes indices takes longer than most of them.
-
-    Raises
-    ------
-    DatasetError
-        The file is missing, damaged or none in NetCDF; the message says what it is instead.
+    For users values that were read are `kept`, and axes indexed, so that `sel` finds their labels. Commands read each
+    value once and take items by their numbers; what makes indices takes longer than most of them.
     """
     import xarray  # noqa: PLC0415 (450 ms that `run` does not need)
 
@@ -67,9 +56,8 @@ def found(path: Path, *, kept: bool) -> "xarray.Dataset":
         reason = getattr(error, "strerror", None) or str(error)
         if kind and not kind.startswith("a dataset"):
             reason = f"it is {kind}"
-        raise DatasetError(
-            f"{path}: cannot be read as NetCDF ({reason}); name one that `gradhesion run` wrote, or write it again"
-        ) from error
+        remedy = "name one that `gradhesion run` wrote, or write it again"
+        raise DatasetError(f"{path}: cannot be read as NetCDF ({reason}); {remedy}") from error
 
 
 def check_ours(dataset: "xarray.Dataset", path: Path | str = "this") -> None:
@@ -116,16 +104,6 @@ def _faults(dataset: "xarray.Dataset") -> Iterator[str]:
         yield from (f"it has no {name}" for name in needed if name not in dataset.variables)
 
 
-def study_text(dataset: "xarray.Dataset", path: Path | str) -> str:
-    """Give the text of the study in a dataset; DatasetError where it has none, as those of named dimensions."""
-    if not {"study", "study_sha256"} <= dataset.attrs.keys():
-        raise DatasetError(
-            f"{path}: lacks its study, the attributes study and study_sha256; compute it from a study, "
-            "with `gradhesion run`"
-        )
-    return str(dataset.attrs["study"])
-
-
 def is_fit(dataset: "xarray.Dataset") -> bool:
     """Report whether a dataset is that of a fit."""
     return "chi_square" in dataset.variables
@@ -139,14 +117,7 @@ def refuse_fit(dataset: "xarray.Dataset", what: str, path: Path | str = "the dat
 
 def has_curves(dataset: "xarray.Dataset") -> bool:
     """Report whether a dataset is that of a curve study."""
-    return any(extent in dataset.dims for extent in EXTENTS.values()) or any(
-        name in dataset for name in RAGGED.values()
-    )
-
-
-def is_turned(dataset: "xarray.Dataset") -> bool:
-    """Report whether the cycles of a dataset turn at a depth or a load, so that loading decides on all that follows."""
-    return any(name in dataset.coords for name in TURNS)
+    return not {*EXTENTS.values(), *RAGGED.values()}.isdisjoint({*dataset.dims, *dataset.variables})
 
 
 def tiling_of(variable: "xarray.DataArray") -> Tiling:

@@ -1,12 +1,10 @@
 """Values between two items of an axis, and reductions of an axis: each with the status that belongs to it."""
 
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 import xarray
-
-from gradhesion.core import FAILED
 
 QUANTILES: Final = {"p05": 0.05, "p50": 0.5, "median": 0.5, "p95": 0.95}
 """The quantiles that an axis may be reduced to, by what they are called."""
@@ -16,8 +14,7 @@ FLAT: Final = 1e-9
 """Values that differ by less, over their size, are equal: what is left is rounding."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Between:
+class Between(NamedTuple):
     """A place between two items of an axis."""
 
     axis: str
@@ -41,12 +38,6 @@ class Taken:
     """The places left out because the values along the axis are equal but for rounding: no extreme has a place."""
 
 
-def without_failed(taken: Taken) -> Taken:
-    """Give scenes that have failed no value; count those that have none."""
-    there = taken.values.notnull() & ((taken.status & FAILED) == 0)
-    return replace(taken, values=taken.values.where(there), left_out=int((~there).sum()))
-
-
 def interpolated(taken: Taken, place: Between) -> Taken:
     """Give values between two items, the only ones of an axis that are left; flags of either hold.
 
@@ -68,9 +59,7 @@ def reduced(taken: Taken, axis: str, how: str) -> Taken:
     """
     coordinate = taken.values[axis].values
     going = [name for name in taken.values.coords if axis in taken.values[name].dims]
-    values, status = (
-        one.drop_vars([name for name in going if name in one.coords]) for one in (taken.values, taken.status)
-    )
+    values, status = (one.drop_vars(going, errors="ignore") for one in (taken.values, taken.status))
     there = values.notnull()
     if how in ("mean", "sum", *QUANTILES):
         flags = status.where(there, 0).astype(status.dtype).reduce(np.bitwise_or.reduce, axis)

@@ -4,24 +4,24 @@ The words of `--at` and `--over` become a `Selection` here; it narrows a dataset
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.read.reductions import REDUCTIONS, Between, Taken, interpolated, reduced, without_failed
+from gradhesion.cli.dataset.read.reductions import REDUCTIONS, Between, Taken, interpolated, reduced
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.curves import EXTENTS, RAGGED
 from gradhesion.cli.names.scenes import SCENE, SOLVER
 from gradhesion.cli.study.text.quantities import si_value
 from gradhesion.cli.terminal.wording import did_you_mean
+from gradhesion.core import FAILED
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
 
 SLACK: Final = 1e-9
 """How far beyond an end of an axis a value may be, over the end: it is typed with fewer digits than it has."""
-
 SAME: Final = 1e-12
 """Values this near to each other, over their size, are one: ends of ranges are rounded."""
 
@@ -38,12 +38,13 @@ class Selection:
     """Axes fixed at a value between two items."""
     over: Mapping[str, str] = field(default_factory=dict)
     """The reduction of each of some axes, in the order in which they are done."""
+    notes: tuple[str, ...] = ()
+    """What was wished and is met by another value, the nearest of the axis."""
 
     def narrowed(self, dataset: xarray.Dataset) -> xarray.Dataset:
-        """Fix axes; nothing is loaded.
+        """Fix axes, whose values stay as coordinates, and cut others, to two items where one is to interpolate.
 
-        An axis that is fixed becomes a coordinate without dimension that has the value really used. One that is
-        fixed between two items keeps these two, and one that is to be reduced stays: that takes values, see `taken`.
+        Nothing is loaded, and what is to be reduced stays: see `taken`.
         """
         items = {**self.fixed, **self.parts, **{one.axis: [*one.items] for one in self.between}}
         narrow = dataset.isel(items, missing_dims="ignore")
@@ -62,7 +63,9 @@ class Selection:
         taken = Taken(values=values, status=status.load())
         for one in self.between:
             taken = interpolated(taken, one)
-        taken = without_failed(taken) if self.over else taken
+        if self.over:
+            there = taken.values.notnull() & ((taken.status & FAILED) == 0)
+            taken = replace(taken, values=taken.values.where(there), left_out=int((~there).sum()))
         for axis, how in self.over.items():
             taken = reduced(taken, axis, how)
         return taken
@@ -71,50 +74,43 @@ class Selection:
 def selection_of(
     dataset: xarray.Dataset, at: Sequence[str] = (), over: Sequence[str] = (), *, interpolate: bool = False
 ) -> Selection:
-    """Read wishes such as at = ["lambda_over_R=0.1", "solver=exact"] and over = ["A=max"].
+    """Read wishes such as at = ["lambda_over_R=0.1", "R=2 um", "A=0.01:", "solver=exact"] and over = ["k=max"].
 
-    Parameters
-    ----------
-    dataset
-        What the wishes are about; of it only the axes are looked at.
-    at
-        An axis is fixed at the value nearest to the one that is written (in the logarithm of an axis that is
-        log-spaced), or cut to a range, "A=0.01:0.05", either end of which may be left out. Values of an axis with a
-        unit are in SI, or have one: "R=2 um". Of a dataset of points the scenes with these values stay.
-    over
-        An axis is reduced by "max", "min", "mean", "sum", a quantile ("p05", "median", "p95"), or to the place of the
-        extreme, "argmax" or "argmin".
-    interpolate
-        Whether `at` interpolates, linearly in the axis or in its logarithm, instead of taking the nearest value.
-
-    Raises
-    ------
-    DatasetError
-        A wish cannot be read or met; the message says which, and what to write instead.
+    An axis is fixed at its nearest value, by ratio if it is log-spaced, or interpolated there; cut to a range; or
+    reduced by one of REDUCTIONS. Numbers without a unit are in SI. Of points the scenes with these values stay.
+    DatasetError says which wish cannot be read or met, and what to write instead.
     """
     dims = dataset["status"].dims
     fixed: dict[str, int] = {}
     parts: dict[str, NDArray[np.intp]] = {}
     between: list[Between] = []
     named: set[str] = set()
+    notes: list[str] = []
     for option, axis, text in _wishes(dataset, "--at", at, named):
         if axis == SOLVER:
-            fixed[axis] = _solver(dataset, option, text)
+            known = [str(solver) for solver in dataset[SOLVER].values]
+            if text not in known:
+                raise DatasetError(f"{option}: not a solver of this dataset; {did_you_mean(text, known)}")
+            fixed[axis] = known.index(text)
             continue
         values = np.asarray(dataset[axis].values, dtype=float)
         if ":" in text:
             left = _within(option, values, axis, text)
         else:
-            value = _checked(option, values, axis, _number(option, axis, text))
-            nearest = _nearest(values, value)
-            left = np.flatnonzero(values == values[nearest])
+            value = _number(option, axis, text)
+            nearest = _nearest(option, values, axis, value)
+            near = float(values[nearest])
+            left = np.flatnonzero(values == near)
+            is_there = np.isinf(value) or abs(near - value) <= SAME * abs(value)
+            if not (is_there or interpolate):
+                notes.append(f"{option}: shows {axis} = {near:.10g}{_unit(axis)}, its nearest value")
         if axis not in dims:  # of points, which have it along their scenes
             if interpolate:
                 raise DatasetError(f"{option}: points cannot be interpolated; leave --interpolate out")
             parts[SCENE] = np.intersect1d(parts.get(SCENE, left), left)
         elif ":" in text:
             parts[axis] = left
-        elif interpolate and not _is_same(value, values[nearest]):
+        elif interpolate and not is_there:
             between.append(_between(values, axis, value))
         else:
             fixed[axis] = nearest
@@ -131,24 +127,7 @@ def selection_of(
         if how.startswith("arg") and any(other.startswith("arg") for other in reductions.values()):
             raise DatasetError(f"{option}: the place of an extreme is already requested; reduce by max, min or mean")
         reductions[axis] = how
-    return Selection(fixed=fixed, parts=parts, between=tuple(between), over=reductions)
-
-
-def nearest_values(dataset: xarray.Dataset, at: Sequence[str]) -> list[str]:
-    """Say which wishes of `--at` are met by another value, the nearest of the axis."""
-    notes = []
-    for option, axis, text in _wishes(dataset, "--at", at, set()):
-        if axis != SOLVER and ":" not in text:
-            values, value = np.asarray(dataset[axis].values, dtype=float), _number(option, axis, text)
-            near = float(values[_nearest(values, value)])
-            if not _is_same(value, near):
-                notes.append(f"{option}: shows {axis} = {near:.10g}{_unit(axis)}, its nearest value")
-    return notes
-
-
-def _is_same(value: float, near: float) -> bool:
-    """Report whether a value that is wished is that of an axis, but for rounding."""
-    return bool(np.isinf(value) or abs(near - value) <= SAME * abs(value))
+    return Selection(fixed=fixed, parts=parts, between=tuple(between), over=reductions, notes=tuple(notes))
 
 
 def is_log(values: NDArray[np.float64]) -> bool:
@@ -160,9 +139,7 @@ def is_log(values: NDArray[np.float64]) -> bool:
     return bool(finite.size == 2 or np.std(ratios) / np.mean(ratios) < np.std(steps) / np.mean(steps))
 
 
-def _wishes(
-    dataset: xarray.Dataset, option: str, words: Sequence[str], named: set[str]
-) -> Iterator[tuple[str, str, str]]:
+def _wishes(dataset: xarray.Dataset, option: str, words: Sequence[str], named: set[str]) -> Iterator[tuple[str, ...]]:
     """Take wishes apart: what was written, the axis and the rest; each axis of the dataset may be named once."""
     for word in words:
         axis, sign, rest = (part.strip() for part in word.partition("="))
@@ -199,14 +176,6 @@ def check_axis(dataset: xarray.Dataset, option: str, axis: str) -> None:
     raise DatasetError(f"{option}: not an axis of this dataset; {remedy}")
 
 
-def _solver(dataset: xarray.Dataset, option: str, name: str) -> int:
-    """Find a solver."""
-    known = [str(solver) for solver in dataset[SOLVER].values]
-    if name not in known:
-        raise DatasetError(f"{option}: not a solver of this dataset; {did_you_mean(name, known)}")
-    return known.index(name)
-
-
 def _number(option: str, axis: str, text: str) -> float:
     """Read a value of an axis, in SI or with its unit."""
     try:
@@ -218,16 +187,6 @@ def _number(option: str, axis: str, text: str) -> float:
             raise DatasetError(f"{option}: {error}") from None
     if np.isnan(value):
         raise DatasetError(f"{option}: {text} is not a number; write for example --at {axis}=0.1")
-    return value
-
-
-def _checked(option: str, values: NDArray[np.float64], axis: str, value: float) -> float:
-    """Refuse a value outside the range of an axis."""
-    finite = values[np.isfinite(values)]
-    inside = finite.size and finite.min() <= value <= finite.max()
-    if not (inside or np.isclose(value, values, rtol=SLACK, atol=0.0).any()):
-        written = f"{values.min():g} to {values.max():g}{_unit(axis)}"
-        raise DatasetError(f"{option}: outside the axis, which has values of {written}; choose one within")
     return value
 
 
@@ -244,8 +203,13 @@ def _within(option: str, values: NDArray[np.float64], axis: str, text: str) -> N
     return left
 
 
-def _nearest(values: NDArray[np.float64], value: float) -> int:
-    """Find the item of an axis nearest to a value, by ratio where it is log-spaced."""
+def _nearest(option: str, values: NDArray[np.float64], axis: str, value: float) -> int:
+    """Find the item of an axis nearest to a value within its range, by ratio where it is log-spaced."""
+    finite = values[np.isfinite(values)]
+    inside = finite.size and finite.min() <= value <= finite.max()
+    if not (inside or np.isclose(value, values, rtol=SLACK, atol=0.0).any()):
+        written = f"{values.min():g} to {values.max():g}{_unit(axis)}"
+        raise DatasetError(f"{option}: outside the axis, which has values of {written}; choose one within")
     if np.isinf(value):
         return int(np.flatnonzero(values == value)[0])
     along, place = _in_its_scale(values, value)

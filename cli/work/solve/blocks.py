@@ -1,10 +1,10 @@
 """The blocks of a study solved, some ahead of whoever takes them."""
 
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, wait
-from functools import partial
-from typing import Any, TypeVar
+from itertools import islice
+from typing import Any
 
 from numpy.typing import NDArray
 
@@ -12,10 +12,9 @@ from gradhesion.cli.names.curves import is_ragged
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.terminal import interrupts
-from gradhesion.cli.work.solve.scenes import Arrays, solve_given
+from gradhesion.cli.work.solve.scenes import Arrays, draw, solve_given
 from gradhesion.core.processors import processors
 
-_T = TypeVar("_T")
 Engine = Callable[[Study, Sequence[int]], Iterator[tuple[int, Arrays]]]
 """Solves blocks of a study by their numbers: gives each once, in any order, with its values."""
 
@@ -23,8 +22,6 @@ Engine = Callable[[Study, Sequence[int]], Iterator[tuple[int, Arrays]]]
 def solve_block(study: Study, block: Block, threads: int | None) -> Arrays:
     """Solve a block of a study: the values of its variables and `status`."""
     if study.kind == "curve":
-        from gradhesion.cli.work.solve.curves import draw  # noqa: PLC0415 (maps do without)
-
         return draw(study, block)
     if study.search:
         from gradhesion.cli.work.solve.optima import solve_optima  # noqa: PLC0415 (SciPy's optimisers)
@@ -47,31 +44,21 @@ def in_threads(study: Study, numbers: Sequence[int], threads: int | None = None)
     if study.kind == "curve":
         workers = min(threads or processors(), study.scenes)
         ahead = 2 * workers
-    tasks = (partial(solve_block, study, study.tiling[number], threads) for number in numbers)
-    yield from zip(numbers, in_order(tasks, workers, ahead), strict=True)
-
-
-def in_order(tasks: Iterable[Callable[[], _T]], workers: int = 1, ahead: int = 1) -> Iterator[_T]:
-    """Run tasks in threads of their own, so many of them ahead of the one that the caller deals with."""
     pool = ThreadPoolExecutor(workers, thread_name_prefix="solve")
-    waiting: deque[Future[_T]] = deque()
+    left, begun = iter(numbers), deque[tuple[int, Future[Arrays]]]()
     try:
-        for task in tasks:
-            waiting.append(pool.submit(task))
-            if len(waiting) > ahead:
-                yield _awaited(waiting.popleft())
-        while waiting:
-            yield _awaited(waiting.popleft())
+        while True:
+            for number in islice(left, ahead + 1 - len(begun)):
+                begun.append((number, pool.submit(solve_block, study, study.tiling[number], threads)))
+            if not begun:
+                return
+            number, future = begun.popleft()
+            while not future.done():
+                wait([future], timeout=0.2)
+                interrupts.check()  # a library may have swallowed it
+            yield number, future.result()
     finally:
         pool.shutdown(wait=False, cancel_futures=True)
-
-
-def _awaited(future: Future[_T]) -> _T:
-    """Wait for a result without being deaf to an interrupt that a library swallowed."""
-    while not future.done():
-        wait([future], timeout=0.2)
-        interrupts.check()
-    return future.result()
 
 
 def within(name: str, block: Block, part: NDArray[Any], begun: int = 0) -> Block:

@@ -1,8 +1,7 @@
-"""The fits of a study: points given to the core, what cannot be fitted, and why a fit is not to be trusted."""
+"""The fits of a study: points given to the core, and what cannot be fitted."""
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from typing import Final
+from collections.abc import Callable
+from typing import Any, Final, NamedTuple
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.fit.loop_file import LoopFile
@@ -10,25 +9,15 @@ from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.core.closed.applicability import validity
 from gradhesion.core.closed.reduced import parameters_from
 from gradhesion.core.loops.fit import fit_loop
-from gradhesion.core.loops.fitted import FittedLoop, poor_from
-from gradhesion.core.loops.paths.model import AMPLITUDES, EXPONENT, Model
-from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
-from gradhesion.core.problem.names import CLOSING, PARAMETERS, RANGE
-from gradhesion.core.problem.status import POOR_FIT
+from gradhesion.core.loops.fitted import FittedLoop
+from gradhesion.core.loops.paths.model import EXPONENT, Model
+from gradhesion.core.problem.names import PARAMETERS, RANGE
 
 USUAL_RANGE: Final = 3e-10
 """The range of the attraction in m where a study has none: about the distance of atoms."""
-_AT_AN_END: Final = {
-    **dict.fromkeys(OFFSETS, "widen it with offsets under [fit], or look at the base line of the data"),
-    **dict.fromkeys(AMPLITUDES, "widen the range; at its lower end the loop shows no waves: leave them out"),
-    "k": "widen the range; at 0 the loop shows no gradient of the modulus: write k = 0",
-    CLOSING: f"widen the range; at 1 the loop shows one work of adhesion: leave {CLOSING} out",
-}
-"""What to do about a value at an end of its range."""
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Fit:
+class Fit(NamedTuple):
     """A loop of a study with what was found, or why nothing was."""
 
     loop: LoopFile
@@ -36,48 +25,27 @@ class Fit:
     problem: str = ""
 
 
-def fitted(study: FitStudy, loop: LoopFile) -> FittedLoop:
-    """Fit a loop; StudyError where what is searched cannot be told apart, has no effect, or has no path."""
-    try:
-        return fit_loop(
-            loop.depth,
-            loop.load,
-            loop.unloading,
-            study.fixed,
-            study.free,
-            noise=study.noise_of(loop),
-            noise_is_given=study.given_noise is not None,
-            counts=loop.counts,
-            offsets=study.offsets,
-            profile=study.profile,
-            loading=study.loading,
-            toughness=study.toughness,
-            rate=study.rate,
-            intervals=study.intervals,
-            starts=study.starts,
-        )
-    except ValueError as error:
-        raise StudyError(f"{study.name if study.is_of_one else loop.file}: {error}") from None
-
-
 def fits_of(study: FitStudy, advance: Callable[[int], None] = lambda _: None) -> list[Fit]:
     """Fit every loop of a study, one after the other; `advance` is called with 1 after each.
 
-    Raises
-    ------
-    StudyError
-        No loop can be fitted; the message is that of the first. Of several, those that cannot have a `problem`.
+    Of several, those in which what is searched cannot be told apart, has no effect or has no path have a `problem`;
+    StudyError with that of the first if none is fitted.
     """
+    own = ("offsets", "profile", "loading", "toughness", "rate", "intervals", "starts")
+    settings: dict[str, Any] = {name: getattr(study, name) for name in own}
+    settings["noise_is_given"] = study.given_noise is not None
     fits = []
     for loop in study.loops:
-        fit = Fit(loop=loop, problem=loop.problem)
+        found, problem, points = None, loop.problem, (loop.depth, loop.load, loop.unloading)
         try:
-            fit = fit if loop.problem else Fit(loop=loop, found=fitted(study, loop))
-        except StudyError as error:
+            if not problem:
+                settings |= {"noise": study.noise_of(loop), "counts": loop.counts}
+                found = fit_loop(*points, study.fixed, study.free, **settings)
+        except ValueError as error:
             if study.is_of_one:
-                raise
-            fit = Fit(loop=loop, problem=str(error).removeprefix(f"{loop.file}: "))
-        fits.append(fit)
+                raise StudyError(f"{study.name}: {error}") from None
+            problem = str(error)
+        fits.append(Fit(loop, found, problem))
         advance(1)
     if all(fit.found is None for fit in fits):
         more = f" (none of the {len(fits):,} loops has a fit)" if len(fits) > 1 else ""
@@ -89,10 +57,8 @@ def tabor_of(study: FitStudy, found: FittedLoop) -> float:
     """Give the Tabor parameter at the fitted values."""
     model = Model(study.fixed, found.names, study.profile, study.loading, study.toughness)
     given = model.given({name: value for name, value in found.values.items() if name != EXPONENT})
-    made = parameters_from(given)
-    scene = {name: float(made[name]) for name in PARAMETERS} | {
-        RANGE: (study.adhesion_range or USUAL_RANGE) / given["R"]
-    }
+    made = parameters_from(given) | {RANGE: (study.adhesion_range or USUAL_RANGE) / given["R"]}
+    scene = {name: float(made[name]) for name in (*PARAMETERS, RANGE)}
     return float(validity(scene, ["tabor_parameter"], study.profile)["tabor_parameter"])
 
 
@@ -100,26 +66,3 @@ def range_words(study: FitStudy) -> str:
     """Say which range of the attraction that is."""
     source = "assumed, as adhesion_range is not given" if study.adhesion_range is None else "given"
     return f"with a range of the attraction of {1e9 * (study.adhesion_range or USUAL_RANGE):.3g} nm, {source}"
-
-
-def doubts_of(found: FittedLoop) -> Iterator[str]:
-    """Say why a fit is not to be trusted; nothing if it is."""
-    if not found.converged:
-        yield "the fit did not converge; give more starts, or narrower ranges"
-    if found.status & POOR_FIT:
-        yield (
-            f"a poor fit: reduced chi square {found.reduced_chi_square:.3g}, where "
-            f"{poor_from(found.degrees_of_freedom):.3g} is the most that noise explains; try another model, wider "
-            "ranges, or the noise as it is (fit.noise), and check the signs of depth and load"
-        )
-    for other in found.others:
-        both = (found.values, other.values)
-        here, there = (", ".join(f"{name} = {value:.4g}" for name, value in one.items()) for one in both)
-        yield (
-            f"another minimum is within the noise: chi square {other.chi_square:.6g} at {there}, "
-            f"beside {found.chi_square:.6g} at {here}; narrow the ranges to the one that is meant"
-        )
-    for name in found.on_bound:
-        low, high = found.ranges[name]
-        remedy = _AT_AN_END.get(name, "widen the range, or give it as a number; or the data do not show it")
-        yield f"{name} is at an end of its range ({found.values[name]:.4g} of {low:.4g} to {high:.4g}); {remedy}"

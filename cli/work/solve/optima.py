@@ -7,15 +7,15 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.names.outputs import BEST, ON_BOUND, PARAMETER, SI
+from gradhesion.cli.names.outputs import BEST, ON_BOUND, SI
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.rules.form import Optimum
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of
-from gradhesion.cli.work.solve.scenes import Arrays, solve_given
+from gradhesion.cli.work.solve.scenes import Arrays, solve_given, value_slopes
 from gradhesion.core.answers.flags import NOTHING_FEASIBLE, RESOLUTION_TOO_COARSE
 from gradhesion.core.answers.optimum import Optima, axis_of, front, optima_of, sweep
-from gradhesion.core.answers.slopes_to_keys import POWERS, slopes_to_keys
+from gradhesion.core.problem.names import SENSITIVITIES
 from gradhesion.core.problem.status import LOADING_NOT_ONE_DISC, NO_VALUE
 
 Floats = NDArray[np.float64]
@@ -107,13 +107,11 @@ class _Cells:
         """Return the slopes of merits to the places, where they are known."""
         study, goal = self.study, self.study.search.goals[self.goal]
         name = f"{goal.removesuffix(SI)}_sensitivity"
-        if not study.knows_slopes or name not in POWERS:
+        if not study.knows_slopes or name not in SENSITIVITIES:
             return None
         given = self.at(places, cells)
         found = solve_given(self.plain, given, self.block, self.threads, outputs=(goal.removesuffix(SI), name))
-        labels = replace(self.plain, outputs=(name,)).labels[PARAMETER]
-        powers = POWERS[name] if goal.endswith(SI) else {}
-        slopes = slopes_to_keys(given, [*study.searched], labels, found[goal], found[name], powers)
+        slopes = value_slopes(self.plain, given, [*study.searched], goal, found)
         along = []
         for key, one in study.searched.items():
             low, high = one.ends

@@ -1,26 +1,32 @@
-"""Scenes as a study gives them, solved by the core for outputs of every sort, in SI units as well."""
+"""Scenes as a study gives them, solved by the core for outputs of every sort, in SI units as well, or as curves."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion import core
+from gradhesion.cli.names.curves import CURVES, INTEGERS, RAGGED, STATE_CURVES, is_ragged
 from gradhesion.cli.names.outputs import OF_PHYSICAL, PARAMETER, PHYSICAL_PARAMETER, SI
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.core import PARAMETERS, RANGE, SENSITIVITIES, VALIDITY
-from gradhesion.core.closed.reach import is_steep
+from gradhesion.core.closed.reach import is_steep, slopes_of
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.names import CONTACT_SLOPE
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.status import NO_VALUE
 
 Arrays = dict[str, NDArray[Any]]
+
+_CONTACT_RADII: Final = tuple(
+    name for own in CURVES.values() for name, about in own.items() if about.startswith("contact radius")
+)
+"""The variables with the radii of contact that are drawn."""
 
 
 def solve_given(
@@ -33,25 +39,10 @@ def solve_given(
     watch: bool = False,
     scenes: Arrays | None = None,
 ) -> Arrays:
-    """Solve scenes that are given as those of a study are.
+    """Solve scenes that are given as those of a study are, by the solvers and for the random punches of a block.
 
-    Parameters
-    ----------
-    given
-        What the study gives; the arrays broadcast to the scenes.
-    block
-        Which of its solvers, and which random punches.
-    outputs
-        What is solved for; by default the outputs of the study.
-    watch
-        Whether the slopes that contacts reach are looked at: see `solve`.
-    scenes
-        The parameters of the scenes, if they are known.
-
-    Returns
-    -------
-    The outputs, those in SI units and by quantities with units, and `status`: along the solvers, if there are several,
-    the scenes, and random punches.
+    Gives the outputs (by default those of the study), in SI units and by quantities with units as well, and `status`:
+    along several solvers, the scenes, and random punches. `watch` is that of `solve`, `scenes` saves their making.
     """
     study = study if outputs is None else replace(study, outputs=outputs)
     several, _, profiles = study.apart(block)
@@ -151,6 +142,65 @@ def _with_units(study: Study, given: Arrays, found: Arrays) -> Arrays:
     return more
 
 
+def value_slopes(study: Study, given: Arrays, keys: Sequence[str], name: str, found: Arrays) -> Arrays:
+    """Give the slopes of a value, in SI units or not, to keys of a study, by the sensitivities that were found."""
+    from gradhesion.core.answers.slopes_to_keys import POWERS, slopes_to_keys  # noqa: PLC0415 (300 ms for SciPy)
+
+    sensitivity = f"{name.removesuffix(SI)}_sensitivity"
+    labels = replace(study, outputs=(sensitivity,)).labels[PARAMETER]
+    powers = POWERS[sensitivity] if name.endswith(SI) else {}
+    return slopes_to_keys(given, keys, labels, found[name], found[sensitivity], powers)
+
+
 def _stacked(found: Sequence[Arrays], axis: int) -> Arrays:
     """Put results beside each other along a new axis."""
     return {name: np.stack([values[name] for values in found], axis) for name in found[0]}
+
+
+def blank_of(variable: str) -> float:
+    """Give what stands where a curve has no point."""
+    return -1 if variable in INTEGERS else np.nan
+
+
+def draw(study: Study, block: Block) -> Arrays:
+    """Draw the curves of one scene, along one more dimension than its block; without any, a point of no value.
+
+    Ragged curves have their own dimension alone.
+    """
+    given = study.parameters_of(block)
+    scene = {name: float(values.item()) for name, values in scenes_from(given).items()}
+    requested = [curve for curve, own in CURVES.items() if any(name in own for name in study.outputs)]
+    of_states = [curve for curve in requested if curve in STATE_CURVES]
+    curves = [curve for curve in requested if curve not in STATE_CURVES]
+    found, status = core.draw_curves(scene, curves, study.profile, **driven_by(study))
+    if of_states:
+        more, flags = _of_states(study, scene, of_states)
+        found, status = found | more, status | flags
+    for curve, count in RAGGED.items():
+        if curve in curves:
+            found[count] = np.array(np.size(found[next(name for name in CURVES[curve] if name in found)]))
+    front, parts = (1,) * len(block), {}
+    for name in study.outputs:
+        values = np.asarray(found[name])
+        if not is_ragged(name):
+            values = values if values.size else np.array([blank_of(name)])
+            values = values.reshape((*front, *values.shape)).astype(INTEGERS.get(name, values.dtype), copy=False)
+        parts[name] = values
+    scales = scales_of(study, given)
+    parts |= {name + SI: parts[name] * scales[UNITS[name]].item() for name in study.in_si}
+    parts["status"] = np.full(front, status, dtype=study.status_type)
+    radii = [np.ravel(found[name]) for name in _CONTACT_RADII if name in found] + [np.array(study.states)]
+    steep = not study.is_cone and bool(is_steep(slopes_of(np.concatenate(radii), study.profile)).any())
+    return parts | {STEEP: np.full(front, steep, dtype=np.int8)}
+
+
+def _of_states(study: Study, scene: Mapping[str, float], curves: Sequence[str]) -> tuple[Arrays, int]:
+    """Draw the curves of the states of one scene: those of given radii, or the named ones of its cycle."""
+    from gradhesion.core.draw import states  # noqa: PLC0415 (300 ms for SciPy)
+
+    if study.states:
+        chosen = states.equilibrium_states(scene, study.states, study.profile)
+        status = NO_VALUE if np.isnan(chosen).all() else 0
+    else:
+        chosen, status = states.named_states(scene, study.profile, study.loading)
+    return states.draw_states(scene, chosen, curves, study.profile), status

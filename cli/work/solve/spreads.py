@@ -7,23 +7,14 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.names.outputs import PARAMETER, SI, SPREADABLE
+from gradhesion.cli.names.outputs import SI, SPREADABLE
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.rules.form import Uncertainty
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, shape_of
-from gradhesion.cli.work.solve.scenes import Arrays, solve_given
+from gradhesion.cli.work.solve.scenes import Arrays, solve_given, value_slopes
+from gradhesion.core.answers import uncertainty
 from gradhesion.core.answers.flags import LINEAR_DEVIATION_OFF
-from gradhesion.core.answers.slopes_to_keys import POWERS, slopes_to_keys
-from gradhesion.core.answers.uncertainty import (
-    AT_FEW,
-    FEW,
-    Spread,
-    differ,
-    drawn_shares,
-    linear_deviation,
-    statistics_of,
-)
 from gradhesion.core.problem.status import NO_VALUE
 
 SCENES: Final = 2**20
@@ -39,7 +30,7 @@ class _Centre:
     given: Arrays
     block: Block
     threads: int | None
-    spreads: Mapping[str, Spread]
+    spreads: Mapping[str, uncertainty.Spread]
 
     def solve(self, given: Arrays, outputs: tuple[str, ...], *, watch: bool = False) -> Arrays:
         """Solve scenes that are given as these are, for other outputs."""
@@ -58,17 +49,23 @@ def solve_uncertain(study: Study, block: Block, threads: int | None) -> Arrays:
         given=study.parameters_of(axes),
         block=block,
         threads=threads,
-        spreads={name: Spread(**asdict(one)) for name, one in study.uncertainty.deviations.items()},
+        spreads={name: uncertainty.Spread(**asdict(one)) for name, one in study.uncertainty.deviations.items()},
     )
     more = tuple(f"{name}_sensitivity" for name in study.linear)
     watch = study.watches_slope
     found = centre.solve(centre.given, tuple(dict.fromkeys((*study.outputs, *more))), watch=watch)
-    linear = {name: values for one in study.linear for name, values in _linear(centre, one, found).items()}
+    given = {key: centre.aligned(values) for key, values in centre.given.items()}
+    known = [name for one in study.linear for name in (one, one + SI) if name in found]
+    linear = {name: value_slopes(centre.study, given, [*centre.spreads], name, found) for name in known}
     by_slopes = "std_linear" if study.uncertainty.samples else "std"
-    made = {_named(name, by_slopes): _deviation(centre, linear[name]) for name in linear}
+    deviations = [spread.standard_deviation(given[key]) for key, spread in centre.spreads.items()]
+    made = {
+        _named(name, by_slopes): uncertainty.linear_deviation([*slopes.values()], deviations)
+        for name, slopes in linear.items()
+    }
     if study.uncertainty.samples:
         made |= _sampled(centre, study.uncertainty, found["status"].shape)
-        off = [differ(made[_named(name, by_slopes)], made[_named(name, "std")]) for name in linear]
+        off = [uncertainty.differ(made[_named(name, by_slopes)], made[_named(name, "std")]) for name in linear]
     else:
         off = _off_the_line(centre, study.uncertainty.seed, found, linear)
     failed = (found["status"] & NO_VALUE) != 0
@@ -83,34 +80,16 @@ def _named(name: str, way: str) -> str:
     return f"{name.removesuffix(SI)}_{way}" + (SI if name.endswith(SI) else "")
 
 
-def _linear(centre: _Centre, name: str, found: Arrays) -> dict[str, Arrays]:
-    """Give the slopes of a value to its uncertain inputs, of the value in SI units as well if it has them."""
-    given = {key: centre.aligned(values) for key, values in centre.given.items()}
-    sensitivity = f"{name}_sensitivity"
-    labels = replace(centre.study, outputs=(sensitivity,)).labels[PARAMETER]
-    return {
-        own: slopes_to_keys(given, [*centre.spreads], labels, found[own], found[sensitivity], powers)
-        for own, powers in {name: {}, name + SI: POWERS[sensitivity]}.items()
-        if own in found
-    }
-
-
-def _deviation(centre: _Centre, slopes: Arrays) -> NDArray[np.float64]:
-    """Give the standard deviation of a value by its slopes."""
-    inputs = {key: centre.aligned(centre.given[key]) for key in centre.spreads}
-    deviations = [spread.standard_deviation(inputs[key]) for key, spread in centre.spreads.items()]
-    return linear_deviation([*slopes.values()], deviations)
-
-
 def _off_the_line(centre: _Centre, seed: int, found: Arrays, linear: Mapping[str, Arrays]) -> list[NDArray[np.bool_]]:
     """Report of each value where it is no straight line within the spread of its inputs, by a few samples."""
     off = {name: np.zeros(found[name].shape, bool) for name in linear}
     outputs = tuple(name for name in linear if not name.endswith(SI))
-    for place, given, samples in _samples_of(centre, FEW, seed, outputs):
+    for place, given, samples in _samples_of(centre, uncertainty.FEW, seed, outputs):
         moves = {key: centre.aligned(given[key] - _cut(centre.given[key], place)) for key in centre.spreads}
         for name, slopes in linear.items():
             line = np.sum([slopes[key][place] * move for key, move in moves.items()], axis=0)
-            off[name][place] = differ(np.std(samples[name], axis=0), np.std(line, axis=0), AT_FEW)
+            deviations = np.std(samples[name], axis=0), np.std(line, axis=0)
+            off[name][place] = uncertainty.differ(*deviations, uncertainty.AT_FEW)
     return [*off.values()]
 
 
@@ -124,7 +103,7 @@ def _sampled(centre: _Centre, requested: Uncertainty, shape: tuple[int, ...]) ->
         for name, values in samples.items():
             size = (*values.shape[:axis], requested.samples, *values.shape[axis + 1 :])  # some do not depend on them
             whole = np.moveaxis(np.broadcast_to(values, size), axis, -1)
-            for way, one in statistics_of(whole).items():
+            for way, one in uncertainty.statistics_of(whole).items():
                 made.setdefault(_named(name, way), np.empty(shape))[place] = one
     return made
 
@@ -134,12 +113,9 @@ def _samples_of(
 ) -> Iterator[tuple[Block, Arrays, Arrays]]:
     """Solve the samples of all scenes, the same set for each, some scenes at a time.
 
-    Yields
-    ------
-    Which scenes, counted from the first of the block; what gives their samples, and the values of these: the samples
-    along an axis before those of the scenes.
+    Yields which scenes of the block, what gives their samples, and the values of these: samples along the first axis.
     """
-    shares = drawn_shares(len(centre.spreads), count, seed)
+    shares = uncertainty.drawn_shares(len(centre.spreads), count, seed)
     _, axes, profiles = centre.study.apart(centre.block)
     for part in Tiling(shape_of(axes), max(1, SCENES // (count * len(profiles))), 1):
         given = {key: _cut(values, part)[None] for key, values in centre.given.items()}

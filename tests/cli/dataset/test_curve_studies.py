@@ -204,7 +204,7 @@ def test_info_tells_how_many_and_which_is_the_largest(gradhesion: Call, drawn: M
             f"2 to {counts.max()} per scene, {counts.sum()} in all",
             f" {int(dataset['jump_unloading'].sum())} from or to the rim {int(dataset['jump_at_rim'].sum())} ",
             f" {energies.min():.6g} to {energies.max():.6g} ",
-            f" {float(dataset['jump_indentation'][largest]):.6g}, from",
+            f"jump_indentation = {float(dataset['jump_indentation'][largest]):.6g}, ",
             f"A = {dataset['A'].values[i]:g}, a_max_over_R = {dataset['a_max_over_R'].values[j]:g}",
         ):
             assert number in told, number

@@ -14,7 +14,8 @@ from gradhesion.cli.dataset.select import write_dataset
 from gradhesion.cli.names.fits import FIT_MORE
 from gradhesion.cli.study import load_study
 from gradhesion.cli.study.fit.study import FitStudy
-from gradhesion.cli.work.solve.fitting import Fit, doubts_of
+from gradhesion.cli.words.fit_words import doubts_of
+from gradhesion.cli.work.solve.fitting import Fit
 from gradhesion.core.loops.fitted import FittedLoop, OtherMinimum
 from gradhesion.core.loops.measured.features import BaseLine, ContactPoint
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, NO_VALUE, POOR_FIT
@@ -159,30 +160,33 @@ def test_a_fitted_value_is_taken_for_a_key(study: FitStudy, tmp_path: Path, grad
         assert f"physical.{key}" in result.stderr
 
 
-VALUES = {"E_star": 2e6, "work_of_adhesion": 0.02, "load_offset": 1e-9}
-
-
-OTHER = OtherMinimum(values=VALUES | {"E_star": 4e6}, chi_square=212.5)
 DOUBTS: list[tuple[dict[str, Any], list[str]]] = [
     ({}, []),
     ({"converged": False}, ["starts"]),
-    ({"chi_square": 900.0, "status": POOR_FIT}, ["4.5"]),
-    ({"chi_square": 9e4, "status": POOR_FIT}, ["signs of depth and load"]),
-    ({"others": (OTHER,), "status": ANOTHER_MINIMUM}, ["chi square 212.5 at E_star = 4e+06"]),
-    ({"on_bound": ("E_star",)}, ["E_star is at an end of its range"]),
-    ({"on_bound": ("load_offset", "E_star")}, ["offsets under [fit]", "E_star"]),
-    ({"on_bound": ("closing_ratio",), "values": {"closing_ratio": 1.0}, "ranges": {"closing_ratio": (0.2, 1.0)}}, ["leave closing_ratio out"]),
+    ({"chi_square": 4.5, "status": POOR_FIT}, ["4.5"]),
+    ({"chi_square": 450.0, "status": POOR_FIT}, ["signs of depth and load"]),
+    ({"others": ..., "status": ANOTHER_MINIMUM}, ["chi square 1400 at E_star = 1e+07", "chi square 1401 at E_star"]),
+    ({"on_bound": ("E_star",)}, ["E_star is at an end of its range of 1e+06 to 1e+08"]),
+    ({"on_bound": ("load_offset", "E_star")}, ["E_star", "offsets under [fit]"]),
+    ({"on_bound": ("closing_ratio",)}, ["leave closing_ratio out"]),
 ]  # fmt: skip
-"""What is changed, and words of what is said: a sentence each."""
+"""What is changed, chi square for each degree of freedom, and words of what is said: a sentence each."""
 
 
 @pytest.mark.parametrize(("changes", "words"), DOUBTS)
-def test_each_is_a_sentence_with_numbers_and_what_to_do(changes: dict[str, Any], words: list[str]) -> None:
-    said = list(doubts_of(made_up(VALUES, **changes)))
+def test_each_is_a_sentence_with_numbers_and_what_to_do(
+    changes: dict[str, Any], words: list[str], study: FitStudy
+) -> None:
+    study = replace(study, free=study.free | {"closing_ratio": (0.2, 1.0)})
+    changes = {"others": (), "alike": (), "status": 0, "chi_square": 1.05} | changes
+    changes["chi_square"] *= study.loop.depth.size - len(study.parameters)
+    one = fit(study, **{name: value for name, value in changes.items() if value is not ...})
+    said = list(doubts_of(dataset_of(study, [one], "made by a test")))
     assert len(said) == len(words)
     assert all(word in sentence for word, sentence in zip(words, said, strict=True))
 
 
+VALUES = {"E_star": 2e6, "work_of_adhesion": 0.02, "load_offset": 1e-9}
 TILT = {"slope": 1e-3, "slope_deviation": 1e-4}
 CAUTIONS: list[tuple[dict[str, Any], float, dict[str, Any], list[str]]] = [
     (TILT, 1.0, {}, ["10 standard deviations"]),

@@ -96,7 +96,7 @@ def test_info_names_the_strongest_which_is_no_difference_of_k_or_nu(gradhesion: 
         sizes = abs(dataset[FORCE]).drop_sel(parameter=["k", "nu"]).values.reshape(-1, 5)
         wave = np.mean((sizes.argmax(axis=1) == 2)[sizes.max(axis=1) > 0.0])
         least = float(dataset[FORCE].sel(parameter="A").min())
-    assert f"lambda_over_R in {wave:.3g} of the scenes" in told
+    assert f"lambda_over_R in {100.0 * wave:.3g} % of the scenes" in told
     assert f"A {least:.4g}" in told
     none = np.array([[9.0, -2.0, 1.0], [9.0, 0.0, 0.0], [1.0, np.nan, 3.0]])
     assert strongest(none, ["k", "A", "modulus"]).tolist() == [1, -1, 2]
