@@ -16,7 +16,7 @@ from gradhesion.core.curve.values import (
     slope_terms_at,
 )
 from gradhesion.core.jit import kernel, leaf
-from gradhesion.core.table.layout import BE, BP, BV, HALF, QPOW, QUP, RLOW, RPOW, SLOPE, V, Y, end_of
+from gradhesion.core.table.layout import BE, BP, BV, HALF, KE, QPOW, QUP, RLOW, RPOW, SLOPE, E, P, U, V, Y, end_of
 from gradhesion.core.types import Floats
 
 _CHUNK: Final = 32
@@ -266,15 +266,18 @@ def close_end(curve: Curve, last: int, count: int, trace: Floats) -> None:
 
 @leaf
 def _depth_at_centre(curve: Curve) -> float:
-    """Return the depth at a first fold below the table, where B y^m + g U is a straight line.
+    """Return the depth at a first fold below the table, where B y^m + g U is a straight line and the toughness kappa.
 
-    That rises as fast as q y^(eta-1), eta = (1-k)/2, of which the stretch y^eta is left where k is almost 1.
+    The line rises there as fast as kappa q y^(eta-1), eta = (1-k)/2. Where k is almost 1, much of the stretch kappa
+    y^eta is left at that radius, however small it is.
     """
     k, nodes = curve.table.k, curve.table.nodes
-    eta = 0.5 * (1.0 - k)
+    y, eta, kappa = nodes[Y, 0], 0.5 * (1.0 - k), max(nodes[KE, 0] / nodes[E, 0], 0.0)
     q = eta if curve.by_depth > 0.0 else eta + 1.0 + k
-    rise = curve.B * nodes[SLOPE, 0] + curve.g * nodes[V, 0]
-    return curve.g * curve.table.zero - (1.0 - q) * (q / rise) ** (eta / (1.0 - eta))
+    excess = (kappa - 1.0) * nodes[E, 0]  # which the row U of a pattern has taken off
+    rise = curve.B * nodes[SLOPE, 0] + curve.g * nodes[V, 0] + eta * excess
+    flat = curve.B * nodes[P, 0] + curve.g * nodes[U, 0] + y * excess
+    return flat - y * rise - (1.0 - q) * kappa * (kappa * q / rise) ** (eta / (1.0 - eta))
 
 
 @kernel
