@@ -3,6 +3,7 @@
 import gc
 import math
 import os
+import sys
 from collections.abc import Callable
 from copy import deepcopy
 from pathlib import Path
@@ -12,12 +13,11 @@ import pytest
 from click.testing import CliRunner, Result
 from hypothesis import HealthCheck, settings
 
-from tests.memory import in_memory
-
 settings.register_profile("no clock", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("no clock")
 
 ROOT = Path(__file__).parents[1]
+SHARED = Path("/dev/shm")  # noqa: S108 (folders are made in it)
 SMALL = {
     "title": "A small study",
     "outputs": ["pull_off_force", "dissipated_energy", "loading_jumps"],
@@ -33,9 +33,19 @@ SMALL = {
 }
 
 
+def in_memory(size: int) -> str | None:
+    """Return where so many bytes of files, and programs among them, can stand in memory, as a disk is slower than most tests; None if nowhere."""
+    if not (SHARED.is_dir() and os.access(SHARED, os.W_OK)):
+        return None
+    system = os.statvfs(SHARED)
+    room = system.f_bavail * system.f_frsize
+    return str(SHARED) if room >= size and not system.f_flag & os.ST_NOEXEC else None
+
+
 def pytest_configure() -> None:
     """Have temporary folders in memory, where there is room, and old objects looked through for cycles seldom."""
     gc.set_threshold(2_000, 10, 30)
+    sys.path.append(str(ROOT))  # scripts of benchmarks, documents and figures are not installed
     if place := in_memory(2**32):
         os.environ.setdefault("PYTEST_DEBUG_TEMPROOT", place)
 

@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.reading import load_study, study_from
+from tests.conftest import ROOT
 
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).parents[2]
 PIECES = [
     "nan", "-inf", "inf", "true", '"x"', "[", "]", "{", "}", "=", ".", ",", "#", "\n", "'", '"""', "1e999", "-0.0", "0x1F",
     "1979-05-27", "[[1], [2]]", "{}", "[{}]", "{a = {b = 1}}", "99999999999999999999", "\\", "\u00e9", "\u2028", "\x0b",

@@ -18,8 +18,8 @@ from pathlib import Path
 from typing import Final
 
 from gradhesion.cli.terminal import interrupts
+from tests.conftest import in_memory
 from tests.faults.trials import OLD, Trials, ended, run, signal_at
-from tests.memory import in_memory
 
 PAGE: Final = os.sysconf("SC_PAGE_SIZE")
 

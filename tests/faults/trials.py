@@ -29,8 +29,7 @@ from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.main import main as gradhesion
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.terminal import interrupts
-from tests.conftest import SMALL
-from tests.memory import in_memory
+from tests.conftest import SMALL, in_memory
 
 OLD = b"precious"
 

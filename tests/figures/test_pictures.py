@@ -16,11 +16,11 @@ from figures.__main__ import PICTURES, draw, figure_of, main
 from figures.extras import threshold_of
 from figures.fig3 import corners_of
 from figures.style import styled
+from tests.conftest import ROOT
 
 pytestmark = pytest.mark.slow
 
 Compute = Callable[..., xarray.Dataset]
-ROOT = Path(__file__).parents[2]
 STUDIES = {path.stem for pattern in ("fig*", "extra_*") for path in (ROOT / "configs").glob(f"{pattern}.toml")}
 
 

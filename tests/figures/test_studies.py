@@ -20,10 +20,10 @@ from gradhesion.core.answers.flags import LINEAR_DEVIATION_OFF
 from gradhesion.core.equations import effective, envelopes, jkr
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.status import LOADING_NOT_ONE_DISC, PULL_OFF_AT_RIM
+from tests.conftest import ROOT
 
 Compute = Callable[..., xarray.Dataset]
 Values = NDArray[np.float64]
-ROOT = Path(__file__).parents[2]
 CONFIGS = [path for pattern in ("fig*", "extra_*") for path in sorted((ROOT / "configs").glob(f"{pattern}.toml"))]
 FORCE = 1.5 * math.pi
 """The unit of loads, in R dgamma."""

@@ -11,11 +11,11 @@ from pathlib import Path
 import pytest
 from click.testing import Result
 
+from tests.conftest import ROOT
 from tests.faults.trials import values_of
 
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "large.md").read_text(encoding="utf-8")
 
 STUDY = """\

@@ -3,15 +3,14 @@
 import json
 import math
 import tomllib
-from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray
 
 import gradhesion as gr
+from tests.conftest import ROOT
 
-ROOT = Path(__file__).parents[2]
 CONFIGS = ROOT / "configs"
 REFERENCE = ROOT / "tests" / "reference"
 WAVES = {"parameters.A": 0.0}

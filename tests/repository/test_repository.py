@@ -28,8 +28,8 @@ import gradhesion.core
 import gradhesion.twin
 from gradhesion.cli.main import cli
 from gradhesion.core.problem.inputs import INPUTS
+from tests.conftest import ROOT
 
-ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text()
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 MODULES = sorted(

@@ -12,7 +12,8 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
+from tests.conftest import ROOT
+
 ROOMS = ("cli", "configs", "core", "twin")
 
 RADIUS = "    out[at.PULL_OFF_RADIUS, i] = lowest.y * reduced[at.LENGTH, i]\n"

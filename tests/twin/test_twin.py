@@ -1,4 +1,4 @@
-"""The twin against closed forms, a second quadrature, other programs, loop integrals and its own stored values."""
+"""The twin against closed forms, a second quadrature, other programs, loop integrals, its own stored values; and the solver of the core."""
 
 import json
 import math
@@ -20,8 +20,9 @@ from gradhesion.twin.series import Series
 from gradhesion.twin.shape import PLAIN, Shape
 from gradhesion.twin.special import s0_series, s1_series, struve_expansion
 from tests.core.scene import scene_of
+from tests.stress.draw import eventful, hostile
 
-from .compare import general_scene
+from .compare import Case, compare, general_scene, of_any_kind, of_one_cosine
 from .generate import row
 
 HERE = Path(__file__).parent
@@ -221,3 +222,19 @@ def test_what_is_out_of_reach_is_told() -> None:
     assert not stated.within_reach(endless, energy, "exact", cone)
     assert stated.within_reach(endless, ["pull_off_force"], "exact", cone)
     assert stated.expected(endless, ["pull_off_force"], "exact", cone)["pull_off_force"].value > 0
+
+
+DRAWS = {
+    "hostile": (of_one_cosine(hostile(5, 120)), 30),
+    "eventful": (of_one_cosine(eventful(5, 120)), 30),
+    "of any kind": (of_any_kind(7, 10), 4),
+}
+
+
+@pytest.mark.parametrize(("cases", "fewest"), DRAWS.values(), ids=DRAWS)
+def test_stated_errors_are_kept(cases: list[Case], fewest: int) -> None:
+    made = compare(cases, (0.0, 20.0))
+    assert made.scenes >= fewest
+    assert made.unsure == 0
+    assert made.near <= 4
+    assert made.worst <= 1.0

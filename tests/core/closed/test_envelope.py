@@ -11,10 +11,8 @@ from gradhesion.core import OUTPUTS, solve
 from gradhesion.core.problem.profile import swings
 from gradhesion.twin import stated
 from gradhesion.twin.shape import Shape
-from tests.core.scene import adhesion, profile_of, scene_of_ratio
-from tests.exact import envelope_loop
+from tests.core.scene import EPS, adhesion, envelope_loop, profile_of, scene_of_ratio
 
-EPS = float(np.finfo(float).eps)
 EXPONENTS = [0.0, 0.2, 0.53, 0.9, 1.0 - 1e-9]
 WAVES = ((1, 1.0, 0.1), (3, 0.2, -0.3), (4, 0.0, 0.2))
 PROFILE = profile_of(1.4, *WAVES)

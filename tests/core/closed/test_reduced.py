@@ -12,9 +12,8 @@ from gradhesion.core import PARAMETERS, solve
 from gradhesion.core.closed.reduced import parameters_from, scales_in_si, sources_of
 from gradhesion.core.closed.similarity import amplitude_of_ratio, jump_in_radius_of_envelope, similarity_length
 from gradhesion.core.problem.material import stiffness
-from tests.core.scene import scene_of
+from tests.core.scene import EPS, scene_of
 
-EPS = float(np.finfo(float).eps)
 PLAIN = scene_of(0.37, 0.21, 610.0, 0.043, 0.019, 0.031, 1.7)
 GOOD = tuple(PLAIN.values())[:6]
 BAD = [(-0.1, 1.1), (-1.0, 0.6), (0.0, -3.0), (0.0, math.nan), (0.0, -1.0), (-0.1, math.nan)]

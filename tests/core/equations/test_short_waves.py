@@ -11,7 +11,7 @@ from scipy.optimize import minimize_scalar
 from gradhesion.core import solve
 from gradhesion.core.equations import effective, envelopes, general, jkr, short_waves
 from gradhesion.core.problem.material import stiffness
-from tests.exact import envelope_loop
+from tests.core.scene import envelope_loop
 
 EPS = float(np.finfo(float).eps)
 M, WAVELENGTH, AMPLITUDE = 150.0, 0.003, 0.02

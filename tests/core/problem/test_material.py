@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core.problem.material import stiffness, theta, theta_of, theta_slopes
-from tests.exact import theta as exact_theta
+from tests.core.scene import exact_theta
 
 EPS = 2.0**-52
 
