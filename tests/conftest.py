@@ -96,15 +96,16 @@ def study_file(data: dict[str, Any], write_study: Callable[[str], Path]) -> Path
 
 @pytest.fixture
 def gradhesion(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Result]:
-    """The command line, called in this process; without lines of progress, of which a busy machine has some."""
+    """The command line, called in this process, which may have to end with a code; without lines of progress, of which a busy machine has some."""
     from gradhesion.cli.main import cli
 
     monkeypatch.setattr("gradhesion.cli.terminal.progress.PERIOD", math.inf)
 
-    def call(*arguments: str | Path) -> Result:
+    def call(*arguments: str | Path, code: int | None = None) -> Result:
         result = CliRunner().invoke(cli, [str(argument) for argument in arguments])
         if result.exception is not None and not isinstance(result.exception, SystemExit):
             raise result.exception
+        assert code in (None, result.exit_code), result.output
         return result
 
     return call

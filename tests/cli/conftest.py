@@ -54,6 +54,18 @@ def dataset_file(_written_once: Path, tmp_path: Path) -> Path:
 
 
 @pytest.fixture
+def refusal(gradhesion: Call) -> Callable[..., str]:
+    """What is said where a command is refused: one sentence, and nothing else."""
+
+    def refuse(*command: Any, code: int = 2) -> str:
+        result = gradhesion(*command, code=code)
+        assert (result.stdout, result.stderr.count("\n")) == ("", 1), result.output
+        return result.stderr
+
+    return refuse
+
+
+@pytest.fixture
 def small_blocks(monkeypatch: Patch) -> None:
     """Cut the small study of 24 scenes into 6 blocks."""
     monkeypatch.setenv("GRADHESION_CHUNK", "2")
@@ -74,8 +86,7 @@ def made(gradhesion: Call, data: dict[str, Any], write_study: Made, tmp_path: Pa
     def make(name: str = "out", exit_code: int = 0, parameters: dict[str, Any] | None = None, **changes: Any) -> Path:
         study = study_from(data | changes | {"parameters": data["parameters"] | (parameters or {})})
         path = tmp_path / f"{name}.nc"
-        result = gradhesion("run", write_study(study.text), "-o", path, "--quiet", "--overwrite")
-        assert result.exit_code == exit_code, result.stderr
+        gradhesion("run", write_study(study.text), "-o", path, "--quiet", "--overwrite", code=exit_code)
         return path
 
     return make
@@ -98,8 +109,7 @@ def ran(gradhesion: Call, write_study: Made, tmp_path: Path) -> Run:
 
     def run(study: dict[str, Any], *options: str, output: str = "out.nc", exit_code: int = 0) -> Ran:
         path = tmp_path / output
-        result = gradhesion("run", write_study(study_from(study).text), "-o", path, *options)
-        assert result.exit_code == exit_code, result.stderr
+        result = gradhesion("run", write_study(study_from(study).text), "-o", path, *options, code=exit_code)
         with gr.open(path) as dataset:
             return Ran(result.stderr, dataset.load(), path)
 

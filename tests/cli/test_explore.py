@@ -69,8 +69,7 @@ def test_wrong_wishes_are_said(gradhesion: Call, dataset_file: Path) -> None:
         for name in ("pull_off_force", "dissipated_energy"):
             file[name][:] = np.nan
     for key, options in WRONG.items():
-        result = gradhesion("explore", dataset_file, *options)
-        assert result.exit_code == 2, options
+        result = gradhesion("explore", dataset_file, *options, code=2)
         assert key in result.stderr
         assert not dataset_file.with_suffix(".html").exists()
     assert gradhesion("explore", dataset_file).exit_code == 0  # the jumps are there
@@ -78,7 +77,6 @@ def test_wrong_wishes_are_said(gradhesion: Call, dataset_file: Path) -> None:
 
 def test_a_dataset_too_large_for_a_page_is_said(gradhesion: Call, dataset_file: Path, monkeypatch: Patch) -> None:
     monkeypatch.setattr(choice, "MOST", 90)
-    result = gradhesion("explore", dataset_file)
-    assert result.exit_code == 2
+    result = gradhesion("explore", dataset_file, code=2)
     assert "96 values are too many for a page, which takes 90" in result.stderr
     assert gradhesion("explore", dataset_file, "--at", "k=0.31").exit_code == 0

@@ -101,8 +101,7 @@ def test_no_thread_for_the_compiler_is_one_sentence(number: str, gradhesion: Cal
         refuse_without_threads()
         assert "NUMBA_NUM_THREADS" not in os.environ
         return
-    result = gradhesion("run", "study.toml")
-    assert result.exit_code == 2
+    result = gradhesion("run", "study.toml", code=2)
     (line,) = result.stderr.splitlines()
     assert line.startswith(f"NUMBA_NUM_THREADS = {number}: ")
 

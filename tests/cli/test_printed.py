@@ -93,8 +93,7 @@ def test_names_not_in_utf_8(
     assert rb"gradhesion run 's\udcfe.toml'" in done.stdout
     monkeypatch.chdir(tmp_path)
     for name in ("o\udcff.nc", "o\udcff/o.nc"):
-        result = gradhesion("run", "s\udcfe.toml", "-o", name)
-        assert result.exit_code == 4
+        result = gradhesion("run", "s\udcfe.toml", "-o", name, code=4)
         assert "cannot be written" in result.stderr
     Path("o\udcff.nc").touch()
     for command in READERS:
@@ -105,8 +104,7 @@ def test_names_not_in_utf_8(
 def test_names_that_are_none(name: str, gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: Patch) -> None:
     monkeypatch.chdir(tmp_path)
     for command in READERS:
-        result = gradhesion(command, name)
-        assert result.exit_code == 2
+        result = gradhesion(command, name, code=2)
         assert result.stderr.count("\n") == 1
     no_dataset = name == "a/../.."  # there is no such folder, and no such ending
     assert gradhesion("run", study_file, "-o", name).exit_code == (2 if no_dataset else 4)

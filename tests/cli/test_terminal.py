@@ -49,8 +49,7 @@ GIVEN_UP = ["plot --inset 1:2", "run --dry-run", "run --chunk 7", "run --fail-fa
 @pytest.mark.parametrize("words", GIVEN_UP)
 def test_what_was_given_up_is_refused_with_what_to_use(words: str, gradhesion: Call) -> None:
     command, *option = words.split()
-    result = gradhesion(command, "x.toml", *option)
-    assert result.exit_code == 2
+    result = gradhesion(command, "x.toml", *option, code=2)
     assert f"{option[0]} was given up" in result.stderr
 
 
@@ -115,8 +114,7 @@ def test_on_a_terminal_progress_is_a_bar_and_nothing_where_it_is_to_be_quiet(qui
 @pytest.mark.parametrize(("name", "better"), [("foo.csv", "foo.nc"), ("foo.v2", "foo.v2.nc")])
 def test_a_dataset_has_the_ending_of_one(gradhesion: Call, tmp_path: Path, name: str, better: str) -> None:
     for arguments in (("run", "study.toml"), ("merge", "a.nc", "b.nc")):
-        result = gradhesion(*arguments, "-o", tmp_path / name)
-        assert result.exit_code == 2
+        result = gradhesion(*arguments, "-o", tmp_path / name, code=2)
         assert result.stderr.strip().endswith(f"write -o {tmp_path / better}")
     assert not any(tmp_path.iterdir())
 

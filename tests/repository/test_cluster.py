@@ -73,8 +73,7 @@ def test_both_ways_give_the_bytes_of_one_machine(
         subprocess.run(["bash", "-ec", array], cwd=tmp_path, env=machine | job, check=True, timeout=600)
     blocks = json.loads(gradhesion("plan", tmp_path / "study.toml", "--json").stdout)["blocks"]
     assert len(list(tmp_path.glob("big.nc.parts/*.npz"))) == blocks > 2
-    merged = gradhesion(*merge.split()[1:-1], tmp_path / "big.nc")
-    assert merged.exit_code == 0, merged.stderr
+    gradhesion(*merge.split()[1:-1], tmp_path / "big.nc", code=0)
     assert values_of(tmp_path / "big.nc") == values_of(whole)
 
     (tmp_path / "sweep.py").write_text(script)

@@ -154,8 +154,7 @@ def test_a_fitted_value_is_taken_for_a_key(study: FitStudy, tmp_path: Path, grad
         ("E_star", tmp_path / "scene.nc"),
         ("E_star", tmp_path / "no.nc"),
     ):
-        result = gradhesion("validate", scene, *sets[1:], f"--set=physical.{key}={file}")
-        assert result.exit_code == 2
+        result = gradhesion("validate", scene, *sets[1:], f"--set=physical.{key}={file}", code=2)
         assert f"physical.{key}" in result.stderr
 
 

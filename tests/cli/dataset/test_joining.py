@@ -21,8 +21,7 @@ def joined(gradhesion: Call, tmp_path: Path) -> Made:
     """Join datasets."""
 
     def join(*files: Path) -> Path:
-        result = gradhesion("merge", *files, "-o", tmp_path / "joined.nc", "--quiet")
-        assert result.exit_code == 0, result.stderr
+        gradhesion("merge", *files, "-o", tmp_path / "joined.nc", "--quiet", code=0)
         return tmp_path / "joined.nc"
 
     return join

@@ -197,8 +197,7 @@ def test_pictures_without_a_place_for_points_refuse_them(
         with pytest.raises(gr.DatasetError, match="data"):
             gr.plot(dataset, data=path, **choices)
     probe.to_netcdf(tmp_path / "c.nc")
-    result = gradhesion("plot", tmp_path / "c.nc", "--data", path)
-    assert result.exit_code == 0, result.stderr
+    result = gradhesion("plot", tmp_path / "c.nc", "--data", path, code=0)
     assert f"{path}: 1 row left out" in result.stderr
     assert gradhesion("plot", tmp_path / "c.nc", "--data", "absent.csv", "-o", tmp_path / "d.png").exit_code == 2
     assert not (tmp_path / "d.png").exists()

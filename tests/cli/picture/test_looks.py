@@ -197,8 +197,7 @@ def test_a_mistake_leaves_what_is_there(grid: xarray.Dataset, tmp_path: Path, gr
     path, picture = tmp_path / "x.nc", tmp_path / "x.png"
     grid.to_netcdf(path)
     for options in (["--xlim", "1 um:50 nm"], ["--variable", "energy"], ["-o", tmp_path / "x.bmp"], ["--levels", "?"]):
-        result = gradhesion("plot", path, *options)
-        assert result.exit_code == 2, options
+        result = gradhesion("plot", path, *options, code=2)
         assert str(options[1]) in result.stderr
         assert not picture.exists()
     picture.write_text("precious")

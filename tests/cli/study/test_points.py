@@ -162,8 +162,7 @@ def test_shards_and_merge_find_the_file(study: Path, gradhesion: Call, tmp_path:
     for shard in ("1/2", "2/2"):
         assert gradhesion("run", study, "-o", output, "--quiet", "--shard", shard).exit_code == 0
     (tmp_path / "samples.csv").write_text(TABLE + "1,1,1,1\n")
-    refused = gradhesion("merge", output)
-    assert refused.exit_code == 2
+    refused = gradhesion("merge", output, code=2)
     assert "samples.csv" in refused.stderr
     (tmp_path / "samples.csv").write_text(TABLE)
     assert gradhesion("merge", output, "--quiet").exit_code == 0

@@ -70,8 +70,7 @@ def refused(gradhesion: Call, write_study: Made, tmp_path: Path) -> Callable[...
 
     def run(text: str, *arguments: str) -> list[str]:
         path = write_study(text)
-        result = gradhesion("run", path, "-o", tmp_path / "out.nc", *arguments)
-        assert result.exit_code == 2
+        result = gradhesion("run", path, "-o", tmp_path / "out.nc", *arguments, code=2)
         assert not result.stdout
         assert "Traceback" not in result.stderr
         assert [item.name for item in tmp_path.iterdir()] == ["study.toml"], "nothing is written"
@@ -130,8 +129,7 @@ def test_a_file_that_is_no_study(content: bytes | str | None, place: str, gradhe
         path.mkdir()
     elif isinstance(content, bytes):
         path.write_bytes(content)
-    result = gradhesion("run", path)
-    assert result.exit_code == 2
+    result = gradhesion("run", path, code=2)
     assert result.stderr.startswith(f"{path}{place}: ")
     assert result.stderr.count("\n") == 1
 
@@ -202,8 +200,7 @@ def test_what_is_wrong_with_an_included_study(text: str, base: str, place: str, 
 
 
 def test_a_valid_study_and_all_mistakes_of_another(gradhesion: Call, study_file: Path) -> None:
-    result = gradhesion("validate", study_file)
-    assert result.exit_code == 0
+    result = gradhesion("validate", study_file, code=0)
     assert result.stdout == (
         f"{study_file}: valid; a map of 24 scenes; axes: k (2), lambda_over_R (3), A (2), a_max_over_R (2); "
         "outputs: pull_off_force, dissipated_energy, loading_jumps\n"

@@ -54,8 +54,7 @@ def resumed(gradhesion: Call, study_file: Path, output: Path, whole: dict[str, b
     """Give the same command again, to its end."""
 
     def resume(kept: int, *options: str) -> Result:
-        result = gradhesion("run", study_file, "-o", output, *options)
-        assert result.exit_code == 0, result.stderr
+        result = gradhesion("run", study_file, "-o", output, *options, code=0)
         assert ("reused" in result.stderr) == (kept > 0)
         assert not kept or f"reused {kept} block{'s' * (kept > 1)}, computed {BLOCKS - kept}" in result.stderr
         assert values_of(output) == whole
@@ -99,8 +98,7 @@ def test_blocks_of_another_study_or_version_are_refused_and_kept_until_they_are_
         command += ["--set", change]
     else:
         monkeypatch.setattr(f"gradhesion.cli.work.folder.{change}", "another")
-    refused = gradhesion(*command)
-    assert refused.exit_code == 4
+    refused = gradhesion(*command, code=4)
     assert "--fresh" in refused.stderr
     assert len(list(output.parent.glob("out.nc.parts/*.npz"))) == kept
     assert "reused" not in gradhesion(*command, "--fresh").stderr
@@ -229,8 +227,7 @@ def test_a_run_killed_before_it_could_tidy_up_is_complete(
         assert gradhesion("run", study_file, "-o", output).exit_code == 0
     assert folder_of(output).exists()
     monkeypatch.setattr(SOLVE, lambda *_, **__: pytest.fail("nothing is left to do"))
-    result = gradhesion("run", study_file, "-o", output)
-    assert result.exit_code == 0
+    result = gradhesion("run", study_file, "-o", output, code=0)
     assert "complete already" in result.stderr
     assert os.listdir(output.parent) == ["out.nc"]
     assert values_of(output) == whole
@@ -241,8 +238,7 @@ def test_blocks_of_version_0_3_are_refused_until_dropped(gradhesion: Call, study
     folder.mkdir(parents=True)
     for name in ("000000.part", "study.json", "state.json", "lock"):
         (folder / name).write_text("{}")
-    refused = gradhesion("run", study_file, "-o", output)
-    assert refused.exit_code == 4
+    refused = gradhesion("run", study_file, "-o", output, code=4)
     assert "--fresh" in refused.stderr
     assert (folder / "000000.part").exists()
     assert gradhesion("run", study_file, "-o", output, "--fresh").exit_code == 0

@@ -118,8 +118,7 @@ def test_an_output_that_cannot_be_is_refused(output: str, gradhesion: Call, stud
     (tmp_path / "file").touch()
     (tmp_path / "old.nc").write_text("precious")
     overwrite = [] if output == "old.nc" else ["--overwrite"]
-    result = gradhesion("run", study_file, "-o", tmp_path / output, *overwrite)
-    assert result.exit_code == 4
+    result = gradhesion("run", study_file, "-o", tmp_path / output, *overwrite, code=4)
     assert result.stderr.startswith(str(tmp_path / output))
     assert "-o" in result.stderr, "it tells what to do"
     assert (tmp_path / "old.nc").read_text() == "precious"
@@ -147,8 +146,7 @@ def test_failed_scenes_are_written(gradhesion: Call, study_file: Path, tmp_path:
         return values
 
     monkeypatch.setattr(SOLVE, failing)
-    result = gradhesion("run", study_file, "-o", tmp_path / "out.nc", "--quiet")
-    assert result.exit_code == 3
+    result = gradhesion("run", study_file, "-o", tmp_path / "out.nc", "--quiet", code=3)
     assert f"1 of 24 scenes failed; `gradhesion info {tmp_path}/out.nc` reports why" in result.stderr
     with xarray.open_dataset(tmp_path / "out.nc") as dataset:
         assert int(dataset["pull_off_force"].isnull().sum()) == 1
