@@ -22,6 +22,7 @@ from tests.faults.trials import values_of
 
 Call = Callable[..., Result]
 Made = Callable[..., Path]
+Told = Callable[..., str]
 Patch = pytest.MonkeyPatch
 Completed = subprocess.CompletedProcess[str]
 
@@ -54,7 +55,7 @@ def dataset_file(_written_once: Path, tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def refusal(gradhesion: Call) -> Callable[..., str]:
+def refusal(gradhesion: Call) -> Told:
     """What is said where a command is refused: one sentence, and nothing else."""
 
     def refuse(*command: Any, code: int = 2) -> str:
