@@ -34,16 +34,13 @@ def test_the_parameter_is_the_last_dimension(data: dict[str, Any]) -> None:
     assert np.all(np.isfinite(rough[ENERGY].isel(A=1).sel(parameter="A")))
 
 
-@pytest.mark.parametrize(
-    ("loading", "more"), [({}, []), ({"control": "machine", "machine_stiffness": 2.0}, ["machine_stiffness"])]
-)
-def test_turn_and_machine_are_a_parameter_more(loading: dict[str, Any], more: list[str], data: dict[str, Any]) -> None:
+@pytest.mark.parametrize("spring", [{}, {"machine_stiffness": 2.0}])
+def test_turn_and_machine_are_a_parameter_more(spring: dict[str, float], data: dict[str, Any]) -> None:
     parameters = data["parameters"] | {"A": 0.023, "indentation_max_over_R": [0.01, 0.05]}
-    dataset = compute(
-        study_from(data | SLOPES | {"parameters": parameters, "loading": loading or {"control": "displacement"}})
-    )
-    assert dataset["parameter"].values.tolist() == [*gr.PARAMETERS, *more, "indentation_max_over_R"]
-    assert all(np.isfinite(dataset[ENERGY].sel(parameter=name)).all() for name in more)
+    loading = {"control": "machine" if spring else "displacement"} | spring
+    dataset = compute(study_from(data | SLOPES | {"parameters": parameters, "loading": loading}))
+    assert dataset["parameter"].values.tolist() == [*gr.PARAMETERS, *spring, "indentation_max_over_R"]
+    assert all(np.isfinite(dataset[ENERGY].sel(parameter=name)).all() for name in spring)
 
 
 QUANTITIES: dict[str, Any] = {"k": 0.2, "nu": 0.3, "A": 0.03, "R": 1e-6, "E_star": 1e9, "work_of_adhesion": 0.05, "c0": 1e-7, "wavelength": 1e-7, "indentation_max": 2e-8}  # fmt: skip
@@ -121,9 +118,8 @@ def test_linear_deviations_are_sums_of_squares(uncertain: dict[str, Any]) -> Non
     squares = sum((slopes.sel(parameter=name) * share) ** 2 for name, share in shares.items())
     expected = dataset["pull_off_force"] * np.sqrt(squares)
     # eps of some ten terms, and the truncation of the amplitude at 0, 11 deviations away
-    np.testing.assert_allclose(
-        dataset["pull_off_force_std"], expected.transpose(*dataset["pull_off_force_std"].dims), rtol=1e-13
-    )
+    found = dataset["pull_off_force_std"]
+    np.testing.assert_allclose(found, expected.transpose(*found.dims), rtol=1e-13)
     assert dataset["status"].dtype == np.int16
     known = [name for name in gr.FLAGS if name != "too_many_waves"]  # of patterns and speeds alone
     assert dataset["status"].attrs["flag_meanings"].split() == known
@@ -148,11 +144,8 @@ def test_samples_against_scenes_that_are_drawn_here(uncertain: dict[str, Any]) -
     parameters = uncertain["parameters"] | {"k": 0.31, "A": 0.02, "lambda_over_R": 0.3, "a_max_over_R": 1.7}
     inputs = {"A": 0.015, "modulus": "20 %"}
     outputs = ["pull_off_force", "pull_off_radius"]
-    found = compute(
-        study_from(
-            uncertain | {"outputs": outputs, "parameters": parameters, "uncertainty": inputs | {"samples": 4096}}
-        )
-    )
+    own = {"outputs": outputs, "parameters": parameters, "uncertainty": inputs | {"samples": 4096}}
+    found = compute(study_from(uncertain | own))
     rng, count = np.random.default_rng(2), 20_000
     amplitude = rng.normal(0.02, 0.015, count)
     amplitude = amplitude[amplitude > 0.0]

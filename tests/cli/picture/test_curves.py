@@ -145,15 +145,11 @@ def test_states_are_drawn_over_the_distance() -> None:
     assert legend(panels) == ["turning point", "pull off", "jump out"]
     np.testing.assert_array_equal(panels[0].get_lines()[0].get_ydata(), states["pressure"][0])
     assert "Pa" in gr.plot(gr.curves(PROBE, "pressure", contact_radius_over_R=[0.1]))[0].get_ylabel()
-    for dataset, choices in (
-        (states, {"variables": ["pressure", "path"]}),
-        (states, {"variables": "pressure", "x": "load"}),
-        (states, {"variables": "pressure", "xlim": (0, 1)}),
-        (states.drop_vars("pressure_radius"), {"variables": "pressure"}),
-        (states.where(states["status"] < 0).assign(status=states["status"]), {"variables": "pressure"}),
-    ):
+    none = states.where(states["status"] < 0).assign(status=states["status"])
+    wrong: list[dict[str, Any]] = [{"variables": ["pressure", "path"]}, {"x": "load"}, {"xlim": (0, 1)}]
+    for dataset, choices in [*((states, one) for one in wrong), (states.drop_vars("pressure_radius"), {}), (none, {})]:
         with pytest.raises(gr.DatasetError):
-            gr.plot(dataset, **choices)
+            gr.plot(dataset, **({"variables": "pressure"} | choices))
 
 
 TABLES = (
@@ -186,7 +182,7 @@ def test_points_stand_where_they_were_measured(curves: xarray.Dataset, probe: xa
     np.testing.assert_allclose(measured(panels[0])[0].get_xydata(), [[1e-8, 1e-7]], rtol=1e-13)
 
 
-def test_pictures_without_a_place_for_points_refuse_them(
+def test_other_pictures_refuse_points(
     gradhesion: Call, curves: xarray.Dataset, probe: xarray.Dataset, tmp_path: Path
 ) -> None:
     path = tmp_path / "loop.csv"
