@@ -23,11 +23,8 @@ PUNCH: dict[str, Any] = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.0
 @pytest.fixture
 def study() -> dict[str, Any]:
     """The best wavelength for three exponents."""
-    return {
-        "kind": "optimum",
-        "optimum": {"maximise": "pull_off_force", "over": ["lambda_over_R"]},
-        "parameters": PUNCH | {"k": [0.0, 0.3, 0.7], "lambda_over_R": WAVES},
-    }
+    search = {"maximise": "pull_off_force", "over": ["lambda_over_R"]}
+    return {"kind": "optimum", "optimum": search, "parameters": PUNCH | {"k": [0.0, 0.3, 0.7], "lambda_over_R": WAVES}}
 
 
 def test_it_goes_to_other_processes(study: dict[str, Any]) -> None:
@@ -164,16 +161,14 @@ def test_a_front_of_two_outputs(study: dict[str, Any], ran: Run, gradhesion: Cal
 
 def test_a_peak_between_the_points_is_flagged(ran: Run) -> None:
     """Five points over many peaks: more show a higher one."""
-    asked = {
-        "kind": "optimum",
-        "optimum": {"maximise": "dissipated_energy", "over": ["lambda_over_R"], "resolution": 5},
-        "parameters": PUNCH | {"k": [0.3, 0.5], "A": 0.1, "lambda_over_R": {"start": 0.02, "stop": 1.0}},
-    }
-    said, found, _ = ran(asked)
+    search = {"maximise": "dissipated_energy", "over": ["lambda_over_R"], "resolution": 5}
+    wavy = PUNCH | {"k": [0.3, 0.5], "A": 0.1, "lambda_over_R": {"start": 0.02, "stop": 1.0}}
+    asked = {"kind": "optimum", "parameters": wavy}
+    said, found, _ = ran(asked | {"optimum": search})
     assert "2 of 2 scenes" in said
     assert found.gr.flagged("resolution_too_coarse").values.all()
     assert not found.gr.valid("best_dissipated_energy").values.any()
-    finer = gr.run(asked | {"optimum": asked["optimum"] | {"resolution": 200}})
+    finer = gr.run(asked | {"optimum": search | {"resolution": 200}})
     assert not finer.gr.flagged("resolution_too_coarse").any()
 
 
@@ -200,17 +195,11 @@ def test_what_of_optima_cannot_be_joined(study: dict[str, Any], gradhesion: Call
 
 
 def test_the_resolution_that_is_named_is_the_finest_that_is_searched(study: dict[str, Any]) -> None:
-    parameters = study["parameters"] | {"A": {"start": 0.01, "stop": 0.1}}
-    finest = int(re.findall(r"at most (\d+)", refusal(study, parameters, 10**6))[0])
-    assert refusal(study, parameters, finest) == ""
-    assert str(finest) in refusal(study, parameters, finest + 1)
-
-
-def refusal(study: dict[str, Any], parameters: dict[str, Any], resolution: int) -> str:
-    """What is said against a search over two inputs."""
-    search = {"maximise": "pull_off_force", "over": ["lambda_over_R", "A"], "resolution": resolution}
-    try:
-        study_from(study | {"optimum": search, "parameters": parameters})
-    except StudyError as error:
-        return str(error)
-    return ""
+    study["parameters"] |= {"A": {"start": 0.01, "stop": 0.1}}
+    search: dict[str, Any] = {"maximise": "pull_off_force", "over": ["lambda_over_R", "A"]}
+    with pytest.raises(StudyError) as caught:
+        study_from(study | {"optimum": search | {"resolution": 10**6}})
+    finest = int(re.findall(r"at most (\d+)", str(caught.value))[0])
+    study_from(study | {"optimum": search | {"resolution": finest}})
+    with pytest.raises(StudyError, match=str(finest)):
+        study_from(study | {"optimum": search | {"resolution": finest + 1}})

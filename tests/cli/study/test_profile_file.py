@@ -12,7 +12,7 @@ import xarray
 import gradhesion as gr
 from gradhesion.cli.dataset import compute
 from gradhesion.cli.study import load_study, study_from
-from tests.cli.conftest import Call, Patch, mistakes_of
+from tests.cli.conftest import Call, Patch, Told, mistakes_of
 
 STUDY = """\
 outputs = ["pull_off_force"]
@@ -94,11 +94,10 @@ def test_another_file_is_refused(study: Path, tmp_path: Path) -> None:
 
 
 def test_without_units_the_ratios_come_from_the_fit(study: Path) -> None:
-    study.write_text(
-        'outputs = ["pull_off_force"]\n[parameters]\nk = 0.0\nnu = 0.3\nmodulus = 5000.0\na_max_over_R = 0.3\n'
-        '[profile]\nfile = "tip.csv"\nterms = 1\nup_to = "1.5 um"\n'
-    )
-    found = load_study(study)
+    parameters = {"k": 0.0, "nu": 0.3, "modulus": 5000.0, "a_max_over_R": 0.3}
+    profile = {"file": "tip.csv", "terms": 1, "up_to": "1.5 um"}
+    keys = {"outputs": ["pull_off_force"], "parameters": parameters, "profile": profile}
+    found = study_from(keys, folder=study.parent)
     assert found.parameters["lambda_over_R"] == pytest.approx(WAVELENGTH / RADIUS, rel=1e-10)
     assert found.parameters["A"] == pytest.approx(AMPLITUDE / WAVELENGTH, rel=1e-8)
     assert "pull_off_force_si" not in found.variables
@@ -133,21 +132,16 @@ def test_every_mistake_of_a_study_is_told_at_its_key(change: tuple[str, str], st
 
 def test_what_else_is_missing_is_told_beside_a_file_that_cannot_be_read(study: Path) -> None:
     study.write_text(STUDY.replace("tip.csv", "tap.csv").replace("nu = 0.3\n", "").replace('E_star = "50 MPa"\n', ""))
-    assert [line.split(": ")[1].split(" = ")[0] for line in mistakes_of(study)] == [
-        "parameters.nu",
-        "physical.E_star",
-        "profile.file",
-    ]
+    told = [line.split(": ")[1].split(" = ")[0] for line in mistakes_of(study)]
+    assert told == ["parameters.nu", "physical.E_star", "profile.file"]
 
 
 @pytest.mark.parametrize("text", ["x [um],height [nm]\n1,2\n", "r [um],hight [nm]\n1,2\n", "r [um],height [nm]\n1,2\n"])
-def test_a_table_of_other_columns_or_too_few_rows_is_refused(text: str, study: Path, gradhesion: Call) -> None:
+def test_a_table_of_other_columns_or_too_few_rows_is_refused(text: str, study: Path, refusal: Told) -> None:
     table = study.with_name("tip.csv")
     table.write_text(text)
     assert len(mistakes_of(study)) == 1
-    result = gradhesion("profile", table)
-    assert (result.exit_code, result.stderr.count("\n")) == (2, 1)
-    assert result.stderr.startswith(f"{table}: ")
+    assert refusal("profile", table).startswith(f"{table}: ")
     assert not table.with_suffix(".png").exists()
 
 
@@ -169,8 +163,7 @@ def test_profile_prints_a_table_that_gives_the_same_punch(study: Path, gradhesio
 
 @pytest.mark.parametrize("words", ["--up-to 2", "--exponent two", "--exponent 1", "--terms 0", "-o tip.bmp"])
 def test_options_that_do_not_do(words: str, study: Path, gradhesion: Call) -> None:
-    result = gradhesion("profile", study.with_name("tip.csv"), *words.split(), code=2)
-    assert words.split()[1] in result.stderr
+    assert words.split()[1] in gradhesion("profile", study.with_name("tip.csv"), *words.split(), code=2).stderr
 
 
 def test_init_writes_study_and_data_that_are_fitted(gradhesion: Call, tmp_path: Path, monkeypatch: Patch) -> None:

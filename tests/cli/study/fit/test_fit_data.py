@@ -155,13 +155,9 @@ def test_zeros_are_free_bounded_found_or_right(name: str) -> None:
 
 @pytest.mark.usefixtures("folder")
 def test_more_of_the_model_is_read() -> None:
-    study = load(
-        parameters__closing_ratio={"start": 0.0, "stop": 1.0},
-        rate__exponent={"start": 0.3, "stop": 0.9},
-        physical__speed="1 um/s",
-        physical__reference_speed={"start": "1 um/s", "stop": "1 mm/s"},
-        physical__adhesion_range="0.3 nm",
-    )
+    speeds = {"physical__speed": "1 um/s", "physical__reference_speed": {"start": "1 um/s", "stop": "1 mm/s"}}
+    ranges = {"parameters__closing_ratio": {"start": 0.0, "stop": 1.0}, "rate__exponent": {"start": 0.3, "stop": 0.9}}
+    study = load(**ranges, **speeds, physical__adhesion_range="0.3 nm")
     assert (study.free["closing_ratio"], study.free["exponent"]) == ((0.0, 1.0), (0.3, 0.9))
     assert study.free["reference_speed"] == pytest.approx((1e-6, 1e-3))
     assert study.rate.closing == "quasi-static"
@@ -175,20 +171,12 @@ def test_more_of_the_model_is_read() -> None:
 
 
 @pytest.mark.usefixtures("folder")
-@pytest.mark.parametrize(
-    ("key", "keys"),
-    [
-        ("data.load", {"data__load": DEPTH}),
-        ("data.load", {"data__load": {"column": "force", "unit": "nm"}}),
-        ("data.load", {"data__load": {"column": "force"}}),
-        ("data.load", {"data__load": {"column": "forse", "unit": "nN"}}),
-        ("data.indentation", {"data__load": FORCE | {"back": "x"}}),
-        ("data.file", {"data__file": "none.csv"}),
-        ("data.file", {"data__sha256": 64 * "0"}),
-    ],
-)
-def test_what_is_wrong_with_the_columns_is_one_sentence(key: str, keys: dict[str, Any]) -> None:
-    refused(key, **keys)
+def test_what_is_wrong_with_the_columns_is_one_sentence() -> None:
+    for wrong in (DEPTH, {"column": "force", "unit": "nm"}, {"column": "force"}, {"column": "forse", "unit": "nN"}):
+        refused("data.load", data__load=wrong)
+    refused("data.indentation", data__load=FORCE | {"back": "x"})
+    refused("data.file", data__file="none.csv")
+    refused("data.file", data__sha256=64 * "0")
 
 
 def test_a_column_is_named_in_any_case_or_with_its_unit(folder: Path) -> None:
