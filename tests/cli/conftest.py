@@ -24,7 +24,7 @@ Call = Callable[..., Result]
 Made = Callable[..., Path]
 Told = Callable[..., str]
 Patch = pytest.MonkeyPatch
-Completed = subprocess.CompletedProcess[str]
+Called = Callable[..., subprocess.CompletedProcess[str]]
 
 COLUMNS: Final = """indentation = { column = "depth", unit = "nm" }
 load = { column = "force", unit = "nN" }
@@ -56,11 +56,12 @@ def dataset_file(_written_once: Path, tmp_path: Path) -> Path:
 
 @pytest.fixture
 def refusal(gradhesion: Call) -> Told:
-    """What is said where a command is refused: one sentence, and nothing else."""
+    """What is said where a command is refused: one sentence, of options below their usage, and nothing else."""
 
     def refuse(*command: Any, code: int = 2) -> str:
         result = gradhesion(*command, code=code)
-        assert (result.stdout, result.stderr.count("\n")) == ("", 1), result.output
+        said = result.stderr if result.stderr.startswith("Usage: ") else f"\n\n\n{result.stderr}"
+        assert (result.stdout, said.count("\n")) == ("", 4), result.output
         return result.stderr
 
     return refuse
@@ -131,11 +132,11 @@ def mistakes_of(path: Path, *overrides: str) -> list[str]:
 
 
 @pytest.fixture
-def on_a_full_disk() -> Callable[..., Completed]:
+def on_a_full_disk() -> Called:
     """Start the command where no file may be larger than so many bytes; the bytecode of its modules would be cut, too."""
     import resource
 
-    def run(size: int, *words: str | Path) -> Completed:
+    def run(size: int, *words: str | Path) -> subprocess.CompletedProcess[str]:
         def full_disk() -> None:
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))

@@ -47,10 +47,9 @@ APART = ("status", "steep_contact", "solver")
 def browser() -> Iterator[Browser]:
     found = next(filter(None, map(shutil.which, BROWSERS)), None)
     if found is None:
-        assert not {"BROWSER_REQUIRED", "CI"} & os.environ.keys(), (
-            "no browser: install chromium, as `apt-get install chromium` does"
-        )
-        pytest.skip("no browser is installed: chromium, as `apt-get install chromium` installs it, tests the pages")
+        told = "no browser is installed: chromium, as `apt-get install chromium` installs it, tests the pages"
+        assert not {"BROWSER_REQUIRED", "CI"} & os.environ.keys(), told
+        pytest.skip(told)
     with sync_playwright() as playwright:
         running = playwright.chromium.launch(executable_path=found, args=["--no-sandbox"])
         yield running
@@ -147,9 +146,8 @@ class Opened:
 
     def boxes(self, which: str) -> list[dict[str, float]]:
         """Say where some elements stand."""
-        return list(
-            self.js(f"[...document.querySelectorAll('{which}')].map(one => one.getBoundingClientRect().toJSON())")
-        )
+        found = f"[...document.querySelectorAll('{which}')].map(one => one.getBoundingClientRect().toJSON())"
+        return list(self.js(found))
 
     def wait_for_text(self, element: str, text: str) -> None:
         self.page.wait_for_function(f"document.getElementById('{element}').textContent.includes('{text}')")
@@ -356,12 +354,9 @@ def test_lines_are_those_of_all_solvers_and_points_are_dots_over_a_parameter(ope
     page.shows(scene=2)
 
 
-@pytest.mark.parametrize(
-    ("name", "units"),
-    [("curves", {}), ("curves in units", {"indentation": 1e-9, "contact_radius": 1e-9, "load": 1e-6})],
-)
-def test_curves_are_those_of_the_scene_and_can_be_hidden(name: str, units: dict[str, float], open_page: Open) -> None:
-    page = open_page(name)
+@pytest.mark.parametrize("units", [{}, {"indentation": 1e-9, "contact_radius": 1e-9, "load": 1e-6}])
+def test_curves_are_those_of_the_scene_and_can_be_hidden(units: dict[str, float], open_page: Open) -> None:
+    page = open_page("curves in units" if units else "curves")
     for axis in ("A", "k"):
         page.press(axis, "End")
     scene = page.dataset.isel(A=2, k=1)
@@ -412,14 +407,9 @@ def test_what_an_address_has_not_is_said_and_the_rest_is_taken(open_page: Open) 
     assert open_page("maps", "#%zz=1&k=%").page.is_visible("#wrong")
 
 
-@pytest.mark.parametrize(
-    ("name", "at", "value"),
-    [("maps", {"A": 2, "a_max_over_R": 2}, "dissipated_energy"), ("machine", {"R": 2}, "pull_off_force_si")],
-)
-def test_a_study_and_a_script_that_are_downloaded_give_the_scene(
-    name: str, at: dict[str, int], value: str, open_page: Open, tmp_path: Path
-) -> None:
-    page = open_page(name)
+@pytest.mark.parametrize(("name", "value"), [("maps", "dissipated_energy"), ("machine", "pull_off_force_si")])
+def test_a_downloaded_study_and_script_give_the_scene(name: str, value: str, open_page: Open, tmp_path: Path) -> None:
+    page, at = open_page(name), {"A": 2, "a_max_over_R": 2} if name == "maps" else {"R": 2}
     for axis in at:
         page.press(axis, "End")
     scene = page.dataset.isel({axis: (size - 1) // 2 for axis, size in page.dataset.sizes.items()} | at)

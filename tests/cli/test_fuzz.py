@@ -20,10 +20,7 @@ PIECES = [
     "nan", "-inf", "inf", "true", '"x"', "[", "]", "{", "}", "=", ".", ",", "#", "\n", "'", '"""', "1e999", "-0.0", "0x1F",
     "1979-05-27", "[[1], [2]]", "{}", "[{}]", "{a = {b = 1}}", "99999999999999999999", "\\", "\u00e9", "\u2028", "\x0b",
 ]  # fmt: skip
-SENTENCE = re.compile(
-    r"(:\d+: .*|--set .*: .*|: not valid TOML, .*|: not a study, .*|: [\w.]+: .* (required|needs this key)); .*|... and .*",
-    re.DOTALL,
-)
+SENTENCE = r"(?s)(:\d+: .*|--set .*: .*|: not valid TOML, .*|: not a study, .*|: [\w.]+: .* (required|needs this key)); .*|... and .*"
 """The place, what is wrong, and what to do about it."""
 CONFIG = """\
 outputs = ["pull_off_force"]
@@ -52,12 +49,10 @@ def read(content: bytes, overrides: list[str]) -> None:
         assert all(one.startswith((str(path), "--set ", "... and ")) for one in mistakes)
         assert len(mistakes) == len(set(mistakes))
         for one in mistakes:
-            assert SENTENCE.fullmatch(one.removeprefix(str(path))), one
+            assert re.fullmatch(SENTENCE, one.removeprefix(str(path))), one
 
 
 KEYS = st.sampled_from(["parameters.k", "parameters.k.num", "title", "a.b", "", "."])
-
-
 NUMBERS = ["-1", "0", "1e400", "nan", "inf", "7", "1e-300", "0.5", '"0.5"', "true", "5 m", ""]
 
 
@@ -80,9 +75,8 @@ def edited(draw: st.DrawFn) -> str:
             here = draw(st.sampled_from(numbers))
             lines[at] = f"{key}={value[: here.start()]}{draw(st.sampled_from(NUMBERS))}{value[here.end() :]}"
         elif slip == "key" and equals:
-            lines[at] = (
-                f"{draw(st.sampled_from([f'{key.strip()}s', key.upper(), 'parameters.k', 'k', 'n', '']))} ={value}"
-            )
+            keys = [f"{key.strip()}s", key.upper(), "parameters.k", "k", "n", ""]
+            lines[at] = f"{draw(st.sampled_from(keys))} ={value}"
         elif slip == "swap":
             lines[at], lines[other] = lines[other], lines[at]
         elif slip == "add":

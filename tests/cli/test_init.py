@@ -4,20 +4,17 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from gradhesion.cli.commands.init import studies
-from tests.cli.conftest import Call, Patch
-
-CONFIGS = Path(__file__).parents[2] / "configs"
+from tests.cli.conftest import Call, Called, Patch
+from tests.conftest import ROOT
 
 
 def test_the_studies_are_those_of_the_repository() -> None:
-    assert studies() == {path.stem: path.read_text(encoding="utf-8") for path in CONFIGS.glob("*.toml")}
+    assert studies() == {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "configs").glob("*.toml")}
     assert {"map", "curve", "physical", "fig4a"} <= studies().keys()
 
 
@@ -39,9 +36,7 @@ def test_another_name_and_place_and_an_existing_file(gradhesion: Call, tmp_path:
     assert path.read_text(encoding="utf-8") == studies()["map"]
 
 
-def test_a_full_disk_leaves_what_was_there(
-    gradhesion: Call, tmp_path: Path, on_a_full_disk: Callable[..., Any]
-) -> None:
+def test_a_full_disk_leaves_what_was_there(gradhesion: Call, tmp_path: Path, on_a_full_disk: Called) -> None:
     path = tmp_path / "mine.toml"
     path.write_text("precious")
     assert on_a_full_disk(100, "init", "-o", path, "--overwrite").returncode == 4
@@ -50,19 +45,14 @@ def test_a_full_disk_leaves_what_was_there(
     assert gradhesion("init", "-o", path, "--overwrite").exit_code == 0
 
 
-@pytest.mark.parametrize(
-    ("name", "hint"), [("fig4", '"fig4'), ("mine.toml", "init map -o mine.toml"), ("curve.toml", "init curve -o")]
-)
-def test_an_unknown_name_has_a_suggestion(name: str, hint: str, gradhesion: Call) -> None:
-    result = gradhesion("init", name, code=2)
-    assert hint in result.stderr
+def test_an_unknown_name_has_a_suggestion(gradhesion: Call) -> None:
+    for name, hint in {"fig4": '"fig4', "mine.toml": "init map -o mine.toml", "curve.toml": "init curve -o"}.items():
+        assert hint in gradhesion("init", name, code=2).stderr
 
 
 def test_the_lists_name_them_all_those_of_figures_apart(gradhesion: Call) -> None:
-    features, figures = (
-        [line.split()[0] for line in gradhesion("init", "--list", *more).stdout.splitlines()]
-        for more in ((), ["--paper"])
-    )
+    lists = (gradhesion("init", "--list", *more).stdout.splitlines() for more in ((), ["--paper"]))
+    features, figures = ([line.split()[0] for line in one] for one in lists)
     assert sorted(features + figures) == sorted(studies())
     assert {"map", "curve", "fit"} <= {*features}
     assert figures == [name for name in sorted(studies()) if name.startswith(("fig", "extra_"))]
@@ -71,25 +61,18 @@ def test_the_lists_name_them_all_those_of_figures_apart(gradhesion: Call) -> Non
 
 def completed(shell: str, words: str, count: int) -> list[str]:
     """Ask the command what it would complete, as the script of a shell does."""
-    environment = os.environ | {
-        "_GRADHESION_COMPLETE": f"{shell}_complete",
-        "COMP_WORDS": words,
-        "COMP_CWORD": str(count),
-    }
-    if shell == "fish":
-        environment["COMP_CWORD"] = words.rsplit(maxsplit=1)[-1]
-    done = subprocess.run(
-        [sys.executable, "-m", "gradhesion.cli"], env=environment, capture_output=True, text=True, check=True
-    )
-    return done.stdout.splitlines()
+    place = words.rsplit(maxsplit=1)[-1] if shell == "fish" else str(count)
+    asked = {"_GRADHESION_COMPLETE": f"{shell}_complete", "COMP_WORDS": words, "COMP_CWORD": place}
+    command = [sys.executable, "-m", "gradhesion.cli"]
+    return subprocess.run(
+        command, env=os.environ | asked, stdout=subprocess.PIPE, text=True, check=True
+    ).stdout.splitlines()
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 def test_shells_complete_commands_and_studies(shell: str) -> None:
-    commands = completed(shell, "gradhesion pl", 1)
-    assert {"bash": "plain,plot", "zsh": "plot", "fish": "plain,plot"}[shell] in [
-        line.split("\t")[0] for line in commands
-    ]
+    commands = [line.split("\t")[0] for line in completed(shell, "gradhesion pl", 1)]
+    assert {"bash": "plain,plot", "zsh": "plot", "fish": "plain,plot"}[shell] in commands
     assert any("physical" in line for line in completed(shell, "gradhesion init ph", 2))
 
 

@@ -24,11 +24,9 @@ def shell(tmp_path: Path) -> Shell:
     """Run a line of a shell in which `gradhesion` is this one."""
 
     def call(line: str, **variables: str) -> subprocess.CompletedProcess[bytes]:
-        program = f'gradhesion() {{ {sys.executable} -m gradhesion.cli "$@"; }}; '
-        environment = os.environ | variables
-        return subprocess.run(
-            ["bash", "-c", program + line], cwd=tmp_path, env=environment, capture_output=True, check=False, timeout=120
-        )
+        command = ["bash", "-c", f'gradhesion() {{ {sys.executable} -m gradhesion.cli "$@"; }}; {line}']
+        own = os.environ | variables
+        return subprocess.run(command, cwd=tmp_path, env=own, capture_output=True, check=False, timeout=120)
 
     return call
 
@@ -104,8 +102,7 @@ def test_names_not_in_utf_8(
 def test_names_that_are_none(name: str, gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: Patch) -> None:
     monkeypatch.chdir(tmp_path)
     for command in READERS:
-        result = gradhesion(command, name, code=2)
-        assert result.stderr.count("\n") == 1
+        assert gradhesion(command, name, code=2).stderr.count("\n") == 1
     no_dataset = name == "a/../.."  # there is no such folder, and no such ending
     assert gradhesion("run", study_file, "-o", name).exit_code == (2 if no_dataset else 4)
 

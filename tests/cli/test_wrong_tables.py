@@ -57,11 +57,8 @@ TABLES: dict[str, tuple[str, str]] = {
 }  # fmt: skip
 """Texts with @x and @y in the place of the columns that a reader wants, and what is said."""
 
-NO_NUMBERS = ("1.234,5", "1 234", "0x1F", "1.5D-3", "\u22125", "2 nN", "lost", "1_000")
-TABLES |= {
-    f"number: {cell}": (f"@x\t@y\n1\t{cell}\n", f'line 2: @y = "{cell}" is not a number; write one')
-    for cell in NO_NUMBERS
-}
+for cell in ("1.234,5", "1 234", "0x1F", "1.5D-3", "\u22125", "2 nN", "lost", "1_000"):
+    TABLES[cell] = (f"@x\t@y\n1\t{cell}\n", f'line 2: @y = "{cell}" is not a number; write one')
 ENCODINGS = {"Windows text": "cp1252", "cut UTF-16": "utf-16"}
 
 OWN: dict[str, tuple[str, str, str]] = {
@@ -132,19 +129,11 @@ def test_what_is_no_file_is_one_sentence(reader: str, gradhesion: Call, tmp_path
     assert "the file cannot be read (" in told(reader, tmp_path, gradhesion)
 
 
-@pytest.mark.parametrize(
-    ("column", "cell"),
-    [
-        *(("cycle", one) for one in ("0.6", "inf", "1e20", "first")),
-        *(("branch", one) for one in ("unloadng", "3", "0.5")),
-    ],
-)
-def test_wrong_cycles_and_branches_are_one_sentence(column: str, cell: str, tmp_path: Path) -> None:
-    with pytest.raises(gr.StudyError) as caught:
+@pytest.mark.parametrize("cell", ["0.6", "inf", "1e20", "first", "unloadng", "3", "0.5"])
+def test_wrong_cycles_and_branches_are_one_sentence(cell: str, tmp_path: Path) -> None:
+    column = "branch" if cell in ("unloadng", "3", "0.5") else "cycle"
+    with pytest.raises(gr.StudyError, match=f'^[^\n]*line 2: {column} = "{cell}" is [^\n]*;[^\n]*$'):
         loop(tmp_path, f"depth,force,{column}\n1,2,{cell}\n", **{column: column})
-    (sentence,) = caught.value.mistakes
-    assert f'line 2: {column} = "{cell}" is ' in sentence
-    assert ";" in sentence
 
 
 def loop(tmp_path: Path, text: str, **more: str) -> Any:

@@ -55,20 +55,13 @@ LINES = {  # what is replaced, by what, the key of the mistake and its line
     "misspelt in a range": ("num = 3", "num = 3, base = 2", "parameters.lambda_over_R.base", 11),
     "in another table": ("A = 0.1", 'A = 0.1\nR = "1 mm"', "parameters.R", 13),
     "too many scenes": ("nu = 0.3", "nu = { start = 0, stop = 0.4, num = 1000000000 }", "parameters.nu.num", 8),
-    "behind a list over lines": (
-        "k = [0.0, 0.5]\nnu = 0.3",
-        "k = [\n 0.0, # ]\n 0.5,\n]\nnu = 0.7",
-        "parameters.nu",
-        11,
-    ),
-}
+    "behind a list over lines": ("k = [0.0, 0.5]\nnu = 0.3", "k = [\n 0.0, # ]\n 0.5,\n]\nnu = 0.7", "parameters.nu", 11),
+}  # fmt: skip
 OVERRIDES = {"": ("parameters.k", "=3", "parameters..k=3", "layout=points", "parameters.k=", "parameters.k=0,0.1", "parameters.k=0.1\nA=3",
                   "title.x=3", 'include="base.toml"'),
              "parameters.kk": ("parameters.kk=0.1",), "parameters.k": ("parameters.k=2",), "nothing": ("nothing.at.all=1",),
              "parameters.lambda_over_R.num": ("parameters.lambda_over_R={start=1, stop=2, num=0}", "parameters.lambda_over_R.num=0")}  # fmt: skip
 """Wrong overrides by the keys at which they are refused; empty for what is no override."""
-
-
 Refused = Callable[..., list[str]]
 
 

@@ -14,6 +14,8 @@ from gradhesion.cli.work import compiling
 from gradhesion.core.jit import Place
 from tests.cli.conftest import Call, Patch
 
+Printed = pytest.CaptureFixture[str]
+
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: Patch) -> Path:
@@ -33,12 +35,7 @@ def test_the_first_run_alone_says_that_it_compiles(gradhesion: Call, study_file:
 
 
 def test_a_plan_and_python_say_it_as_well_and_another_process_does_not_say_it_again(
-    folder: Path,
-    gradhesion: Call,
-    study_file: Path,
-    data: dict[str, Any],
-    monkeypatch: Patch,
-    capsys: pytest.CaptureFixture[str],
+    folder: Path, gradhesion: Call, study_file: Path, data: dict[str, Any], monkeypatch: Patch, capsys: Printed
 ) -> None:
     assert len(gradhesion("plan", study_file, "--json").stderr.splitlines()) == 1
     (folder / "another").mkdir()
@@ -55,9 +52,7 @@ def test_a_plan_and_python_say_it_as_well_and_another_process_does_not_say_it_ag
     assert len(capsys.readouterr().err.splitlines()) == 1
 
 
-def test_why_nothing_is_kept_is_said_once(
-    data: dict[str, Any], monkeypatch: Patch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_why_nothing_is_kept_is_said_once(data: dict[str, Any], monkeypatch: Patch, capsys: Printed) -> None:
     monkeypatch.setattr(compiling, "place", lambda: Place(None, "a folder is not used, and why"))
     monkeypatch.setattr(compiling, "_begun", set())
     for is_first in (True, False):
@@ -97,6 +92,5 @@ def test_a_warmup_takes_the_options_of_earlier_versions(gradhesion: Call, monkey
     asked: list[bool] = []
     monkeypatch.setattr("gradhesion.core.warm_up", lambda _report, *, everything: asked.append(everything))
     for arguments in ([], ["--all"], ["--all", "--workers", "2", "--quiet"]):
-        result = gradhesion("warmup", *arguments, code=0)
-        assert ("--quiet" in arguments) == (result.stderr == "")
+        assert ("--quiet" in arguments) == (gradhesion("warmup", *arguments, code=0).stderr == "")
     assert asked == [False, True, True]

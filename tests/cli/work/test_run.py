@@ -3,7 +3,6 @@
 import os
 import re
 import stat
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -18,7 +17,7 @@ from gradhesion.cli.study import load_study, study_from
 from gradhesion.cli.work.solve.scenes import solve as real_solve
 from gradhesion.core import FAILED, PARAMETERS
 from gradhesion.core.problem.status import OF_EVERY_MAP
-from tests.cli.conftest import Call, Made, Patch
+from tests.cli.conftest import Call, Called, Made, Patch
 
 SOLVE = "gradhesion.cli.work.solve.scenes.solve"
 
@@ -75,9 +74,8 @@ def test_values_do_not_depend_on_blocks_or_threads(layout: str, data: dict[str, 
     """A block of 128 exponents or more has interpolated tables, a smaller one those of its own."""
     scenes = np.random.default_rng(7).uniform(0.05, 0.45, (4, 150))
     lists = dict(zip(("k", "lambda_over_R", "A", "a_max_over_R"), scenes.tolist(), strict=True))
-    study = study_from(
-        data | ({"layout": layout, "parameters": data["parameters"] | lists} if layout == "points" else {})
-    )
+    points = {"layout": layout, "parameters": data["parameters"] | lists} if layout == "points" else {}
+    study = study_from(data | points)
     whole = compute(study, threads=1)
     xarray.testing.assert_identical(compute(study, threads=2), whole)
     # terms of a value and of the tables that it is made of: some hundred eps
@@ -100,8 +98,8 @@ def test_dimensions_are_those_of_axes_and_points_have_one(made: Made) -> None:
 
 def test_the_default_output_and_message(gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: Patch) -> None:
     monkeypatch.chdir(tmp_path)
-    result = gradhesion("run", study_file)
-    assert (result.exit_code, result.stdout) == (0, "")
+    result = gradhesion("run", study_file, code=0)
+    assert result.stdout == ""
     assert re.search(r"outputs/study.nc: 24 scenes in [\d.]+ s \([\d,]+ per s\), [\d.]+ kB\n$", result.stderr)
     assert os.listdir("outputs") == ["study.nc"]
     mask = os.umask(0)
@@ -153,9 +151,7 @@ def test_failed_scenes_are_written(gradhesion: Call, study_file: Path, tmp_path:
 
 
 @pytest.mark.parametrize("limit", [300, 3_000, 20_000, 60_000])
-def test_a_failed_write_loses_nothing(
-    limit: int, study_file: Path, tmp_path: Path, on_a_full_disk: Callable[..., Any]
-) -> None:
+def test_a_failed_write_loses_nothing(limit: int, study_file: Path, tmp_path: Path, on_a_full_disk: Called) -> None:
     folder = tmp_path / "data"
     folder.mkdir()
     old = folder / "out.nc"

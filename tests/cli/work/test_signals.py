@@ -94,9 +94,11 @@ def test_an_interrupt_that_a_library_swallows_is_heard(study_file: Path, tmp_pat
     assert os.listdir(tmp_path / "out") == []
 
 
-def test_an_interrupt_that_a_cluster_swallows_ends_the_run_after_a_block(
+def test_an_interrupt_that_a_cluster_swallows_ends_the_run(
     study_file: Path, tmp_path: Path, monkeypatch: Patch
 ) -> None:
+    """After a block."""
+
     def engine(study: Study, numbers: Sequence[int]) -> Iterator[tuple[int, Arrays]]:
         for number in numbers:
             monkeypatch.setattr(interrupts, "_heard", [0.0])
