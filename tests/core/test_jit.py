@@ -16,9 +16,8 @@ import pytest
 from gradhesion.core.jit import CORE, changeable
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has other rights")
-as_root = pytest.mark.skipif(
-    sys.platform != "win32" and os.getuid() != 0, reason="files of another user are made by root alone"
-)
+is_root = sys.platform == "win32" or os.getuid() == 0
+as_root = pytest.mark.skipif(not is_root, reason="files of another user are made by root alone")
 OTHER = 12345
 """Another user."""
 
@@ -54,12 +53,9 @@ def ended(script: Path, tree: Path | None = None, **environment: str) -> dict[st
     if not script.exists():  # some versions of numba compile anew what is as it was, but written again
         script.write_text(KERNELS)
     unset = ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME")
-    inherited = {name: value for name, value in os.environ.items() if name not in unset}
-    if tree is not None:
-        environment["PYTHONPATH"] = str(tree)
-    done = subprocess.run(
-        [sys.executable, script], env=inherited | environment, cwd="/", capture_output=True, text=True, check=False
-    )
+    own = {name: value for name, value in os.environ.items() if name not in unset} | environment
+    own |= {"PYTHONPATH": str(tree)} if tree is not None else {}
+    done = subprocess.run([sys.executable, script], env=own, cwd="/", capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
     found: dict[str, Any] = json.loads(done.stdout)
     assert found["value"] == 25.0

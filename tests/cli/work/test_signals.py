@@ -94,9 +94,7 @@ def test_an_interrupt_that_a_library_swallows_is_heard(study_file: Path, tmp_pat
     assert os.listdir(tmp_path / "out") == []
 
 
-def test_an_interrupt_a_cluster_swallows_ends_it_after_a_block(
-    study_file: Path, tmp_path: Path, monkeypatch: Patch
-) -> None:
+def test_an_interrupt_a_cluster_swallows_is_heard(study_file: Path, tmp_path: Path, monkeypatch: Patch) -> None:
     def engine(study: Study, numbers: Sequence[int]) -> Iterator[tuple[int, Arrays]]:
         for number in numbers:
             monkeypatch.setattr(interrupts, "_heard", [0.0])

@@ -21,9 +21,7 @@ def heights(rho: Any, wavelength: float = 0.193) -> Any:
     return total
 
 
-def drawn(
-    noise: float = 0.0, seed: int = 1, *, both: bool = True, points: int = 1500, **more: float
-) -> tuple[Any, Any]:
+def drawn(noise: float = 0.0, seed: int = 1, *, both: bool = True, points: int = 1500, **more: float) -> Any:
     """A measured line: over both flanks with its centre at 0.031, or over one from the axis on."""
     r = np.linspace(-1.15, 1.1, points) if both else np.linspace(0.0, 1.1, points)
     errors = np.random.default_rng(seed).standard_normal(r.size)

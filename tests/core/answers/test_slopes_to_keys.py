@@ -50,10 +50,7 @@ def test_what_is_zero_has_no_slope_and_what_has_no_influence_none() -> None:
 def test_at_the_ends_of_k_slopes_are_inwards(k: float, nu: float, side: float) -> None:
     """With lambda/L given, lambda follows from k too."""
     scene, step = REDUCED | {"k": k, "nu": nu}, 1e-3
-    ahead = [
-        float(solve(parameters_from(scene | {"k": k + side * i * step}), ["pull_off_force"])["pull_off_force"])
-        for i in range(5)
-    ]
+    ahead = solve(parameters_from(scene | {"k": k + side * step * np.arange(5)}), ["pull_off_force"])["pull_off_force"]
     own = solve(parameters_from(scene), [FORCE])[FORCE]
     slope = slopes_to_keys(scene, ["k"], PARAMETERS, ahead[0], own, {})["k"]
     exact = side * np.dot([-25.0, 48.0, -36.0, 16.0, -3.0], ahead) / (12.0 * step)

@@ -66,15 +66,15 @@ def test_what_cannot_be_drawn_is_refused(change: dict[str, float]) -> None:
 SHARES = np.array([1e-12, 0.003, 0.31, 0.5, 0.77, 0.9999])
 
 
-@pytest.mark.parametrize(
-    ("centre", "spread"),
-    [
-        (0.02, Spread(deviation=0.013, low=0.0)),
-        (0.31, Spread(deviation=0.27, low=-1.0, high=0.5)),
-        (0.97, Spread(deviation=0.05, relative=True, low=0.0, high=1.0)),
-        (430.0, Spread(deviation=0.07, relative=True, low=0.0)),
-    ],
-)
+SPREADS = {
+    0.02: Spread(deviation=0.013, low=0.0),
+    0.31: Spread(deviation=0.27, low=-1.0, high=0.5),
+    0.97: Spread(deviation=0.05, relative=True, low=0.0, high=1.0),
+    430.0: Spread(deviation=0.07, relative=True, low=0.0),
+}
+
+
+@pytest.mark.parametrize(("centre", "spread"), SPREADS.items())
 def test_a_truncated_normal_distribution(centre: float, spread: Spread) -> None:
     deviation = spread.deviation * (centre if spread.relative else 1.0)
     exact = truncnorm((spread.low - centre) / deviation, (spread.high - centre) / deviation, centre, deviation)

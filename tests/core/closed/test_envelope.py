@@ -26,12 +26,10 @@ def length_of(k: float, M: float) -> float:
     return M ** (-1 / (3 + k))
 
 
-REACHES = [(0.031, 0.21), (0.72, 0.9), (1.0, 1.63), (2.6, 5.8)]
+LOOPS = [*((k, 0.72, 5.8) for k in EXPONENTS), (0.2, 0.031, 0.21), (0.2, 0.72, 0.9), (0.2, 1.0, 1.63), (0.2, 2.6, 5.8)]
 
 
-@pytest.mark.parametrize(
-    ("k", "chi", "reach"), [*((k, 0.72, 5.8) for k in EXPONENTS), *((0.2, *one) for one in REACHES)]
-)
+@pytest.mark.parametrize(("k", "chi", "reach"), LOOPS)
 def test_the_energy_is_the_loop_integral_of_load_over_depth(k: float, chi: float, reach: float) -> None:
     M, rim = 37.0, reach * length_of(k, 37.0)
     scene, one = scene_of_ratio(k, M, 0.0023, chi, rim), chi * adhesion(k, M)
@@ -62,10 +60,8 @@ def test_the_pull_off_force_is_that_of_a_smooth_punch_of_greater_adhesion(k: flo
 
 def test_an_unbounded_punch_loses_without_end_with_waviness_alone() -> None:
     for profile in (None, PROFILE):
-        wavy, smooth = (
-            solve(scene_of_ratio(0.37, 90.0, 0.01, chi, math.inf), OUTPUTS, solver="envelope", profile=profile)
-            for chi in (0.2, 0.0)
-        )
+        scenes = (scene_of_ratio(0.37, 90.0, 0.01, chi, math.inf) for chi in (0.2, 0.0))
+        wavy, smooth = (solve(scene, OUTPUTS, solver="envelope", profile=profile) for scene in scenes)
         assert wavy["dissipated_energy"] == wavy["delta_max"] == math.inf
         assert wavy["status"] == 0
         assert np.isfinite([wavy["pull_off_force"], smooth["dissipated_energy"]]).all()

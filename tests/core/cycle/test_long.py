@@ -84,11 +84,10 @@ SIMILAR = [
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("k", "m", "waves", "control", "count", "ratio", "chi", "extra"), SIMILAR)
-def test_similar_scenes(
-    k: float, m: float, waves: Waves, control: str, count: float, ratio: float, chi: float, extra: dict[str, float]
-) -> None:
+@pytest.mark.parametrize("case", SIMILAR)
+def test_similar_scenes(case: tuple[float, float, Waves, str, float, float, float, dict[str, float]]) -> None:
     """Lengths differ by 5/4: coordinates round anew while the phase at the rim is the same double."""
+    k, m, waves, control, count, ratio, chi, extra = case
     nu, c0, factor = 0.5 if k == 1.0 else 0.2, 0.1, 1.25
     wavelength = 2.0 ** round(math.log2(1e-3 / count))
     length = count * wavelength / ratio

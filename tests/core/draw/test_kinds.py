@@ -94,12 +94,10 @@ def test_envelopes_and_the_effective_path_close_at_the_work_of_closing() -> None
     found, _ = draw_curves(WORKS | {"closing_ratio": 0.49}, ["envelope"])
     radii, loads = found["envelope_contact_radius"], found["loading_envelope_load"]
     allowed = 1e-3 * np.ptp(loads)
-    for factor, way in (
-        (0.49, on_the_way(500.0 / 0.49, unloading=False)),
-        (1.0, on_the_way(500.0, unloading=False, closing_ratio=0.49)),
-    ):
-        assert way[0].size > 10
-        np.testing.assert_allclose(factor * way[1], np.interp(way[0], radii, loads), atol=allowed)
+    alone, closing = on_the_way(500.0 / 0.49, unloading=False), on_the_way(500.0, unloading=False, closing_ratio=0.49)
+    for factor, (a, load) in ((0.49, alone), (1.0, closing)):
+        assert a.size > 10
+        np.testing.assert_allclose(factor * load, np.interp(a, radii, loads), atol=allowed)
     a, load = on_the_way(500.0, unloading=True, closing_ratio=0.49)
     np.testing.assert_allclose(load, np.interp(a, *on_the_way(500.0, unloading=True)), atol=allowed)
 

@@ -144,28 +144,26 @@ def test_largest_amplitude_of_a_rising_profile() -> None:
     for wavelength in (0.013, 0.2, 1.7):
         limit = float(general.largest_monotonic_amplitude(wavelength))
         r = np.linspace(0.0, 3 * wavelength, 30001)
-        assert (
-            general.slope(r, wavelength, limit * (1 - 1e-6)).min()
-            >= 0.0
-            > general.slope(r, wavelength, limit * (1 + 1e-5)).min()
-        )
+        below, above = (general.slope(r, wavelength, limit * share).min() for share in (1 - 1e-6, 1 + 1e-5))
+        assert below >= 0.0 > above
         assert general.is_monotonic(wavelength, limit)
         assert not general.is_monotonic(wavelength, np.nextafter(limit, 1.0))
 
 
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda: general.sampled_coefficients(np.zeros(8), 5), "terms = 5: 8 samples hold 1 to 3"),
-        (lambda: general.sampled_coefficients([0.0, math.nan, 0.0], 1), "finite"),
-        (lambda: general.sampled_coefficients(np.zeros((2, 8)), 1), "one dimension"),
-        (lambda: general.coefficients(np.sin, 0), "terms = 0"),
-        (lambda: general.coefficients(lambda xi: np.where(xi % 1 < 0.3, 1.0, 0.0), 2), "not resolved"),
-    ],
-)
-def test_no_coefficients(call: Any, message: str) -> None:
+NO_COEFFICIENTS: dict[str, tuple[Any, Any, int]] = {
+    "terms = 5: 8 samples hold 1 to 3": (general.sampled_coefficients, np.zeros(8), 5),
+    "finite": (general.sampled_coefficients, [0.0, math.nan, 0.0], 1),
+    "one dimension": (general.sampled_coefficients, np.zeros((2, 8)), 1),
+    "terms = 0": (general.coefficients, np.sin, 0),
+    "not resolved": (general.coefficients, lambda xi: np.where(xi % 1 < 0.3, 1.0, 0.0), 2),
+}
+
+
+@pytest.mark.parametrize("message", NO_COEFFICIENTS)
+def test_no_coefficients(message: str) -> None:
+    call, values, terms = NO_COEFFICIENTS[message]
     with pytest.raises(ValueError, match=message):
-        call()
+        call(values, terms)
 
 
 FUNCTIONS: dict[str, Callable[..., Any]] = {
@@ -216,12 +214,8 @@ def test_where_a_formula_has_no_value_or_a_last_one() -> None:
     assert np.isnan(call("effective.jump_in_radius", waviness=0.2))
     for name in ("second_part", "dissipated_energy", "fitted_energy"):
         assert np.isnan(call(f"effective.{name}", amplitude=5.0)), name
-    assert (
-        call("quadrature.gap", distance=0.2)
-        == call("quadrature.hertz_load", radius=0.0)
-        == call("hertz.load", radius=0.0)
-        == 0.0
-    )
+    assert call("quadrature.hertz_load", radius=0.0) == call("hertz.load", radius=0.0) == 0.0
+    assert call("quadrature.gap", distance=0.2) == 0.0
     assert call("hertz.indentation") == call("jkr.indentation", stiffness=np.inf)
     assert call("effective.jump_out_radius", k=1.0) == 0.0
     s, r = envelopes.adhesion_strength(0.3, 500.0), envelopes.waviness_strength(0.3, 0.1, 0.02)
@@ -249,8 +243,6 @@ def test_the_shape_is_the_broadcast_one(name: str) -> None:
     ],
 )  # fmt: skip
 def test_names_of_merged_modules_work(old: str, function: str, new: Any) -> None:
-    for module in (
-        importlib.import_module(f"gradhesion.core.equations.{old}"),
-        getattr(gradhesion.core.equations, old),
-    ):
-        assert getattr(module, function) is getattr(new, function)
+    module = importlib.import_module(f"gradhesion.core.equations.{old}")
+    assert getattr(module, function) is getattr(getattr(gradhesion.core.equations, old), function)
+    assert getattr(module, function) is getattr(new, function)

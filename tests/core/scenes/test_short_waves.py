@@ -12,7 +12,7 @@ import pytest
 from gradhesion.core import FAILED, OUTPUTS, Profile, solve
 from gradhesion.core.equations import short_waves
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
-from tests.core.draw.printed import series_of
+from tests.core.draw.printed import curve_of
 from tests.core.scene import Scene, adhesion, material_of, profile_of, scene_of_ratio
 from tests.stress.draw import hostile
 
@@ -30,10 +30,7 @@ def on_a_grid(scene: Scene, profile: Profile) -> dict[str, float]:
     t = np.arange(1, points + 1) / points
     a, da = rim * t**1.5, 1.5 * rim * np.sqrt(t) / points
     da[-1] /= 2
-    depth, load = (
-        of(k, M, a, *series_of(scene, profile), exponent=profile.exponent)
-        for of in (short_waves.indentation, short_waves.load)
-    )
+    depth, load = curve_of(scene, profile, short_waves)(a)
     pull = adhesion(k, M) * a ** ((1 - k) / 2)
     rising = np.flatnonzero(np.diff(depth) > 0)
     first = int(rising[0]) if rising.size else points - 1  # no equilibrium is stable before

@@ -20,13 +20,11 @@ BOTH = profile_of(2.0, (1, 0.8, 0.2), (3, 0.1, 0.25))
 BY_LOAD, BY_MACHINE = Loading(control="load"), Loading(control="machine")
 LENGTH = {"toughness_wavelength_over_R": 0.113, "toughness_amplitude": 0.8}
 AT_TURN = ENDLESS | LENGTH | {"lambda_over_R": 0.2, "A": 0.055, "c0_over_R": 0.01, "k": 0.1, "toughness_amplitude": 0.2}
+LANDING = ENDLESS | {"indentation_max_over_R": 1e-3, "closing_ratio": 0.4}
 KINDS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "unbounded": (ENDLESS, {}),
     "two harmonics under a load, two works": ({"closing_ratio": 0.4}, {"profile": BOTH, "loading": BY_LOAD}),
-    "two works, turned where a jump lands": (
-        ENDLESS | {"indentation_max_over_R": 1e-3, "machine_stiffness": 0.05, "closing_ratio": 0.4},
-        {"loading": BY_MACHINE},
-    ),
+    "two works, turned where a jump lands": (LANDING | {"machine_stiffness": 0.05}, {"loading": BY_MACHINE}),
     "a pattern, a load": (LENGTH, {"toughness": PATTERN, "loading": BY_LOAD}),
     "a pull-off at the turn": (AT_TURN | {"indentation_max_over_R": 0.005}, {"toughness": OF_WORK}),
     "600 waves": ({"lambda_over_R": 0.57 / 600.3, "A": 0.01}, {}),
