@@ -30,9 +30,8 @@ def test_a_flag_is_its_bit(flag: str, every_status: xarray.Dataset) -> None:
 
 
 def test_what_is_valid_depends_on_what_is_asked(every_status: xarray.Dataset) -> None:
-    whole, energy, force = (
-        every_status.gr.valid(name).values for name in (None, "dissipated_energy", "pull_off_force")
-    )
+    names = (None, "dissipated_energy", "pull_off_force")
+    whole, energy, force = (every_status.gr.valid(name).values for name in names)
     for status in range(128):
         assert whole[status] == (status & FAILED == 0)
         assert energy[status] == (status & (FAILED | DOUBTFUL) == 0)

@@ -153,10 +153,8 @@ def _run_commands(block: Block, folder: Path) -> None:
 def _in_a_shell(line: str, folder: Path) -> tuple[int, str]:
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])  # the installed command first
     own, bash = os.environ | {"PATH": path, "MPLBACKEND": "agg"}, ["bash", "-euo", "pipefail", "-c", line]
-    none, both = subprocess.DEVNULL, subprocess.STDOUT
-    done = subprocess.run(
-        bash, cwd=folder, env=own, stdin=none, stdout=subprocess.PIPE, stderr=both, text=True, timeout=600, check=False
-    )
+    ends = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+    done = subprocess.run(bash, cwd=folder, env=own, text=True, timeout=600, check=False, **ends)
     return done.returncode, done.stdout
 
 

@@ -120,12 +120,9 @@ def test_the_installed_program_works_away_from_the_repository(wheel: Path, tmp_p
         cache = str(tmp_path / "cache")
         return call(*arguments, cwd=elsewhere, PYTHONPATH=str(installed), XDG_CACHE_HOME=cache)
 
-    where = there(
-        "-c",
-        "import gradhesion, gradhesion.cli, gradhesion.core, gradhesion.scenes as scenes; "
-        "print(*(one.__file__ for one in (gradhesion, gradhesion.cli, gradhesion.core, scenes)))",
-    )
-    assert where.count(str(installed)) == 4
+    code = "import gradhesion, gradhesion.cli, gradhesion.core, gradhesion.scenes as scenes; "
+    code += "print(*(one.__file__ for one in (gradhesion, gradhesion.cli, gradhesion.core, scenes)))"
+    assert there("-c", code).count(str(installed)) == 4
     for program in (["-m", "gradhesion.cli"], ["-m", "gradhesion"], [str(installed / "bin" / "gradhesion")]):
         assert "run" in there(*program, "--help")
     there("-m", "gradhesion.cli", "init", "smoke")

@@ -57,9 +57,7 @@ def hostile(seed: int, size: int, most_waves: float = math.inf) -> Scenes:
     rng = np.random.default_rng([seed, 1])
     scenes = _materials(rng, size) | {
         "lambda_over_R": log_uniform(rng, 1e-12, 1e6, size),
-        "A": np.where(
-            rng.uniform(size=size) < 0.5, log_uniform(rng, 1e-300, 1e3, size), log_uniform(rng, 1e-9, 1e3, size)
-        ),
+        "A": np.where(rng.uniform(size=size) < 0.5, *(log_uniform(rng, low, 1e3, size) for low in (1e-300, 1e-9))),
         "a_max_over_R": log_uniform(rng, 1e-12, 1e9, size),
     }
     scenes["A"][rng.uniform(size=size) < 0.1] = 0.0

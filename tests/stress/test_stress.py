@@ -226,9 +226,8 @@ def test_cost_and_memory_are_bounded() -> None:
         "    solve(draw(2, 600), OUTPUTS, threads=1)\n"
         "print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024)\n"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, timeout=300, check=True
-    )
+    command = [sys.executable, "-c", script]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300, check=True)
     assert float(done.stdout) < 64.0, f"{done.stdout} MiB for 1,200 scenes"
 
 

@@ -19,7 +19,7 @@ from gradhesion.twin.scene import PARAMETERS, solve, waves_to_follow
 from gradhesion.twin.series import Series
 from gradhesion.twin.shape import PLAIN, Shape
 from gradhesion.twin.special import s0_series, s1_series, struve_expansion
-from tests.core.scene import scene_of
+from tests.core.scene import Waves, scene_of
 from tests.stress.draw import eventful, hostile
 
 from .compare import Case, compare, general_scene, of_any_kind, of_one_cosine
@@ -155,10 +155,8 @@ def test_smooth_punch_of_any_wavelength(k: float, nu: float) -> None:
         s, x = curve.adhesion, arb(k)
         q, first = (1 - x) / 4, ((1 + x) * curve.adhesion) ** (2 / (3 + x))
         if rim > first:
-            part = [
-                16 * p * p / ((1 + x) * (3 + x) * (5 + x)) - 8 * p / ((1 + x) * (3 + x)) + 2 / (1 + x) - 1
-                for p in (q, 1)
-            ]
+            two, three = (1 + x) * (3 + x), (1 + x) * (3 + x) * (5 + x)
+            part = [16 * p * p / three - 8 * p / two + 2 / (1 + x) - 1 for p in (q, 1)]
             last = (q * (1 + x) * s) ** (2 / (3 + x)) if k < 1 else arb(0)
             energy = arb.pi() * (part[0] * last * last - part[1] * first * first)
             assert abs(solution.dissipated_energy / energy - 1) < arb("1e-35")
@@ -173,24 +171,20 @@ def test_slopes_of_kappa_are_those_of_differences(of: str) -> None:
     lengths = {"toughness_wavelength_over_R": 0.13, "toughness_amplitude": 0.9}
     pattern = Pattern(lengths, Shape(pattern=((1, 0.2, -0.1), (3, 0.05, 0.1)), pattern_of=of))
     a, step = arb(0.37), arb(2) ** -40
-    (low, below, _), (kappa, first, second), (high, above, _) = (
-        pattern.at(a * (1 + sign * step)) for sign in (-1, 0, 1)
-    )
+    around = [pattern.at(a * (1 + sign * step)) for sign in (-1, 0, 1)]
+    (low, below, _), (kappa, first, second), (high, above, _) = around
     assert float((high - low) / (2 * step)) == pytest.approx(float(first), rel=1e-10)
     assert float((above - below) / (2 * step)) == pytest.approx(float(second), rel=1e-10)
     assert abs(float(kappa)) <= pattern.greatest
 
 
 @pytest.mark.parametrize(("m", "waves"), [(1.0, ((2, 3.0, 0.0), (5, 0.0, 2.0))), (1.3, ((1, 4.0, 0.0),))])
-def test_the_last_phase_is_one_beyond_which_nothing_pulls(
-    m: float, waves: tuple[tuple[int, float, float], ...]
-) -> None:
+def test_the_last_phase_is_one_beyond_which_nothing_pulls(m: float, waves: Waves) -> None:
     """And it is not far beyond: of strong waves on a blunt tip, whose folds may have no end."""
     curve = Curve(scene_of(0.2, 0.3, 500.0, 0.1, 0.1, 0.1, math.inf), Shape(m, waves))
     end = bounds.last(curve, curve.trough)
-    far, near = (
-        [curve.force(arb(z)) for z in np.linspace(*ends, 200).tolist()] for ends in ((end, 3 * end), (0.8 * end, end))
-    )
+    places = (np.linspace(*ends, 200).tolist() for ends in ((end, 3 * end), (0.8 * end, end)))
+    far, near = ([curve.force(arb(z)) for z in own] for own in places)
     assert all(force > 0 for force in far)
     assert any(force < 0 for force in near)
 
