@@ -143,7 +143,6 @@ PROBE = {"nu": 0.5, "E": "2 MPa", "work_of_adhesion": "50 mJ/m^2", "k": 0.0, "wa
 
 @pytest.fixture(scope="module")
 def tips() -> xarray.Dataset:
-    """The force of two tips, in SI."""
     return gr.solve(PROBE, "pull_off_force", R=["20 um", "40 um"], a_max="10 um")
 
 

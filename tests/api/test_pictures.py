@@ -19,7 +19,6 @@ PUNCH: dict[str, Any] = {"nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "a_max_
 
 @pytest.fixture(scope="module")
 def grid() -> xarray.Dataset:
-    """A map over two axes."""
     return gr.solve(PUNCH, k=[0.0, 0.3, 0.6], lambda_over_R=[0.1, 0.2, 0.4])
 
 
@@ -97,7 +96,6 @@ class Notebook:
         self.shell = SimpleNamespace(events=events, kernel=object() if kernel else None)
 
     def display(self, value: Any) -> None:
-        """Show a value, as a picture if it is one."""
         if hasattr(value, "_repr_png_"):
             self.outputs.append(value._repr_png_())
 

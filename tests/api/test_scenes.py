@@ -225,7 +225,6 @@ STUDIES: dict[str, dict[str, Any]] = {
 
 
 def arguments(study: dict[str, Any]) -> dict[str, Any]:
-    """The same as keywords."""
     loading, method = dict(study.get("loading", {})), study.get("method", {})
     control = loading.pop("control", None)
     values = study["parameters"] | study.get("physical", {}) | loading

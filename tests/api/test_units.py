@@ -35,7 +35,6 @@ class Quantity(np.ndarray):  # type: ignore[type-arg]
     si: Any
 
     def in_mks(self) -> Any:
-        """Convert it, as unyt does."""
         return SimpleNamespace(value=self.value * self.units.factor, units=self.units.base)
 
 
@@ -49,7 +48,6 @@ class Unit:
         return self.text
 
     def quantity(self, numbers: Any) -> Any:
-        """Make a quantity."""
         made = np.asarray(numbers, dtype=float).view(Quantity)
         made.value = np.asarray(numbers, dtype=float)
         if self.unyt:
@@ -70,12 +68,10 @@ class PintColumn(pd.Series):  # type: ignore[type-arg]
 
     @property
     def array(self) -> Any:
-        """What holds its values."""
         return SimpleNamespace(quantity=ureg.Quantity(np.asarray(self.values), "um"))
 
 
 def series_with_attribute() -> Any:
-    """Give a column of pandas with an attribute."""
     column = pd.Series([25.0, 50.0])
     column.attrs["units"] = "um"
     return column

@@ -107,8 +107,6 @@ Run = Callable[..., Ran]
 
 @pytest.fixture
 def ran(gradhesion: Call, write_study: Made, tmp_path: Path) -> Run:
-    """Run a study by the command."""
-
     def run(study: dict[str, Any], *options: str, output: str = "out.nc", exit_code: int = 0) -> Ran:
         path = tmp_path / output
         result = gradhesion("run", write_study(study_from(study).text), "-o", path, *options, code=exit_code)
@@ -125,7 +123,6 @@ def jkr(a: np.ndarray, R: float, E_star: float, work: float) -> tuple[np.ndarray
 
 
 def mistakes_of(path: Path, *overrides: str) -> list[str]:
-    """List what is wrong with a study."""
     with pytest.raises(gr.StudyError) as caught:
         load_study(path, overrides)
     return list(caught.value.mistakes)

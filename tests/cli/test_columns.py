@@ -17,7 +17,6 @@ from gradhesion.cli.tables.text import of_text
 
 
 def written(folder: Path, text: str | bytes, name: str = "table.csv") -> Path:
-    """Write a file."""
     path = folder / name
     path.write_bytes(text.encode() if isinstance(text, str) else text)
     return path

@@ -116,7 +116,6 @@ class Opened:
         return self.page.inner_text(f"#{element}")
 
     def press(self, axis: str, *keys: str) -> None:
-        """Move the slider of an axis by keys."""
         self.page.focus(f"#axis-{axis}")
         for key in keys:
             self.page.keyboard.press(key)
@@ -131,7 +130,6 @@ class Opened:
         self.settle()
 
     def point_of(self, part: str, x: float, y: float) -> tuple[float, float]:
-        """Find the point in the window at a place in a figure."""
         self.page.evaluate(f"window.view = Bokeh.index.find_one({part}.figure); null")
         self.page.evaluate("view.el.scrollIntoView({block: 'center'})")
         box = "const box = view.canvas_view.el.getBoundingClientRect(), {x_scale, y_scale} = view.frame;"
@@ -140,12 +138,10 @@ class Opened:
         return float(left), float(top)
 
     def point(self, part: str, x: Any, y: Any) -> None:
-        """Move the pointer to a place in a figure."""
         self.page.mouse.move(*self.point_of(part, x, y))
         self.settle()
 
     def boxes(self, which: str) -> list[dict[str, float]]:
-        """Say where some elements stand."""
         found = f"[...document.querySelectorAll('{which}')].map(one => one.getBoundingClientRect().toJSON())"
         return list(self.js(found))
 
@@ -153,7 +149,6 @@ class Opened:
         self.page.wait_for_function(f"document.getElementById('{element}').textContent.includes('{text}')")
 
     def download(self, what: str) -> bytes:
-        """Save a table, a study or a script."""
         with self.page.expect_download() as waiting:
             self.page.click(f"#save-{what}")
         return Path(waiting.value.path()).read_bytes()
@@ -171,7 +166,6 @@ class Opened:
 
 
 def number(text: str) -> float:
-    """Read a number as the page writes it."""
     if text in {"∞", "unbounded", "no value"}:
         return np.nan if text == "no value" else np.inf
     plain = text.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--"))

@@ -23,7 +23,6 @@ DEPTHS = np.array([float(row.split(",")[0]) for row in ROWS])
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: Patch) -> Path:
-    """A folder with the study of `init fit` and its loop."""
     for name in ("fit.toml", "force_curve.csv"):
         (tmp_path / name).write_text((CONFIGS / name).read_text())
     monkeypatch.chdir(tmp_path)
@@ -32,12 +31,10 @@ def folder(tmp_path: Path, monkeypatch: Patch) -> Path:
 
 @pytest.fixture(scope="module")
 def found() -> xarray.Dataset:
-    """The fit of the example."""
     return gr.run(CONFIGS / "fit.toml")
 
 
 def measured(folder: Path, rows: list[str], header: str = "depth,force") -> None:
-    """Write another loop."""
     (folder / "force_curve.csv").write_text("\n".join([header, *rows]) + "\n")
 
 

@@ -68,14 +68,12 @@ def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def found(home: Path) -> xarray.Dataset:
-    """The fits of all loops."""
     with xarray.open_dataset(home / "many.nc") as dataset:
         return dataset.load()
 
 
 @pytest.fixture
 def folder(home: Path, monkeypatch: Patch) -> Path:
-    """That folder, as the current one."""
     monkeypatch.chdir(home)
     return home
 

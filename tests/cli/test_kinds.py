@@ -71,7 +71,6 @@ CHECKED = ("map", "points", "solvers", "similarity", "Young's modulus and a spri
 
 
 def call(*arguments: Any, code: int = 0) -> Result:
-    """Call a command, which ends with a code."""
     result = CliRunner().invoke(cli, [str(argument) for argument in arguments], catch_exceptions=False)
     assert result.exit_code == code, (arguments, result.output)
     return result
@@ -148,7 +147,6 @@ def test_maps_are_verified_and_changed_values_are_found(kind: str, files: dict[s
 
 
 def checker(*files: Path) -> subprocess.CompletedProcess[str]:
-    """Run the checker of others."""
     command = [Path(sys.prefix) / "bin" / "compliance-checker", "-t", "cf:1.11", "-c", "strict", *files]
     return subprocess.run(command, capture_output=True, text=True, check=False)
 

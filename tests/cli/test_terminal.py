@@ -75,8 +75,6 @@ def test_what_is_suggested_for_a_key_without_its_table_works(gradhesion: Call, s
 
 
 class Terminal(io.StringIO):
-    """A terminal that keeps what is written."""
-
     def isatty(self) -> bool:
         return True
 

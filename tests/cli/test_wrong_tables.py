@@ -137,7 +137,6 @@ def test_wrong_cycles_and_branches_are_one_sentence(cell: str, tmp_path: Path) -
 
 
 def loop(tmp_path: Path, text: str, **more: str) -> Any:
-    """The loop of a fit with such a table."""
     (tmp_path / "table.csv").write_text(text)
     data = "".join(f'{key} = "{value}"\n' for key, value in more.items())
     (tmp_path / "fit.toml").write_text(STUDIES["fit"].replace("[parameters]", data + "[parameters]"))

@@ -32,7 +32,6 @@ def _force(**changes: Any) -> Array:
 
 
 def _largest_force(**changes: Any) -> Array:
-    """Return the largest pull-off force over the wavelength."""
     return np.asarray(_force(lambda_over_R=WAVELENGTHS, **changes).max(axis=-1))
 
 
@@ -50,7 +49,6 @@ def _strengths(scene: dict[str, Any]) -> tuple[Array, Array]:
 
 
 def _turned(scene: dict[str, Any]) -> dict[str, Any]:
-    """Return a scene whose rim is at 2 a_2."""
     return scene | {"a_max_over_R": np.asarray(2 * effective.jump_in_radius(scene["k"], *_strengths(scene)))}
 
 

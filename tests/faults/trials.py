@@ -36,7 +36,6 @@ OLD = b"precious"
 
 
 def values_of(path: Path) -> dict[str, bytes]:
-    """Read all bytes of all variables."""
     with netCDF4.Dataset(path) as file:
         file.set_auto_mask(False)
         return {name: np.asarray(variable[...]).tobytes() for name, variable in file.variables.items()}
@@ -64,7 +63,6 @@ def start(*words: str | Path, folder: Path, before: Callable[[], None] = lambda:
 
 
 def ended(pid: int) -> int:
-    """Wait for a run; a signal that has killed it is negative."""
     return os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
 
 
@@ -113,7 +111,6 @@ class Trials:
         return ended(run(self.study, self.output, "--overwrite"))
 
     def empty(self) -> None:
-        """Empty the folder."""
         shutil.rmtree(self.folder)
         self.folder.mkdir()
 
@@ -150,7 +147,6 @@ class Trials:
         return code
 
     def told(self) -> str:
-        """What the last run has written to stderr."""
         return (self.folder.parent / "stderr").read_text()
 
     def at_every_change_of_a_name(self, trial: Callable[[int, Callable[[], None]], int]) -> int:
@@ -191,7 +187,6 @@ class Trials:
 
 
 def main() -> None:
-    """Kill runs, and tell how many."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--random", type=int, default=200)
     parser.add_argument("--seed", type=int, default=random.randrange(10**6))

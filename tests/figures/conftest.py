@@ -38,5 +38,4 @@ def _computed(name: str, overrides: tuple[str, ...]) -> xarray.Dataset:
 
 @pytest.fixture
 def computed() -> Callable[..., xarray.Dataset]:
-    """A study of configs/ on short axes, with parameters overridden."""
     return lambda name, *overrides: _computed(name, overrides)

@@ -60,21 +60,17 @@ class Block:
 
     @property
     def place(self) -> str:
-        """Where it stands."""
         return f"{self.page.relative_to(ROOT)}:{self.line}"
 
 
 @dataclass(frozen=True)
 class Command:
-    """A command of a page."""
-
     line: str
     printed: str = ""
     code: int = 0
 
 
 def blocks_of(page: Path) -> list[Block]:
-    """List the fenced blocks of a page."""
     text = page.read_text(encoding="utf-8")
     return [
         Block(page, text[: found.start(3)].count("\n"), found[2], found[3], dict(_MARK.findall(found[1])))
@@ -83,7 +79,6 @@ def blocks_of(page: Path) -> list[Block]:
 
 
 def commands_of(block: Block) -> Iterator[Command]:
-    """List the commands of a block."""
     text = block.text.replace("\\\n", " ")
     if block.language == "sh":
         lines = [line.partition("  #")[0].strip() for line in text.splitlines()]

@@ -44,7 +44,6 @@ OTHERS = {"cone", "curve", "fit", "fit_spring", "optimum", "profile", "specimens
 
 
 def run(name: str, set_to: dict[str, object] | None = None, **parameters: object) -> xarray.Dataset:
-    """Compute a study of configs/ in memory, with keys of its own."""
     own = {f"parameters.{key}": value for key, value in parameters.items()}
     return gr.run(CONFIGS / f"{name}.toml", set=(set_to or {}) | own)
 

@@ -58,7 +58,6 @@ def build(kind: str, tree: Path, folder: Path) -> None:
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The wheel and the source distribution."""
     folder = tmp_path_factory.mktemp("built")
     for kind in ("sdist", "wheel"):
         build(kind, folder / "tree", folder)

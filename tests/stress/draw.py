@@ -17,7 +17,6 @@ POOL: Final = 40
 
 
 def log_uniform(rng: np.random.Generator, low: float, high: float, size: int) -> NDArray[np.float64]:
-    """Draw numbers whose logarithm is uniform."""
     values: NDArray[np.float64] = 10.0 ** rng.uniform(math.log10(low), math.log10(high), size)
     return values
 
@@ -79,7 +78,6 @@ def eventful(seed: int, size: int, most_waves: float = math.inf) -> Scenes:
 
 
 def limited(scenes: Scenes, most_waves: float) -> Scenes:
-    """Keep the scenes with no more waves than that."""
     with np.errstate(all="ignore"):
         waves = np.minimum(scenes["a_max_over_R"] / scenes["lambda_over_R"], groups(scenes)["waves"])
     return {name: scenes[name][~(waves > most_waves)] for name in PARAMETERS}

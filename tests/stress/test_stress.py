@@ -42,7 +42,6 @@ def _size(scenes: Scenes) -> Excess:
 
 
 def _at_rims(scenes: Scenes, factors: Any, outputs: Sequence[str]) -> dict[str, Any]:
-    """Solve scenes at several rims, along the last axis."""
     columns = {name: values[:, None] for name, values in scenes.items()}
     return solve(columns | {"a_max_over_R": columns["a_max_over_R"] * np.asarray(factors)}, outputs)
 

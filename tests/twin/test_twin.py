@@ -33,7 +33,6 @@ ULP = 2.0**-52
 
 
 def stored() -> list[dict[str, object]]:
-    """The rows of scenes.json under their column names."""
     file = json.loads((HERE / "scenes.json").read_text(encoding="utf-8"))
     return [dict(zip(file["columns"], row, strict=True)) for row in file["scenes"]]
 

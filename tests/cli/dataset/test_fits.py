@@ -72,7 +72,6 @@ def fit(study: FitStudy, **changes: Any) -> Fit:
 
 
 def write(study: FitStudy, fits: list[Fit], path: Path) -> None:
-    """Write made-up fits."""
     write_dataset(dataset_of(study, fits, "made by a test"), path, overwrite=False)
 
 

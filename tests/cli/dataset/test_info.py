@@ -155,7 +155,6 @@ def table(gradhesion: Call, tmp_path: Path) -> Callable[..., str]:
 
 
 def table_of(table: str) -> list[list[str]]:
-    """The table below what the values are."""
     return [line.split() for line in table.partition("\n\n")[2].splitlines()]
 
 

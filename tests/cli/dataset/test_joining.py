@@ -18,8 +18,6 @@ from tests.cli.conftest import Call, Made, Patch, Told
 
 @pytest.fixture
 def joined(gradhesion: Call, tmp_path: Path) -> Made:
-    """Join datasets."""
-
     def join(*files: Path) -> Path:
         gradhesion("merge", *files, "-o", tmp_path / "joined.nc", "--quiet", code=0)
         return tmp_path / "joined.nc"
@@ -29,8 +27,6 @@ def joined(gradhesion: Call, tmp_path: Path) -> Made:
 
 @pytest.fixture
 def written(data: dict[str, Any], tmp_path: Path) -> Made:
-    """Write the dataset of the small study with other keys."""
-
     def make(name: str, *, parameters: dict[str, Any] | None = None, **changes: Any) -> Path:
         path = tmp_path / f"{name}.nc"
         table, physical = data["parameters"] | (parameters or {}), changes.get("physical")

@@ -33,7 +33,6 @@ def dataset() -> xarray.Dataset:
 
 @pytest.fixture
 def points() -> xarray.Dataset:
-    """Five scenes one by one."""
     force = ("scene", np.arange(5.0))
     coordinates = {"k": ("scene", np.array([0.1, 0.1, 0.3, 0.3, 0.3])), "A": ("scene", np.array([1.0, 2, 1, 2, 3]))}
     return xarray.Dataset({"pull_off_force": force, "status": ("scene", np.zeros(5, np.int8))}, coordinates)

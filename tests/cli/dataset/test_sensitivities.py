@@ -104,7 +104,6 @@ INPUTS: dict[str, Any] = {"modulus": "5 %", "A": 0.001, "nu": {"low": 0.25, "hig
 
 @pytest.fixture
 def uncertain(data: dict[str, Any]) -> dict[str, Any]:
-    """The small study with uncertain inputs."""
     parameters = data["parameters"] | {"A": [0.011, 0.023]}
     return data | {"parameters": parameters, "uncertainty": INPUTS}
 

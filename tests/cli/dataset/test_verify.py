@@ -17,7 +17,6 @@ from tests.cli.conftest import Call, Made
 
 @pytest.fixture
 def file(made: Made) -> Path:
-    """All outputs."""
     return made(outputs=[*OUTPUTS])
 
 
@@ -30,13 +29,11 @@ def verified(path: Path) -> tuple[int, Any]:
 
 
 def change(path: Path, name: str, place: Any, value: Any) -> None:
-    """Change values of a variable."""
     with netCDF4.Dataset(path, "a") as file:
         file[name][place] = value(file[name][place]) if callable(value) else value
 
 
 def off(by: float) -> Callable[[Any], Any]:
-    """Move values by a share."""
     return lambda value: value * (1.0 + by)
 
 

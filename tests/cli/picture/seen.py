@@ -7,7 +7,6 @@ from matplotlib.contour import QuadContourSet
 
 
 def legend(panels: Any) -> list[str]:
-    """The entries of the legend."""
     return [text.get_text() for one in panels.figure.legends for text in one.get_texts()]
 
 
@@ -17,10 +16,8 @@ def words(panels: Any) -> str:
 
 
 def curves(axes: Axes) -> list[Any]:
-    """The lines of a panel that have a name."""
     return [line for line in axes.get_lines() if not str(line.get_label()).startswith("_")]
 
 
 def contours(axes: Axes) -> QuadContourSet:
-    """The lines of a map."""
     return next(one for one in axes.collections if isinstance(one, QuadContourSet) and not one.filled)

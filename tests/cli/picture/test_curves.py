@@ -28,12 +28,10 @@ def curves() -> xarray.Dataset:
 
 @pytest.fixture(scope="module")
 def probe() -> xarray.Dataset:
-    """Curves with units."""
     return gr.curves(PROBE, ["path", "equilibrium"])
 
 
 def planes(panels: Any) -> list[tuple[str, ...]]:
-    """What each panel has along and up."""
     return [tuple(label.split(" $")[0] for label in (axes.get_xlabel(), axes.get_ylabel())) for axes in panels]
 
 
@@ -160,7 +158,6 @@ TABLES = (
 
 
 def measured(axes: Axes) -> list[Any]:
-    """The points in a panel."""
     return [line for line in axes.lines if line.get_label() == "measured"]
 
 

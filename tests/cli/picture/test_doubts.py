@@ -39,7 +39,6 @@ def hatched(axes: Axes, hatch: str | None) -> list[Path]:
 
 
 def inside(paths: list[Path], dataset: xarray.Dataset, y: str) -> np.ndarray:
-    """Report which scenes are within outlines."""
     return np.array([[any(path.contains_point((u, v)) for path in paths) for u in dataset["lambda_over_R"].values] for v in dataset[y].values])  # fmt: skip
 
 
@@ -145,7 +144,6 @@ def test_an_optimum_at_a_bound_is_marked_where_its_flag_is() -> None:
 
 @pytest.fixture(scope="module")
 def sampled() -> xarray.Dataset:
-    """A force with standard deviations and quantiles."""
     uncertainty = {"modulus": "5 %", "A": "10 %", "samples": 16}
     parameters = PUNCH | {"k": [0.0, 0.4], "A": 0.01, "a_max_over_R": 0.5, "lambda_over_R": WAVES | {"num": 24}}
     study = {"outputs": ["pull_off_force", "loading_jumps"], "parameters": parameters, "uncertainty": uncertainty}

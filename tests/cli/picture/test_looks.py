@@ -41,7 +41,6 @@ def test_sides_are_those_of_the_figure(width: Any, inches: float, grid: xarray.D
 
 
 def drawn_levels(axes: Axes) -> dict[float, Any]:
-    """The levels whose contours are drawn, and their paths."""
     lines = contours(axes)
     return {level: path for level, path in zip(lines.levels, lines.get_paths(), strict=True) if path.vertices.size}
 

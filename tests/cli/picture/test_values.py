@@ -25,7 +25,6 @@ SHAPES: dict[str, dict[str, Any]] = {
 
 
 def computed(outputs: Any = ("pull_off_force", "dissipated_energy"), **parameters: Any) -> xarray.Dataset:
-    """Run a study with some parameters of its own."""
     method = {"method": {"solver": parameters.pop("solver")}} if "solver" in parameters else {}
     own = {name: np.asarray(value).tolist() for name, value in parameters.items()}
     return gr.run({"title": "A small study", "outputs": [*outputs], "parameters": PUNCH | own, **method})
@@ -33,7 +32,6 @@ def computed(outputs: Any = ("pull_off_force", "dissipated_energy"), **parameter
 
 @pytest.fixture(scope="module")
 def grid() -> xarray.Dataset:
-    """A map over wavelength and exponent for three amplitudes."""
     return computed(k=np.linspace(0, 0.8, 9), A=[0.0, 0.02, 0.05], lambda_over_R=np.geomspace(0.02, 1.0, 20))
 
 

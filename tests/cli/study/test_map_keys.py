@@ -32,8 +32,6 @@ FOLLOW = {
 
 @pytest.fixture
 def reduced(data: dict[str, Any]) -> Study:
-    """The small study in such variables."""
-
     def study(kind: str = "jump-in", **parameters: Any) -> dict[str, Any]:
         table = {name: value for name, value in data["parameters"].items() if name not in FOLLOW[kind]}
         return data | {"parameters": table | REDUCED[kind] | parameters}
@@ -95,8 +93,6 @@ PROFILE = Profile(exponent=1.7, harmonics=(Harmonic(n=1), Harmonic(n=3, cos=0.0,
 
 @pytest.fixture
 def shaped(data: dict[str, Any]) -> Study:
-    """A small study of a shape, under a control; a machine has several stiffnesses."""
-
     def study(control: str = "machine", **changes: Any) -> dict[str, Any]:
         parameters = data["parameters"] | {"lambda_over_R": 0.3, "a_max_over_R": [0.6, 0.8]}
         stiffness = {"machine_stiffness": [0.1, 3.0, 70.0]} if control == "machine" else {}
@@ -177,7 +173,6 @@ SPECTRUM = {"hurst": 0.8, "first": 1, "last": 9, "realisations": 4, "seed": 3}
 
 @pytest.fixture
 def rough() -> dict[str, Any]:
-    """A small study of random roughness."""
     parameters = {"k": [0.0, 0.31], "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.013, "lambda_over_R": 0.31}
     parameters |= {"A": [0.002, 0.007], "a_max_over_R": [0.4, 0.7]}
     outputs = ["pull_off_force", "dissipated_energy", "loading_jumps", "wave_slope"]

@@ -22,7 +22,6 @@ WORDS = BEYOND["contact_slope"].words
 
 
 def asked(**parameters: Any) -> dict[str, Any]:
-    """The study with other parameters."""
     return STUDY | {"parameters": STUDY["parameters"] | parameters}
 
 
@@ -167,7 +166,6 @@ def test_a_cycle_that_turns_before_contact_is_flagged(gradhesion: Call, ran: Run
 
 @pytest.fixture
 def numbered(data: dict[str, Any]) -> dict[str, Any]:
-    """A study that asks for all of them, beside a force."""
     parameters = data["parameters"] | {"adhesion_range_over_R": [1e-5, 1e-3]}
     return data | {"outputs": ["pull_off_force", *VALIDITY], "parameters": parameters}
 

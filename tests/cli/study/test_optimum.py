@@ -22,7 +22,6 @@ PUNCH: dict[str, Any] = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.0
 
 @pytest.fixture
 def study() -> dict[str, Any]:
-    """The best wavelength for three exponents."""
     search = {"maximise": "pull_off_force", "over": ["lambda_over_R"]}
     return {"kind": "optimum", "optimum": search, "parameters": PUNCH | {"k": [0.0, 0.3, 0.7], "lambda_over_R": WAVES}}
 

@@ -36,7 +36,6 @@ CASES: Final[dict[str, tuple[str, dict[str, str], dict[str, float]]]] = {
 
 
 def made(parameters: dict[str, Any], outputs: Any = tuple(VALUES), **tables: Any) -> xarray.Dataset:
-    """Compute a study of some parameters."""
     return compute(study_from({"outputs": [*outputs], "parameters": parameters, **tables}))
 
 

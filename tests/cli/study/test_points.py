@@ -33,7 +33,6 @@ TABLE = "\n".join([",".join(LISTS), *(",".join(map(repr, row)) for row in zip(*L
 
 @pytest.fixture
 def study(tmp_path: Path) -> Path:
-    """A study with its file."""
     (tmp_path / "samples.csv").write_text(TABLE)
     path = tmp_path / "drawn.toml"
     path.write_text(STUDY)

@@ -35,7 +35,6 @@ PLAIN = {"k": 0.0, "nu": 0.3, "E_star": 50e6, "work_of_adhesion": 0.05, "a_max":
 
 
 def table(noise: float = 0.0) -> str:
-    """One cosine, over one flank."""
     r = np.linspace(0.0, 1.6e-6, 600)
     h = r**2 / (2 * RADIUS) + AMPLITUDE * (1 - np.cos(2 * np.pi * r / WAVELENGTH))
     h += noise * np.random.default_rng(1).standard_normal(r.size)
@@ -44,14 +43,12 @@ def table(noise: float = 0.0) -> str:
 
 
 def force(**changes: float) -> float:
-    """The force of the solver of one cosine."""
     waves = {"R": RADIUS, "wavelength": WAVELENGTH, "amplitude": AMPLITUDE}
     return float(gr.solve(PLAIN | waves | changes, "pull_off_force")["pull_off_force_si"].item())
 
 
 @pytest.fixture
 def study(tmp_path: Path) -> Path:
-    """A study with its file."""
     (tmp_path / "tip.csv").write_text(table())
     path = tmp_path / "probe.toml"
     path.write_text(STUDY)

@@ -25,7 +25,6 @@ from tests.cli.conftest import Call, Made, Run
 
 
 def same(one: Study, other: Study) -> bool:
-    """Whether two studies ask for the same."""
     parameters = all(np.array_equal(one.parameters[name], other.parameters[name]) for name in one.parameters)
     rest = ("title", "kind", "layout", "outputs", "method", "sizes")
     return parameters and all(getattr(one, name) == getattr(other, name) for name in rest)

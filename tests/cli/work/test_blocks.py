@@ -21,7 +21,6 @@ pytestmark = pytest.mark.usefixtures("small_blocks")
 
 
 def planned(gradhesion: Call, *arguments: str | Path) -> dict[str, Any]:
-    """Read a plan."""
     result = gradhesion("plan", *arguments, "--json", code=0)
     assert result.stderr == ""
     plan: dict[str, Any] = json.loads(result.stdout)

@@ -28,7 +28,6 @@ Values = dict[str, bytes]
 
 @pytest.fixture
 def output(tmp_path: Path) -> Path:
-    """Where the dataset goes."""
     return tmp_path / "data" / "out.nc"
 
 
@@ -47,7 +46,6 @@ def begun(gradhesion: Call, study_file: Path, output: Path, monkeypatch: Patch) 
 
 
 def interrupted() -> dict[str, Any]:
-    """Press Ctrl-C."""
     raise KeyboardInterrupt
 
 

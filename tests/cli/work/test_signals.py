@@ -108,7 +108,6 @@ def test_an_interrupt_a_cluster_swallows_is_heard(study_file: Path, tmp_path: Pa
 
 @pytest.fixture
 def unread() -> Iterator[int]:
-    """A pipe whose reader has gone."""
     reader, pipe = os.pipe()
     os.close(reader)
     yield pipe

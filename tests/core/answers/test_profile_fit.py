@@ -51,7 +51,6 @@ def test_an_exact_profile_comes_back(both: bool, exponent: float | None) -> None
 
 
 def pulls(found: FittedProfile, both: bool) -> list[float]:
-    """What was found less what is, over the errors."""
     true = {"exponent": 2.37, "radius": 1.7, "wavelength": 0.193, "height": 5.2} | ({"centre": 0.031} if both else {})
     own = [(getattr(found, name) - value) / found.errors[name] for name, value in true.items() if found.errors[name]]
     for name, values in (("cosines", COSINES), ("sines", SINES)):

@@ -11,7 +11,6 @@ from tests.core.scene import material_of
 
 
 def series_of(scene: dict[str, float], profile: Profile | None = None) -> tuple[float, list[float], list[float]]:
-    """Wavelength and coefficients of the printed series."""
     waves = (profile or Profile()).harmonics
     count = max(wave.n for wave in waves)
     cosines, sines = [0.0] * count, [0.0] * count

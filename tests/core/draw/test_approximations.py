@@ -29,7 +29,6 @@ def _of(drawn: dict[str, Any], prefix: str) -> list[Any]:
 
 
 def _height(scene: dict[str, float]) -> float:
-    """The mean height of a cosine."""
     return scene["A"] * scene["lambda_over_R"]
 
 

@@ -16,7 +16,6 @@ ONE, SERIES = ([-0.023], []), ([-0.021, 0.004, 0.0], [0.003, 0.0, -0.002])
 
 
 def slope_of(s: Any, waves: tuple[list[float], list[float]], m: float, lib: Any) -> Any:
-    """f' with the functions of a library."""
     total = s ** (m - 1)
     for n, a_n, b_n in general.harmonics(*waves):
         y = 2 * lib.pi * n * s / WAVELENGTH

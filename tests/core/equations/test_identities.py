@@ -26,7 +26,6 @@ XI: Final = np.linspace(-1.0, 2.0, 61)
 
 
 def sphere(r: Any) -> Any:
-    """The slope of a sphere."""
     return r / np.sqrt((1 - r) * (1 + r))
 
 

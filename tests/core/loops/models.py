@@ -96,7 +96,6 @@ NOISE: Final = (1e-4 * R, 0.01 * UNIT)
 
 
 def path_of(model: LoopModel, here: Array) -> LoopPath:
-    """The path of some numbers, which has to be there."""
     drawn = model.path(here)
     assert drawn is not None
     return drawn

@@ -44,7 +44,6 @@ def saved(folder: Path, name: str, *leave_out: str, curves: int = 1, spring: flo
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with a study that names no columns."""
     (tmp_path / "fit.toml").write_text(PLAIN)
     monkeypatch.chdir(tmp_path)
     return tmp_path

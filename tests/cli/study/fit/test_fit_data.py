@@ -32,7 +32,6 @@ def points(count: int, seed: int = 0) -> dict[str, Any]:
 
 
 def written(path: Path, rows: dict[str, Any], **more: Any) -> None:
-    """Write a table, with more columns."""
     columns: dict[str, Any] = {"depth": rows["depth"], "force": rows["force"], **more}
     lines = [",".join(columns), *(",".join(map(str, row)) for row in zip(*columns.values(), strict=True))]
     path.write_text("\n".join(lines) + "\n")
@@ -40,7 +39,6 @@ def written(path: Path, rows: dict[str, Any], **more: Any) -> None:
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: Patch) -> Path:
-    """A folder with a study and a loop of 600 points."""
     (tmp_path / "fit.toml").write_text(STUDY)
     written(tmp_path / "loop.csv", points(600))
     monkeypatch.chdir(tmp_path)
@@ -48,7 +46,6 @@ def folder(tmp_path: Path, monkeypatch: Patch) -> Path:
 
 
 def load(**keys: Any) -> Any:
-    """The study with some keys set."""
     return gr.load("fit.toml", set={name.replace("__", "."): value for name, value in keys.items()})
 
 
