@@ -142,3 +142,22 @@ def on_a_full_disk() -> Called:
         return subprocess.run(command, preexec_fn=full_disk, capture_output=True, text=True, check=False)
 
     return run
+
+
+def legend(panels: Any) -> list[str]:
+    return [text.get_text() for one in panels.figure.legends for text in one.get_texts()]
+
+
+def words(panels: Any) -> str:
+    """All that stands above the panels."""
+    return str(panels.figure.get_suptitle()).replace("\N{NO-BREAK SPACE}", " ").replace("$", "").replace("{}", " ")
+
+
+def curves(axes: Any) -> list[Any]:
+    return [line for line in axes.get_lines() if not str(line.get_label()).startswith("_")]
+
+
+def contours(axes: Any) -> Any:
+    from matplotlib.contour import QuadContourSet
+
+    return next(one for one in axes.collections if isinstance(one, QuadContourSet) and not one.filled)

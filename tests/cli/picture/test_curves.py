@@ -11,8 +11,7 @@ from matplotlib.colors import to_rgb
 
 import gradhesion as gr
 from gradhesion.core.answers.flags import FLAG_WORDS
-from tests.cli.conftest import Call
-from tests.cli.picture.seen import legend, words
+from tests.cli.conftest import Call, legend, words
 
 PUNCH: dict[str, Any] = {"k": 0.3, "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.013, "lambda_over_R": 0.17, "a_max_over_R": 0.4}  # fmt: skip
 PROBE: dict[str, Any] = {"k": 0.0, "nu": 0.3, "A": 0.01, "R": "5 um", "E_star": "10 MPa", "work_of_adhesion": "30 mJ/m^2", "wavelength": "0.5 um", "a_max": "1.5 um"}  # fmt: skip

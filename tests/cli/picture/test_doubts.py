@@ -16,7 +16,7 @@ import gradhesion as gr
 from gradhesion.cli.dataset.read.model_range import LIMITS
 from gradhesion.core import DOUBTFUL, FLAGS
 from gradhesion.core.answers.flags import FLAG_WORDS
-from tests.cli.picture.seen import legend
+from tests.cli.conftest import legend
 
 LOADING, TOLERANCE, GONE = (FLAGS[name] for name in ("loading_contact_not_one_disc", "tolerance_not_met", "no_value"))
 HATCH = "////"

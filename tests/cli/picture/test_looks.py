@@ -11,8 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 
 import gradhesion as gr
-from tests.cli.conftest import Call
-from tests.cli.picture.seen import contours
+from tests.cli.conftest import Call, contours
 
 
 @pytest.fixture(scope="module")

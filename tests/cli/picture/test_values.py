@@ -10,7 +10,7 @@ from matplotlib.contour import QuadContourSet
 
 import gradhesion as gr
 from gradhesion.cli.names.symbols import SYMBOLS
-from tests.cli.picture.seen import contours, curves, legend, words
+from tests.cli.conftest import contours, curves, legend, words
 
 PUNCH: dict[str, Any] = {"nu": 0.27, "modulus": 430.0, "c0_over_R": 0.013, "a_max_over_R": 0.7}
 SOLVERS = ["exact", "asymptotic", "envelope"]

@@ -13,8 +13,7 @@ from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.picture.doubts import BEYOND
 from gradhesion.cli.study import study_from
 from gradhesion.core import VALIDITY, validity
-from tests.cli.conftest import Call, Patch, Run
-from tests.cli.picture.seen import legend
+from tests.cli.conftest import Call, Patch, Run, legend
 
 PARAMETERS = {"nu": 0.3, "modulus": 30.0, "c0_over_R": 0.1, "lambda_over_R": [0.05, 0.1, 0.2, 0.4, 0.8], "A": 0.05}
 STUDY: dict[str, Any] = {"outputs": ["dissipated_energy"], "parameters": {"k": [0.0, 0.1, 0.2, 0.3]} | PARAMETERS}

@@ -13,8 +13,7 @@ import pytest
 from gradhesion.core import CURVES, draw_curves, solve
 from gradhesion.core.draw.draw import INTEGERS
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
-from tests.core.draw.printed import chord_error, curve_of
-from tests.core.scene import ENDLESS, Scene, scene_of, strengths_of
+from tests.core.scene import ENDLESS, Scene, chord_error, curve_of, scene_of, strengths_of
 
 POINT = ("contact_radius", "indentation", "load")
 CONTRACT = 2e-4
