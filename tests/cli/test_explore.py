@@ -55,16 +55,14 @@ def test_a_page_is_taken_at_values_of_axes_and_written_once(gradhesion: Call, da
 
 PLACES = ("k=0", "lambda_over_R=0.11", "A=0", "a_max_over_R=0.7")
 WRONG = {
-    '"pull_off_force"': ["--variable", "pull_of_force"],
-    '"k"': ["--at", "K=0.31"],
-    "0 to 0.31": ["--at", "k=0.7"],
-    ".html": ["-o", "page.png"],
-    "pull_off_force: ": ["--variable", "pull_off_force"],
-    "nothing varies": [f"--at={place}" for place in PLACES],
-}
+    '"pull_off_force"': ["--variable", "pull_of_force"], '"k"': ["--at", "K=0.31"], "0 to 0.31": ["--at", "k=0.7"], ".html": ["-o", "page.png"],
+    "pull_off_force: ": ["--variable", "pull_off_force"], "nothing varies": [f"--at={place}" for place in PLACES],
+}  # fmt: skip
 
 
-def test_wrong_wishes_are_said(gradhesion: Call, dataset_file: Path) -> None:
+def test_wrong_wishes_and_too_large_a_dataset_are_said(
+    gradhesion: Call, dataset_file: Path, monkeypatch: Patch
+) -> None:
     with netCDF4.Dataset(dataset_file, "a") as file:
         for name in ("pull_off_force", "dissipated_energy"):
             file[name][:] = np.nan
@@ -73,10 +71,7 @@ def test_wrong_wishes_are_said(gradhesion: Call, dataset_file: Path) -> None:
         assert key in result.stderr
         assert not dataset_file.with_suffix(".html").exists()
     assert gradhesion("explore", dataset_file).exit_code == 0  # the jumps are there
-
-
-def test_a_dataset_too_large_for_a_page_is_said(gradhesion: Call, dataset_file: Path, monkeypatch: Patch) -> None:
     monkeypatch.setattr(choice, "MOST", 90)
-    result = gradhesion("explore", dataset_file, code=2)
+    result = gradhesion("explore", dataset_file, "--overwrite", code=2)
     assert "96 values are too many for a page, which takes 90" in result.stderr
-    assert gradhesion("explore", dataset_file, "--at", "k=0.31").exit_code == 0
+    assert gradhesion("explore", dataset_file, "--at", "k=0.31", "--overwrite").exit_code == 0

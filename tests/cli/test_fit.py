@@ -18,7 +18,6 @@ CONFIGS = ROOT / "configs"
 TRUE = {"E_star": 1e7, "work_of_adhesion": 0.03, "wavelength": 0.5e-6, "A": 0.012, "indentation_offset": 2e-9, "load_offset": 1e-8}  # fmt: skip
 """What configs/force_curve.csv was made with."""
 ROWS = [line for line in (CONFIGS / "force_curve.csv").read_text().splitlines() if line[0] in "-0123456789"]
-DEPTHS = np.array([float(row.split(",")[0]) for row in ROWS])
 
 
 @pytest.fixture
@@ -45,7 +44,7 @@ def recovers(found: xarray.Dataset, true: dict[str, float], deviations: float) -
     assert np.abs(off).max() < deviations, dict(zip(true, off, strict=True))
 
 
-def test_the_example_gives_what_its_loop_was_made_with(found: xarray.Dataset) -> None:
+def test_the_example_gives_what_its_loop_was_made_with_and_its_path(found: xarray.Dataset) -> None:
     recovers(found, TRUE, 4.0)
     assert found["parameter_units"].values.tolist() == ["Pa", "J/m^2", "m", "1", "m", "N"]
     assert float(found["standard_deviation"][0]) < 0.01 * TRUE["E_star"], "the intervals mean something"
@@ -65,9 +64,6 @@ def test_the_example_gives_what_its_loop_was_made_with(found: xarray.Dataset) ->
     np.testing.assert_allclose(np.diag(found["correlation"].values), 1.0, rtol=1e-12)
     assert "units" not in found["value"].attrs
     assert float(found["R"]) == 5e-6
-
-
-def test_the_path_goes_through_the_points(found: xarray.Dataset) -> None:
     points, path = found["measured_unloading"].values == 0, found["fitted_unloading"].values == 0
     depth, load = (found[f"measured_{name}"].values[points] for name in ("indentation", "load"))
     along, up = (found[f"fitted_{name}"].values[path] for name in ("indentation", "load"))
@@ -77,6 +73,10 @@ def test_the_path_goes_through_the_points(found: xarray.Dataset) -> None:
 
 
 def test_run_writes_it_and_info_and_plot_read_it(gradhesion: Call, folder: Path, found: xarray.Dataset) -> None:
+    assert "a fit of 600 points in 1 cycle" in gradhesion("validate", "fit.toml").stdout
+    assert "E_star, work_of_adhesion" in gradhesion("plan", "fit.toml").stdout
+    assert json.loads(gradhesion("plan", "fit.toml", "--json").stdout)["points"] == 600
+    assert not (folder / "outputs").exists()
     result = gradhesion("run", "fit.toml", code=0)
     assert f"reduced chi square {float(found['reduced_chi_square']):.3g}" in result.stderr
     with gr.open(folder / "outputs/fit.nc") as dataset:
@@ -92,13 +92,6 @@ def test_run_writes_it_and_info_and_plot_read_it(gradhesion: Call, folder: Path,
     assert gradhesion("plot", "outputs/fit.nc", "-o", "fit.svg").exit_code == 0
     assert (folder / "fit.svg").stat().st_size > 20_000
     assert gradhesion("run", "fit.toml").exit_code == 4, "an existing dataset is not replaced"
-
-
-def test_validate_and_plan_say_what_would_be_fitted(gradhesion: Call, folder: Path) -> None:
-    assert "a fit of 600 points in 1 cycle" in gradhesion("validate", "fit.toml").stdout
-    assert "E_star, work_of_adhesion" in gradhesion("plan", "fit.toml").stdout
-    assert json.loads(gradhesion("plan", "fit.toml", "--json").stdout)["points"] == 600
-    assert not (folder / "outputs").exists()
 
 
 def test_a_fit_at_a_bound_is_written_and_flagged(gradhesion: Call, folder: Path) -> None:
@@ -125,11 +118,17 @@ def test_a_file_that_is_no_loop_is_refused(refusal: Told, folder: Path) -> None:
     assert refusal("validate", "fit.toml").startswith("fit.toml:")
 
 
-def test_rows_without_a_number_are_counted_and_left_out(gradhesion: Call, folder: Path) -> None:
+def test_rows_without_a_number_are_left_out_and_noise_that_is_not_given_is_estimated(
+    gradhesion: Call, folder: Path
+) -> None:
     measured(folder, [*ROWS[:30], "nan,1.0", "2.0,nan", *ROWS[30:]])
     result = gradhesion("validate", "fit.toml", code=0)
     assert "force_curve.csv: 2 rows without a number were left out" in result.stderr
     assert "a fit of 600 points" in result.stdout
+    lines = (folder / "fit.toml").read_text().splitlines()
+    (folder / "fit.toml").write_text("\n".join(line for line in lines if not line.startswith("noise")))
+    assert gr.load("fit.toml").loop.noise == pytest.approx((0.25e-9, 7e-9), rel=0.5)
+    assert "noise estimated" in gradhesion("validate", "fit.toml").stderr
 
 
 def test_cycles_are_found_in_the_order_of_the_points(folder: Path) -> None:
@@ -139,18 +138,6 @@ def test_cycles_are_found_in_the_order_of_the_points(folder: Path) -> None:
     found = gr.run(study, set={"fit.intervals": "linear"})
     assert found["measured_cycle"].values.max() == 3
     recovers(found, TRUE, 4.0 * math.sqrt(3.0))  # thrice the same noise
-
-
-def test_noise_is_estimated_where_it_is_not_given(gradhesion: Call, folder: Path) -> None:
-    lines = (folder / "fit.toml").read_text().splitlines()
-    (folder / "fit.toml").write_text("\n".join(line for line in lines if not line.startswith("noise")))
-    assert gr.load("fit.toml").loop.noise == pytest.approx((0.25e-9, 7e-9), rel=0.5)
-    assert "noise estimated" in gradhesion("validate", "fit.toml").stderr
-
-
-def test_retract_only_is_fitted(folder: Path) -> None:
-    measured(folder, ROWS[int(np.argmax(DEPTHS)) :])
-    recovers(gr.run("fit.toml", set={"fit.intervals": "linear"}), TRUE, 5.0)
 
 
 def test_the_displacement_of_a_machine_is_fitted_with_its_spring(folder: Path) -> None:

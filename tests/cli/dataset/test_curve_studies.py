@@ -52,8 +52,8 @@ def test_a_curve_stands_for_its_variables_and_a_single_scene_has_no_other_dimens
     assert one["envelope_contact_radius"][-1] == 0.4
 
 
-def test_the_dataset_keeps_its_contract(drawn: Made) -> None:
-    with netCDF4.Dataset(drawn()) as file:
+def test_the_dataset_keeps_its_contract_and_info_tells_it_in_words(gradhesion: Call, drawn: Made) -> None:
+    with netCDF4.Dataset(path := drawn()) as file:
         assert list(file.dimensions) == ["A", "a_max_over_R", *(EXTENTS[curve] for curve in OWN)]
         for curve in PADDED:
             for name, long_name in CURVES[curve].items():
@@ -72,6 +72,15 @@ def test_the_dataset_keeps_its_contract(drawn: Made) -> None:
             assert file[name].flag_values.dtype == file[name].dtype
             assert file[name].flag_meanings == meanings
         assert (file["status"].dimensions, file["status"].dtype) == (("A", "a_max_over_R"), np.int8)
+    told = " ".join(gradhesion("info", path).stdout.split())
+    with opened(path) as dataset:
+        points = dataset["load"].count("point")
+        loading = ((dataset["path_jump"] == 1) & (dataset["path_unloading"] == 0)).sum("path_point")
+        least, greatest = float(dataset["load"].min()), float(dataset["load"].max())
+    assert int(loading.max()) > 1
+    assert f"equilibrium: {int(points.min())} to {int(points.max())} points per scene" in told
+    assert f"jumps on loading 1 to {int(loading.max())}" in told
+    assert f" load {least:.6g} to {greatest:.6g} " in told
 
 
 def test_each_scene_is_the_curve_of_the_core_padded_to_the_longest(drawn: Made) -> None:
@@ -136,22 +145,6 @@ def test_what_was_there_stays_until_the_end(gradhesion: Call, drawn: Made, tmp_p
     assert gradhesion("run", study, "-o", path).exit_code == 4
 
 
-def test_info_tells_curves_in_words(gradhesion: Call, drawn: Made) -> None:
-    path = drawn()
-    told = " ".join(gradhesion("info", path).stdout.split())
-    with opened(path) as dataset:
-        points = dataset["load"].count("point")
-        loading = ((dataset["path_jump"] == 1) & (dataset["path_unloading"] == 0)).sum("path_point")
-        least, greatest = float(dataset["load"].min()), float(dataset["load"].max())
-    assert int(loading.max()) > 1
-    for words in (
-        f"equilibrium: {int(points.min())} to {int(points.max())} points per scene",
-        f"jumps on loading 1 to {int(loading.max())}",
-        f" load {least:.6g} to {greatest:.6g} ",
-    ):
-        assert words in told, words
-
-
 def test_they_are_a_ragged_array_of_the_jumps_of_each_scene_in_its_order(drawn: Made) -> None:
     path = drawn(WAVY, JUMPS)
     with netCDF4.Dataset(path) as file:
@@ -184,7 +177,7 @@ def test_a_single_variable_brings_the_count_along(asked: str, gradhesion: Call, 
         assert f"jumps: {dataset['jump_count'].item()} per scene" in gradhesion("info", path).stdout
 
 
-def test_info_tells_how_many_and_which_is_the_largest(gradhesion: Call, drawn: Made) -> None:
+def test_info_tells_how_many_and_the_largest_and_lists_them_as_csv(gradhesion: Call, drawn: Made) -> None:
     path = drawn(WAVY, JUMPS)
     told = " ".join(gradhesion("info", path).stdout.split())
     with xarray.open_dataset(path) as dataset:
@@ -201,9 +194,6 @@ def test_info_tells_how_many_and_which_is_the_largest(gradhesion: Call, drawn: M
         ):
             assert number in told, number
 
-
-def test_info_lists_them_as_csv_without_losing_a_digit(gradhesion: Call, drawn: Made) -> None:
-    path = drawn(WAVY, JUMPS)
     result = gradhesion("info", "--jumps", path, code=0)
     assert result.stderr == ""
     header, *rows = csv.reader(result.stdout.splitlines())

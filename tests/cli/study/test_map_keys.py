@@ -146,9 +146,6 @@ def test_each_solver_gives_what_it_gives_alone(shape: dict[str, Any], data: dict
             np.testing.assert_allclose(found, values, rtol=8 * 2.0**-52)  # rims that share a trace share roots
     exact, envelope = (together["pull_off_force"].sel(solver=one, A=0.023) for one in ("exact", "envelope"))
     assert (exact != envelope).any(), "the solvers differ"
-
-
-def test_a_list_of_one_solver_stays_a_dimension(data: dict[str, Any]) -> None:
     assert compute(study_from(data | {"method": {"solver": ["envelope"]}})).sizes["solver"] == 1
     assert "solver" not in compute(study_from(data | {"method": {"solver": "envelope"}})).variables
 

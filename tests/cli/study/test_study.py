@@ -37,6 +37,8 @@ def test_the_text_and_its_fingerprint(study_file: Path, data: dict[str, Any]) ->
     assert study.text == text
     assert study.sha256 == hashlib.sha256(text.encode()).hexdigest()
     assert same(study, study_from(data, name="study"))
+    study_file.write_bytes(b"\xef\xbb\xbf" + study_file.read_bytes().replace(b"\n", b"\r\n"))  # of Windows
+    assert same(load_study(study_file), study)
 
 
 def test_the_text_of_an_overridden_study_gives_the_same_study(study_file: Path, write_study: Made) -> None:
@@ -62,12 +64,6 @@ def test_an_axis_rises_or_falls(data: dict[str, Any]) -> None:
     assert study.parameters["k"].tolist() == [0.1, 0.3, 0.5]
     assert study.parameters["A"].tolist() == [0.3, 0.2]
     assert study.parameters["a_max_over_R"].tolist() == [1.0, 2.0, float("inf")]
-
-
-def test_windows_text_is_text(study_file: Path) -> None:
-    plain = load_study(study_file)
-    study_file.write_bytes(b"\xef\xbb\xbf" + study_file.read_bytes().replace(b"\n", b"\r\n"))
-    assert same(load_study(study_file), plain)
 
 
 def test_what_python_gives_and_what_is_left_out(data: dict[str, Any]) -> None:
@@ -120,13 +116,11 @@ def test_a_log_range_has_the_powers_of_ten(digit: int, decades: int, first: int,
     assert values[::each].tolist() == written
 
 
-def test_values_that_no_short_decimal_is_near_stay() -> None:
+def test_values_that_no_short_decimal_is_near_stay_and_no_zero_is_negative() -> None:
     values = expanded(Range(start=0.02, stop=1.0, num=200, spacing="log"))
     np.testing.assert_array_equal(values[1:-1], np.geomspace(0.02, 1.0, 200)[1:-1])
     assert np.unique(expanded(Range(start=1.0, stop=1.0 + 2e-15, num=4))).size == 4
 
-
-def test_no_negative_zero_reaches_the_core() -> None:
     assert np.signbit(expanded(-0.0)) == np.False_
     assert not np.signbit(expanded([-0.0, 1.0])).any()
     assert not np.signbit(expanded(Range(start=-0.0, stop=1.0))).any(), "the ends of a search"

@@ -33,7 +33,9 @@ def dated(output: Path) -> list[tuple[str, int]]:
     return sorted((path.name, path.stat().st_mtime_ns) for path in kept)
 
 
-def test_nothing_is_written_and_what_is_kept_is_told(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
+def test_a_plan_writes_nothing_and_tells_what_is_kept(
+    gradhesion: Call, study_file: Path, root: Path, tmp_path: Path
+) -> None:
     output = tmp_path / "new" / "out.nc"
     plan = planned(gradhesion, study_file, "-o", output)
     assert os.listdir(tmp_path) == ["study.toml"]
@@ -50,12 +52,10 @@ def test_nothing_is_written_and_what_is_kept_is_told(gradhesion: Call, study_fil
         assert (other["blocks_kept"], "--fresh" in other["refusal"]) == (0, True)
         assert dated(output) == before
     assert gradhesion("plan", study_file, "-o", output).exit_code == 0
-
-
-def test_curves_and_fits_have_no_estimate(gradhesion: Call, root: Path, tmp_path: Path) -> None:
-    plan = planned(gradhesion, root / "configs" / "curve.toml", "-o", tmp_path / "out.nc")
+    curve = root / "configs" / "curve.toml"  # which has no estimate
+    plan = planned(gradhesion, curve, "-o", tmp_path / "out.nc")
     assert (plan["kind"], plan["blocks"], plan["seconds"]) == ("curve", 0, None)
-    assert gradhesion("plan", root / "configs" / "curve.toml").exit_code == 0
+    assert gradhesion("plan", curve).exit_code == 0
 
 
 def test_the_time_is_that_of_the_scenes(data: dict[str, Any], monkeypatch: Patch) -> None:
