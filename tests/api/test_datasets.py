@@ -13,6 +13,7 @@ from gradhesion.cli.dataset.read.reader import in_own_units
 from gradhesion.core.problem.status import DOUBTFUL, FAILED
 
 PUNCH: dict[str, Any] = {"k": 0.0, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1, "a_max_over_R": 1.0}  # fmt: skip
+PROBE = {"nu": 0.5, "E": "2 MPa", "work_of_adhesion": "50 mJ/m^2", "k": 0.0, "wavelength": "5 um", "A": 0.02}
 
 
 @pytest.fixture(scope="module")
@@ -136,9 +137,6 @@ def test_what_cannot_be_verified_says_why() -> None:
     with pytest.raises(gr.DatasetError, match=r"the dataset: A\[0\] is 0.011"):
         gr.verify(moved)
     assert np.isfinite(points["pull_off_force"]).all()
-
-
-PROBE = {"nu": 0.5, "E": "2 MPa", "work_of_adhesion": "50 mJ/m^2", "k": 0.0, "wavelength": "5 um", "A": 0.02}
 
 
 @pytest.fixture(scope="module")

@@ -24,6 +24,11 @@ own.define("apple = [fruit]")
 
 BULK = {"nu": 0.5, "E": "2 MPa", "work_of_adhesion": "50 mJ/m^2", "k": 0.0}
 WAVY = BULK | {"R": "25 um", "wavelength": "1 um", "A": 0.05}
+STUDY: dict[str, Any] = {
+    "outputs": ["pull_off_force"],
+    "parameters": {"k": 0.0, "nu": 0.5, "A": 0.05},
+    "physical": {"E": 2 * ureg.MPa, "work_of_adhesion": 50 * ureg.mJ / ureg.m**2, "wavelength": 1 * um, "R": [25 * um, "50 um"]},
+}  # fmt: skip
 
 
 class Quantity(np.ndarray):  # type: ignore[type-arg]
@@ -206,13 +211,6 @@ def test_radii_of_states_and_amplitudes_of_a_profile_are_ratios() -> None:
         assert "0.5 (1 - cos(2 pi x))" in gr.solve(WAVY, "pull_off_force", profile=profile).attrs["profile"]
     with pytest.raises(gr.StudyError, match='cos = "1 micrometer": '):
         gr.solve(WAVY, "pull_off_force", profile={"harmonics": [{"n": 1, "cos": um * 1}]})
-
-
-STUDY: dict[str, Any] = {
-    "outputs": ["pull_off_force"],
-    "parameters": {"k": 0.0, "nu": 0.5, "A": 0.05},
-    "physical": {"E": 2 * ureg.MPa, "work_of_adhesion": 50 * ureg.mJ / ureg.m**2, "wavelength": 1 * um, "R": [25 * um, "50 um"]},
-}  # fmt: skip
 
 
 def test_a_study_takes_them_as_a_call_does(tmp_path: Path) -> None:

@@ -14,6 +14,12 @@ from gradhesion.cli.explorer import choice
 from gradhesion.cli.explorer.data import rounded, study_data
 from tests.cli.conftest import Call, Made, Patch
 
+PLACES = ("k=0", "lambda_over_R=0.11", "A=0", "a_max_over_R=0.7")
+WRONG = {
+    '"pull_off_force"': ["--variable", "pull_of_force"], '"k"': ["--at", "K=0.31"], "0 to 0.31": ["--at", "k=0.7"], ".html": ["-o", "page.png"],
+    "pull_off_force: ": ["--variable", "pull_off_force"], "nothing varies": [f"--at={place}" for place in PLACES],
+}  # fmt: skip
+
 
 @given(st.lists(st.floats(allow_infinity=False), min_size=1))
 def test_rounded_values_are_exact_to_their_six_digits_and_single_where_they_fit(values: list[float]) -> None:
@@ -51,13 +57,6 @@ def test_a_page_is_taken_at_values_of_axes_and_written_once(gradhesion: Call, da
         assert set(cut.data_vars) == {"pull_off_force", "status"}
         expected = dataset["pull_off_force"].isel(k=1, a_max_over_R=1)
         np.testing.assert_array_equal(cut["pull_off_force"].values, expected.values)
-
-
-PLACES = ("k=0", "lambda_over_R=0.11", "A=0", "a_max_over_R=0.7")
-WRONG = {
-    '"pull_off_force"': ["--variable", "pull_of_force"], '"k"': ["--at", "K=0.31"], "0 to 0.31": ["--at", "k=0.7"], ".html": ["-o", "page.png"],
-    "pull_off_force: ": ["--variable", "pull_off_force"], "nothing varies": [f"--at={place}" for place in PLACES],
-}  # fmt: skip
 
 
 def test_wrong_wishes_and_too_large_a_dataset_are_said(

@@ -41,6 +41,11 @@ STUDIES: dict[str, dict[str, Any]] = {
 AXES = ("k", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
 APART = ("status", "steep_contact", "solver")
 """What the page says in words."""
+FRAMES = """[...explorer.parts.maps, ...explorer.parts.sections.flatMap((both) => Object.values(both))].map((part) => {
+    const view = Bokeh.index.find_one(part.figure), box = view.canvas_view.el.getBoundingClientRect()
+    return [box.left + view.frame.bbox.left, box.left + view.frame.bbox.right]
+})"""
+"""Of two maps, and of the two sections of each."""
 
 
 @pytest.fixture(scope="module")
@@ -304,13 +309,6 @@ def test_on_a_phone_there_is_one_column_and_a_finger_reads_a_cell(open_page: Ope
     page.page.touchscreen.tap(*page.point_of("explorer.parts.maps[0]", *place))
     page.wait_for_text("held", "held")
     page.shows(k=3, c0_over_R=0, lambda_over_R=1, A=1, a_max_over_R=1)
-
-
-FRAMES = """[...explorer.parts.maps, ...explorer.parts.sections.flatMap((both) => Object.values(both))].map((part) => {
-    const view = Bokeh.index.find_one(part.figure), box = view.canvas_view.el.getBoundingClientRect()
-    return [box.left + view.frame.bbox.left, box.left + view.frame.bbox.right]
-})"""
-"""Of two maps, and of the two sections of each."""
 
 
 @pytest.mark.parametrize("width", [360, 1920])

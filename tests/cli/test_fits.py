@@ -31,6 +31,9 @@ branch = "way"
 intervals = "linear"
 noise = {{ indentation = "0.3 nm", load = "5 nN" }}
 """
+WRONG = [["plot", "--at", "loop=7"], ["plot", "--at", "k=1"], ["plot", "--at", "loop=3"], ["plot", "--variable", "value"], ["explore"], ["verify"],
+         ["info", "many.nc"], ["info", "zeros.nc", "--format", "csv"], ["info", "other.nc"]]  # fmt: skip
+"""Of several fits: loops and axes that are not there, what is of scenes, and comparisons of what has no fit."""
 
 
 def write_loop(path: Path, E_star: float, work: float, seed: int, count: int) -> None:
@@ -141,11 +144,6 @@ def test_pictures_of_all_and_of_one(gradhesion: Call, found: xarray.Dataset) -> 
     many = xarray.concat([found.isel(loop=[0, 1, 2])] * 10, "loop")
     heights = sum(patch.get_height() for patch in drawn_fits(many).axes[0].patches)
     assert heights == 30, "a histogram of all"
-
-
-WRONG = [["plot", "--at", "loop=7"], ["plot", "--at", "k=1"], ["plot", "--at", "loop=3"], ["plot", "--variable", "value"], ["explore"], ["verify"],
-         ["info", "many.nc"], ["info", "zeros.nc", "--format", "csv"], ["info", "other.nc"]]  # fmt: skip
-"""Of several fits: loops and axes that are not there, what is of scenes, and comparisons of what has no fit."""
 
 
 @pytest.mark.usefixtures("folder", "models")

@@ -34,6 +34,10 @@ a_max_over_R = 1.0
 """
 CONFIGS = [path.read_text(encoding="utf-8").splitlines() for path in sorted((ROOT / "configs").glob("*.toml"))]
 pieces = st.one_of(st.sampled_from(PIECES), st.text(max_size=4))
+KEYS = st.sampled_from(["parameters.k", "parameters.k.num", "title", "a.b", "", "."])
+NUMBERS = ["-1", "0", "1e400", "nan", "inf", "7", "1e-300", "0.5", '"0.5"', "true", "5 m", ""]
+DEEP = [".".join("a" * 20_000) + " = 1", "[" + ".".join("a" * 20_000) + "]", "x = { " + ".".join("a" * 20_000) + " = 1 }",
+        "\n".join(".".join("ab" * 40) + f".c{i} = 1" for i in range(100)), f"k = {'[' * 50}{']' * 50}", f"k = {'{a=' * 50}1{'}' * 50}"]  # fmt: skip
 
 
 def read(content: bytes, overrides: list[str]) -> None:
@@ -50,10 +54,6 @@ def read(content: bytes, overrides: list[str]) -> None:
         assert len(mistakes) == len(set(mistakes))
         for one in mistakes:
             assert re.fullmatch(SENTENCE, one.removeprefix(str(path))), one
-
-
-KEYS = st.sampled_from(["parameters.k", "parameters.k.num", "title", "a.b", "", "."])
-NUMBERS = ["-1", "0", "1e400", "nan", "inf", "7", "1e-300", "0.5", '"0.5"', "true", "5 m", ""]
 
 
 @st.composite
@@ -101,10 +101,6 @@ def test_random_bytes(content: bytes) -> None:
 @pytest.mark.parametrize("value", ["[" * 2000, "{a=" * 500, "1" * 5000, "-" * 50, '"' * 3, "0" * 50, "\x00", "'\ud800"])
 def test_hostile_values(value: str) -> None:
     read(f"outputs = {value}\n[parameters]\nk = {value}".encode("utf-8", "replace"), [f"title={value}", f"{value}=1"])
-
-
-DEEP = [".".join("a" * 20_000) + " = 1", "[" + ".".join("a" * 20_000) + "]", "x = { " + ".".join("a" * 20_000) + " = 1 }",
-        "\n".join(".".join("ab" * 40) + f".c{i} = 1" for i in range(100)), f"k = {'[' * 50}{']' * 50}", f"k = {'{a=' * 50}1{'}' * 50}"]  # fmt: skip
 
 
 @pytest.mark.parametrize("text", DEEP)

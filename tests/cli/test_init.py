@@ -15,6 +15,14 @@ from gradhesion.cli.installation import checked, misfit, refuse_without_threads,
 from tests.cli.conftest import Call, Called, Patch
 from tests.conftest import ROOT
 
+COMMAND = (sys.executable, "-m", "gradhesion")
+SCENE = "k=0.3, nu=0.3, modulus=500.0, c0_over_R=0.01, lambda_over_R=0.1, A=0.0, a_max_over_R=1.0"
+PROGRAMS = {
+    f"import gradhesion as gr; gr.solve({SCENE})": "numba 0.60.0 numba>=0.62",
+    "from gradhesion import solve": "numba 0.60.0 numba>=0.62",
+    "import gradhesion as gr; gr.explore('none.nc')": "bokeh 3.4.0 bokeh>=3.6",
+}
+
 
 def test_the_studies_are_those_of_the_repository() -> None:
     assert studies() == {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "configs").glob("*.toml")}
@@ -91,10 +99,6 @@ def test_the_script_of_a_shell_is_one(shell: str, tmp_path: Path) -> None:
         subprocess.run([shell, "-n", script], check=True)
 
 
-COMMAND = (sys.executable, "-m", "gradhesion")
-SCENE = "k=0.3, nu=0.3, modulus=500.0, c0_over_R=0.01, lambda_over_R=0.1, A=0.0, a_max_over_R=1.0"
-
-
 def of_another_version(folder: Path, name: str, version: str, code: str, needs: str = "") -> None:
     """Make a package that is found before the installed one."""
     (folder / name).mkdir(parents=True)
@@ -127,13 +131,6 @@ def test_what_does_not_need_it_works(tmp_path: Path) -> None:
     of_another_version(tmp_path, "numba", "0.60.0", "")
     of_another_version(tmp_path, "bokeh", "3.4.0", "")
     assert ends(tmp_path, *COMMAND, "--help") == (0, [])
-
-
-PROGRAMS = {
-    f"import gradhesion as gr; gr.solve({SCENE})": "numba 0.60.0 numba>=0.62",
-    "from gradhesion import solve": "numba 0.60.0 numba>=0.62",
-    "import gradhesion as gr; gr.explore('none.nc')": "bokeh 3.4.0 bokeh>=3.6",
-}
 
 
 @pytest.mark.parametrize("code", PROGRAMS)

@@ -19,6 +19,8 @@ from gradhesion.cli.main import cli
 from gradhesion.cli.terminal.progress import progress
 from tests.cli.conftest import Call, Patch
 
+CLASSES = errors.GradhesionError.__subclasses__()
+
 
 def test_help_fits_a_screen_with_all_commands_in_the_order_of_the_work_and_all_exit_codes() -> None:
     text = CliRunner().invoke(cli, ["--help"], terminal_width=80).output
@@ -109,9 +111,6 @@ def test_a_dataset_has_the_ending_of_one(gradhesion: Call, tmp_path: Path, name:
         result = gradhesion(*arguments, "-o", tmp_path / name, code=2)
         assert result.stderr.strip().endswith(f"write -o {tmp_path / better}")
     assert not any(tmp_path.iterdir())
-
-
-CLASSES = errors.GradhesionError.__subclasses__()
 
 
 @pytest.mark.parametrize("kind", CLASSES)

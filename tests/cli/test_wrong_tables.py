@@ -73,6 +73,8 @@ OWN: dict[str, tuple[str, str, str]] = {
     "data: other names": ("data", "depht;laod\n1,5;2\n", 'it has "depht", "laod"; rename some'),
 }  # fmt: skip
 """Wrong for one reader."""
+TWO_READERS = [(name, [*HEADS][(i + j) % 4]) for i, name in enumerate(TABLES) for j in (0, 2)]
+WORDS = [("loading", "Unloading"), ("approach", "retract"), ("0", "1"), ("0.0", "1.0"), ("false", "TRUE"), ("forward", "Backward"), ("Approaching", "retracting"), ("extend", "withdraw")]  # fmt: skip
 
 
 def told(reader: str, folder: Path, gradhesion: Call) -> str:
@@ -93,9 +95,6 @@ def told(reader: str, folder: Path, gradhesion: Call) -> str:
     assert sentence.startswith(beginning)
     assert "\n" not in sentence
     return sentence.replace(str(folder), "")
-
-
-TWO_READERS = [(name, [*HEADS][(i + j) % 4]) for i, name in enumerate(TABLES) for j in (0, 2)]
 
 
 @pytest.mark.parametrize(("name", "reader"), TWO_READERS)
@@ -152,9 +151,6 @@ def test_cycles_are_whole_numbers(numbers: tuple[Any, Any], kept: tuple[int, int
     assert found.cycle.tolist() == [number for number in kept for _ in ways]
     assert found.unloading.tolist() == 2 * [False, False, False, True]
     assert found.depth.tolist()[:4] == [0.0, 1e-9, 2e-9, 1e-9]
-
-
-WORDS = [("loading", "Unloading"), ("approach", "retract"), ("0", "1"), ("0.0", "1.0"), ("false", "TRUE"), ("forward", "Backward"), ("Approaching", "retracting"), ("extend", "withdraw")]  # fmt: skip
 
 
 @pytest.mark.parametrize("words", WORDS)

@@ -11,6 +11,11 @@ from .kinds import COUNTS, EXACT, KINDS, SCENES, Kind, Scenes, drawn, for_kinds,
 from .promises import NO_VALUE, SHARE, agree, depth_size, errors, has, is_sure, load_size, phase_of, work_size
 from .theory import FORCE, Curve, stiffness, stretch
 
+EXPONENTS = np.array([0.0, 0.1, 0.37, 0.7, 0.96])
+SMOOTH: Scenes = {"k": EXPONENTS, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.07, "lambda_over_R": 0.1, "A": 0.0}
+PARABOLOIDS = [k for k in EXACT if k.exponent == 2 and not k.turn and not k.pattern]
+EVERY = for_kinds(KINDS)
+
 
 @for_kinds(KINDS)
 def test_the_same_problem_in_other_numbers(kind: Kind) -> None:
@@ -149,11 +154,6 @@ def has_the_area(kind: Kind, scene: Scenes, path: Any, energy: float) -> None:
     assert abs(area - energy) <= 2e-4 * np.ptp(depth) * np.ptp(load) * moved.sum(), scene
 
 
-EXPONENTS = np.array([0.0, 0.1, 0.37, 0.7, 0.96])
-SMOOTH: Scenes = {"k": EXPONENTS, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.07, "lambda_over_R": 0.1, "A": 0.0}
-PARABOLOIDS = [k for k in EXACT if k.exponent == 2 and not k.turn and not k.pattern]
-
-
 @for_kinds(PARABOLOIDS)
 def test_smooth_punches_are_those_of_jkr(kind: Kind) -> None:
     """Force (3 + k)/3 at any modulus, and at k = 0 the radius of Johnson, Kendall & Roberts, (9 pi/(8 E*))^(1/3)."""
@@ -220,9 +220,6 @@ def test_a_tiny_ratio_is_none(kind: Kind) -> None:
         bound = 2 * errors(kind, scenes, none)[name] + 1e-8 * (np.abs(none[name]) + scenes["a_max_over_R"] ** 2)
         off = np.abs(none[name] - tiny[name])
         assert ((off <= bound) | (off == 0))[same].all(), name
-
-
-EVERY = for_kinds(KINDS)
 
 
 @EVERY

@@ -14,6 +14,7 @@ from .promises import CLOSE, has
 from .theory import Array, Curve, Waves
 
 NOT_ONE = FLAGS["loading_contact_not_one_disc"]
+DIPS: list[Waves] = [((1, 0.5, 0.0), (4, -0.4, 0.2)), ((1, 0.5, 0.3), (5, -0.7, 0.0)), ((1, 0.2, 0.1), (3, -0.3, 0.4))]
 
 
 @for_kinds(EXACT)
@@ -140,9 +141,6 @@ def test_a_punch_that_touches_elsewhere_first_is_flagged(kind: Kind) -> None:
     lower = np.array([touches_elsewhere(kind, one_of(scenes, i)) for i in range(found["status"].size)])
     assert lower.any()
     assert has(found, NOT_ONE)[lower].all()
-
-
-DIPS: list[Waves] = [((1, 0.5, 0.0), (4, -0.4, 0.2)), ((1, 0.5, 0.3), (5, -0.7, 0.0)), ((1, 0.2, 0.1), (3, -0.3, 0.4))]
 
 
 @pytest.mark.parametrize("waves", DIPS)

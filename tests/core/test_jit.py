@@ -46,6 +46,7 @@ print(json.dumps({
 }))
 """
 """A program with kernels, and one of its user's own."""
+NAMES = [".", "core", "core/one.nbi", "core/one.nbc"]
 
 
 def ended(script: Path, tree: Path | None = None, **environment: str) -> dict[str, Any]:
@@ -148,9 +149,6 @@ def test_a_pickle_of_another_user_is_not_run(shared: Path, tmp_path: Path) -> No
         os.chown(path, os.getuid(), -1)
     assert ended(script, **where)["folder"] == str(folder)
     assert (tmp_path / "run").exists()
-
-
-NAMES = [".", "core", "core/one.nbi", "core/one.nbc"]
 
 
 @pytest.mark.parametrize("name", NAMES)

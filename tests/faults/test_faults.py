@@ -10,6 +10,8 @@ import pytest
 from tests.conftest import ROOT
 
 pytestmark = pytest.mark.slow
+MOUNT = ["unshare", "-m", "mount", "-t", "tmpfs", "none", "/mnt"]
+CAN_MOUNT = shutil.which("unshare") and subprocess.run(MOUNT, check=False, capture_output=True).returncode == 0
 
 
 def test_a_killed_run_loses_nothing_and_leaves_nothing_behind() -> None:
@@ -23,10 +25,6 @@ def test_a_killed_run_loses_nothing_and_leaves_nothing_behind() -> None:
     assert changes >= 6 + 3, "a rename a part, those of the study, the state and the dataset"
     assert ended >= 2 * changes
     assert kept >= 2 * changes
-
-
-MOUNT = ["unshare", "-m", "mount", "-t", "tmpfs", "none", "/mnt"]
-CAN_MOUNT = shutil.which("unshare") and subprocess.run(MOUNT, check=False, capture_output=True).returncode == 0
 
 
 @pytest.mark.skipif(not CAN_MOUNT, reason="no disk can be mounted here")

@@ -23,6 +23,7 @@ pytestmark = pytest.mark.slow
 
 Compute = Callable[..., xarray.Dataset]
 STUDIES = {path.stem for pattern in ("fig*", "extra_*") for path in (ROOT / "configs").glob(f"{pattern}.toml")}
+SAID = {"fig8": "", "fig3a x.nc": "not a dataset that fig3a is drawn from (", "fig3a none.nc": "no such file"}
 
 
 def study_of(picture: str) -> str:
@@ -71,9 +72,6 @@ def test_make_draws_every_picture_from_its_study_and_the_page_shows_it() -> None
     for folder in ("outputs/figures", "docs/figures/paper"):
         assert set(re.findall(rf" {folder}/(\w+)\.png", made)) == set(PICTURES)
     assert {path.stem for path in (ROOT / "docs" / "figures" / "paper").glob("*.png")} == set(PICTURES)
-
-
-SAID = {"fig8": "", "fig3a x.nc": "not a dataset that fig3a is drawn from (", "fig3a none.nc": "no such file"}
 
 
 @pytest.mark.parametrize("arguments", SAID)

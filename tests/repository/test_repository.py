@@ -36,6 +36,10 @@ MODULES = {one.name for root in PACKAGES for one in pkgutil.walk_packages(root._
 MODULES = {"gradhesion", *(name for name in MODULES if not name.endswith("__main__"))}
 HEAVY = ("bokeh", "jinja2", "numpy", "numba", "scipy", "xarray", "netCDF4", "matplotlib", "pandas", "pint", "pydantic", "rich",
          "gradhesion.core", "gradhesion.twin", "flint")  # fmt: skip
+SHIPPED_BEYOND = {"fig4a": "unbounded", "cone": "cone"}
+"""The studies that leave small slopes, and the word of their comment that says so."""
+EXTRAS = PROJECT["project"]["optional-dependencies"]
+CLAIMS = [*PROJECT["project"]["dependencies"], *(name for extra in EXTRAS.values() for name in extra)]
 
 
 def loaded(arguments: list[str], names: tuple[str, ...]) -> str:
@@ -100,10 +104,6 @@ def test_the_picture_of_the_readme_compares_like_with_like() -> None:
     assert unbounded[:, 0].min() > 0.3
 
 
-SHIPPED_BEYOND = {"fig4a": "unbounded", "cone": "cone"}
-"""The studies that leave small slopes, and the word of their comment that says so."""
-
-
 def test_shipped_studies_stay_where_slopes_are_small_or_say_why_not() -> None:
     from gradhesion.cli.study.fit.study import FitStudy
     from gradhesion.cli.study.reading import load_any
@@ -127,10 +127,6 @@ def test_shipped_studies_stay_where_slopes_are_small_or_say_why_not() -> None:
             own = {name: getattr(study, name) for name in ("profile", "loading", "toughness", "rate")}
             asked = [*(name for name in study.outputs if name not in VALIDITY), "contact_slope"]
             assert np.nanmax(solve(scenes, asked, **own)["contact_slope"]) <= 1.0
-
-
-EXTRAS = PROJECT["project"]["optional-dependencies"]
-CLAIMS = [*PROJECT["project"]["dependencies"], *(name for extra in EXTRAS.values() for name in extra)]
 
 
 def test_every_dependency_is_claimed_once_by_its_lowest_version_and_pinned_to_one_that_serves() -> None:

@@ -30,6 +30,11 @@ REFERENCE = {name: json.loads((HERE.parent / f"reference/{name}.json").read_text
 CASES = [*(REFERENCE["scenes"]["scenes"][i] for i in (3, 8, 30, 33, 34, 44, 47)), *REFERENCE["general"]["scenes"]]
 """Seven of one cosine, with k = 0.247, 0.109, 1, 0.999, 1e-6, 0.5, 1e-6, and 24 of any profile and control."""
 ULP = 2.0**-52
+DRAWS = {
+    "hostile": (of_one_cosine(hostile(5, 120)), 30),
+    "eventful": (of_one_cosine(eventful(5, 120)), 30),
+    "of any kind": (of_any_kind(7, 10), 4),
+}
 
 
 def stored() -> list[dict[str, object]]:
@@ -215,13 +220,6 @@ def test_what_is_out_of_reach_is_told() -> None:
     assert not stated.within_reach(endless, energy, "exact", cone)
     assert stated.within_reach(endless, ["pull_off_force"], "exact", cone)
     assert stated.expected(endless, ["pull_off_force"], "exact", cone)["pull_off_force"].value > 0
-
-
-DRAWS = {
-    "hostile": (of_one_cosine(hostile(5, 120)), 30),
-    "eventful": (of_one_cosine(eventful(5, 120)), 30),
-    "of any kind": (of_any_kind(7, 10), 4),
-}
 
 
 @pytest.mark.parametrize(("cases", "fewest"), DRAWS.values(), ids=DRAWS)

@@ -19,6 +19,22 @@ from gradhesion.core import OUTPUTS, SENSITIVITIES
 from gradhesion.core.problem.status import OF_EVERY_MAP as FLAGS
 from tests.cli.conftest import Call, Made, Patch, Told
 
+CHANGES: dict[str, Callable[[xarray.Dataset], xarray.Dataset]] = {
+    "a status with gaps": lambda whole: whole.assign(status=whole["status"].where(whole["k"] > 0)),
+    "no scene": lambda whole: whole.isel(k=[]),
+    "a mean beside values": lambda whole: whole.assign(pull_off_force=whole["pull_off_force"].mean("A")),
+    "no values of an axis": lambda whole: whole.drop_vars("A"),
+}
+"""What other programs may have made of a dataset."""
+PUNCH: dict[str, Any] = {"k": 0.0, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1, "a_max_over_R": 1.0}  # fmt: skip
+TIP: dict[str, Any] = {"nu": 0.3, "A": 0.0, "R": "1 um", "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "10 nm"}  # fmt: skip
+NO_TABLES = {
+    "--format csv": "jumps",
+    "--format csv --variable path --variable equilibrium": "path",
+    "--format csv --variable pathh": '"path"',
+    "--variable path": "--format",
+}
+
 
 def test_it_tells_axes_fixed_values_and_status(gradhesion: Call, dataset_file: Path, made: Made) -> None:
     told = " ".join(gradhesion("info", dataset_file).stdout.split())
@@ -95,15 +111,6 @@ def test_a_file_that_is_no_dataset_of_ours(damage: str, gradhesion: Call, datase
         assert result.stdout == "" or damage == "flipped"
 
 
-CHANGES: dict[str, Callable[[xarray.Dataset], xarray.Dataset]] = {
-    "a status with gaps": lambda whole: whole.assign(status=whole["status"].where(whole["k"] > 0)),
-    "no scene": lambda whole: whole.isel(k=[]),
-    "a mean beside values": lambda whole: whole.assign(pull_off_force=whole["pull_off_force"].mean("A")),
-    "no values of an axis": lambda whole: whole.drop_vars("A"),
-}
-"""What other programs may have made of a dataset."""
-
-
 @pytest.mark.parametrize("change", CHANGES)
 def test_what_a_dataset_lacks_is_said(change: str, refusal: Told, dataset_file: Path, tmp_path: Path) -> None:
     path = tmp_path / "changed.nc"
@@ -130,10 +137,6 @@ def test_what_a_dataset_says_is_data(gradhesion: Call, dataset_file: Path) -> No
     for command in (["info"], ["info", "--format", "csv"], ["plot"], ["explore"], ["verify"]):
         result = gradhesion(*command, dataset_file, code=(2 if command == ["verify"] else 0))
         assert printable(result.output) == result.output
-
-
-PUNCH: dict[str, Any] = {"k": 0.0, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1, "a_max_over_R": 1.0}  # fmt: skip
-TIP: dict[str, Any] = {"nu": 0.3, "A": 0.0, "R": "1 um", "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "10 nm"}  # fmt: skip
 
 
 @pytest.fixture
@@ -243,14 +246,6 @@ def test_a_curve_has_a_line_for_each_of_its_points(gradhesion: Call, made: Made)
         assert frame["path_load"].sum() == pytest.approx(float(dataset["path_load"].sum()), rel=1e-12)
     assert frame["path_jump"].isin([0, 1]).all()
     assert (frame["path_branch"] % 1 == 0).all()
-
-
-NO_TABLES = {
-    "--format csv": "jumps",
-    "--format csv --variable path --variable equilibrium": "path",
-    "--format csv --variable pathh": '"path"',
-    "--variable path": "--format",
-}
 
 
 def test_what_is_no_table_is_refused(refusal: Told, made: Made) -> None:

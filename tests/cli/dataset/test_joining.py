@@ -15,6 +15,8 @@ from gradhesion.cli.dataset.writer import write
 from gradhesion.cli.study.reading import study_from
 from tests.cli.conftest import Call, Made, Patch, Told
 
+LIES = ["nu = 0.29", "not TOML", "[" * 5000, "outputs = []", 'profile = { file = "x.csv" }', "a.b.c = 1"]
+
 
 @pytest.fixture
 def joined(gradhesion: Call, tmp_path: Path) -> Made:
@@ -112,9 +114,6 @@ def test_what_cannot_be_joined_is_told(name: str, refusal: Told, written: Made, 
     one, other, output = written("one", **keys), written("other", **APART[name]), tmp_path / "joined.nc"
     assert name.rsplit(maxsplit=1)[-1] in refusal("merge", one, other, "-o", output)
     assert not output.exists()
-
-
-LIES = ["nu = 0.29", "not TOML", "[" * 5000, "outputs = []", 'profile = { file = "x.csv" }', "a.b.c = 1"]
 
 
 @pytest.mark.parametrize("text", LIES)

@@ -19,6 +19,19 @@ K = np.array([0.0, 0.2, 0.5, 0.9])
 WAVES = np.geomspace(0.4, 0.01, 5)  # falling
 RIMS = np.array([0.3, 1.0, np.inf])
 FAILED, INFORMED = FLAGS["no_value"], FLAGS["pull_off_at_rim"]
+GRID = ["K2=0.1", "nu=0.3", "modulus=1", "k", "k=", "k=0.91", "a_max_over_R=2", "k=inf", "k=many", "k=nan", "k=0.91:2"]
+"""Values that are not there, and axes that are none."""
+WRONG: list[tuple[str, dict[str, Any]]] = [
+    *(("dataset", {"at": [wish]}) for wish in GRID),
+    *(("dataset", {"over": over}) for over in (["k"], ["modulus=max"], ["k=maxi"], ["k=max", "k=min"], ["k=argmax", "lambda_over_R=argmin"])),
+    ("dataset", {"at": ["k=0.1", "k=0.2"]}), ("dataset", {"at": ["k=0.1"], "over": ["k=max"]}), ("points", {"over": ["k=max"]}),
+    ("points", {"at": ["k=0.2"], "interpolate": True}), ("points", {"at": ["k=0.1", "A=3"]}), ("points", {"interpolate": True}),
+]  # fmt: skip
+Select = Callable[..., tuple[xarray.Dataset, xarray.Dataset, Path]]
+REDUCTIONS: list[tuple[str, Callable[..., Any]]] = [
+    ("max", np.max), ("mean", np.mean), ("sum", np.sum), ("median", np.median), ("p05", partial(np.quantile, q=0.05)), ("p95", partial(np.quantile, q=0.95)),
+]  # fmt: skip
+REFUSED = ["", "--at nu=0.27", "--at k=0.32:0.5", "--over k=argmax", "--at k=0 -o part.csv", "--at k=0 -o out.nc"]
 
 
 @pytest.fixture
@@ -130,23 +143,10 @@ def test_quantities_have_their_unit_or_are_in_si() -> None:
             selection_of(dataset, [wish])
 
 
-GRID = ["K2=0.1", "nu=0.3", "modulus=1", "k", "k=", "k=0.91", "a_max_over_R=2", "k=inf", "k=many", "k=nan", "k=0.91:2"]
-"""Values that are not there, and axes that are none."""
-WRONG: list[tuple[str, dict[str, Any]]] = [
-    *(("dataset", {"at": [wish]}) for wish in GRID),
-    *(("dataset", {"over": over}) for over in (["k"], ["modulus=max"], ["k=maxi"], ["k=max", "k=min"], ["k=argmax", "lambda_over_R=argmin"])),
-    ("dataset", {"at": ["k=0.1", "k=0.2"]}), ("dataset", {"at": ["k=0.1"], "over": ["k=max"]}), ("points", {"over": ["k=max"]}),
-    ("points", {"at": ["k=0.2"], "interpolate": True}), ("points", {"at": ["k=0.1", "A=3"]}), ("points", {"interpolate": True}),
-]  # fmt: skip
-
-
 @pytest.mark.parametrize(("layout", "wishes"), WRONG)
 def test_wrong_wishes_are_refused(layout: str, wishes: dict[str, Any], request: pytest.FixtureRequest) -> None:
     with pytest.raises(DatasetError, match=r"^--[^\n]+$"):
         selection_of(request.getfixturevalue(layout), **wishes)
-
-
-Select = Callable[..., tuple[xarray.Dataset, xarray.Dataset, Path]]
 
 
 @pytest.fixture
@@ -193,11 +193,6 @@ def test_solvers_and_points(made: Made, select: Select) -> None:
     xarray.testing.assert_equal(found, whole.isel(scene=[1, 2]))
 
 
-REDUCTIONS: list[tuple[str, Callable[..., Any]]] = [
-    ("max", np.max), ("mean", np.mean), ("sum", np.sum), ("median", np.median), ("p05", partial(np.quantile, q=0.05)), ("p95", partial(np.quantile, q=0.95)),
-]  # fmt: skip
-
-
 @pytest.mark.parametrize(("how", "reduce"), REDUCTIONS)
 def test_reductions_have_the_flags_of_all_and_say_what_they_are(
     how: str, reduce: Callable[..., Any], dataset_file: Path, select: Select
@@ -223,9 +218,6 @@ def test_curves_are_cut_with_their_jumps(made: Made, select: Select) -> None:
     np.testing.assert_array_equal(found["jump_energy"], whole["jump_energy"].values[np.isin(of_scene, left)])
     np.testing.assert_array_equal(found["jump_count"], counts[1:, 1])
     np.testing.assert_array_equal(found["path_load"], whole["path_load"].isel(lambda_over_R=[1, 2], A=1))
-
-
-REFUSED = ["", "--at nu=0.27", "--at k=0.32:0.5", "--over k=argmax", "--at k=0 -o part.csv", "--at k=0 -o out.nc"]
 
 
 @pytest.mark.parametrize("words", REFUSED)

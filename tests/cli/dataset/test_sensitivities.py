@@ -19,6 +19,9 @@ from tests.cli.conftest import Call, Made, Patch, Run
 FORCE, ENERGY = SENSITIVITIES
 SPECTRUM = {"spectrum": {"hurst": 0.8, "first": 1, "last": 3, "realisations": 2, "seed": 1}}
 SLOPES = {"outputs": ["pull_off_force", *SENSITIVITIES]}
+QUANTITIES: dict[str, Any] = {"k": 0.2, "nu": 0.3, "A": 0.03, "R": 1e-6, "E_star": 1e9, "work_of_adhesion": 0.05, "c0": 1e-7, "wavelength": 1e-7, "indentation_max": 2e-8}  # fmt: skip
+MACHINE = QUANTITIES | {"control": "machine", "spring_constant": 1000.0}
+INPUTS: dict[str, Any] = {"modulus": "5 %", "A": 0.001, "nu": {"low": 0.25, "high": 0.29}, "lambda_over_R": "1 %"}
 
 
 def test_the_parameter_is_the_last_dimension(data: dict[str, Any]) -> None:
@@ -41,10 +44,6 @@ def test_turn_and_machine_are_a_parameter_more(spring: dict[str, float], data: d
     dataset = compute(study_from(data | SLOPES | {"parameters": parameters, "loading": loading}))
     assert dataset["parameter"].values.tolist() == [*gr.PARAMETERS, *spring, "indentation_max_over_R"]
     assert all(np.isfinite(dataset[ENERGY].sel(parameter=name)).all() for name in spring)
-
-
-QUANTITIES: dict[str, Any] = {"k": 0.2, "nu": 0.3, "A": 0.03, "R": 1e-6, "E_star": 1e9, "work_of_adhesion": 0.05, "c0": 1e-7, "wavelength": 1e-7, "indentation_max": 2e-8}  # fmt: skip
-MACHINE = QUANTITIES | {"control": "machine", "spring_constant": 1000.0}
 
 
 @pytest.mark.parametrize(
@@ -97,9 +96,6 @@ def test_info_names_the_strongest_which_is_no_difference_of_k_or_nu(gradhesion: 
     assert f"A {least:.4g}" in told
     none = np.array([[9.0, -2.0, 1.0], [9.0, 0.0, 0.0], [1.0, np.nan, 3.0]])
     assert strongest(none, ["k", "A", "modulus"]).tolist() == [1, -1, 2]
-
-
-INPUTS: dict[str, Any] = {"modulus": "5 %", "A": 0.001, "nu": {"low": 0.25, "high": 0.29}, "lambda_over_R": "1 %"}
 
 
 @pytest.fixture

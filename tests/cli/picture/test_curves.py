@@ -17,6 +17,16 @@ PUNCH: dict[str, Any] = {"k": 0.3, "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.
 PROBE: dict[str, Any] = {"k": 0.0, "nu": 0.3, "A": 0.01, "R": "5 um", "E_star": "10 MPa", "work_of_adhesion": "30 mJ/m^2", "wavelength": "0.5 um", "a_max": "1.5 um"}  # fmt: skip
 EVERYTHING = ["equilibrium", "path", "asymptotic", "envelope", "effective", "smooth"]
 LOAD_OVER_DEPTH = {"x": "indentation", "y": "load"}
+WRONG: list[tuple[str, dict[str, Any]]] = [
+    ("variable pth", {"variables": "pth"}), ("path_indentation_si", {"variables": ["path_load", "path_indentation_si"]}), ("x k", {"x": "k"}),
+    ("x load", {"x": "load", "y": "load"}), ("over", {"over": {"A": "max"}}), ("xlim 0:1", {"xlim": "0:1"}), ("ylim 0:1", {"ylim": "0:1"}),
+    ("xlabel", {"xlabel": "depth"}), ("map: ", {"kind": "map"}), ("levels", {"levels": 5}), ("clabel", {"clabel": "pull"}), ("band", {"band": "std"}),
+]  # fmt: skip
+TABLES = (
+    "indentation [nm],load [nN]\n20,-740\n260,3280\n",
+    "time,branch,depth [um],force [uN]\n0,loading,0.02,-0.74\n1,unloading,0.26,3.28\n2,lost,nan,1\n",
+    "P (N);delta (mm)\n-7.4e-7;2e-5\n3.28e-6;2.6e-4\n",
+)
 
 
 @pytest.fixture(scope="module")
@@ -97,13 +107,6 @@ def test_planes_and_limits_are_chosen(curves: xarray.Dataset, probe: xarray.Data
     assert axes.get_ylim() == pytest.approx((-3e-7, 1e-7), rel=1e-12)
 
 
-WRONG: list[tuple[str, dict[str, Any]]] = [
-    ("variable pth", {"variables": "pth"}), ("path_indentation_si", {"variables": ["path_load", "path_indentation_si"]}), ("x k", {"x": "k"}),
-    ("x load", {"x": "load", "y": "load"}), ("over", {"over": {"A": "max"}}), ("xlim 0:1", {"xlim": "0:1"}), ("ylim 0:1", {"ylim": "0:1"}),
-    ("xlabel", {"xlabel": "depth"}), ("map: ", {"kind": "map"}), ("levels", {"levels": 5}), ("clabel", {"clabel": "pull"}), ("band", {"band": "std"}),
-]  # fmt: skip
-
-
 def test_what_curves_do_not_have_is_refused(curves: xarray.Dataset, probe: xarray.Dataset) -> None:
     without = curves.drop_vars([name for name in curves if "load" in str(name) and name != "path_unloading"])
     assert len(gr.plot(without)) == 1
@@ -147,13 +150,6 @@ def test_states_are_drawn_over_the_distance() -> None:
     for dataset, choices in [*((states, one) for one in wrong), (states.drop_vars("pressure_radius"), {}), (none, {})]:
         with pytest.raises(gr.DatasetError):
             gr.plot(dataset, **({"variables": "pressure"} | choices))
-
-
-TABLES = (
-    "indentation [nm],load [nN]\n20,-740\n260,3280\n",
-    "time,branch,depth [um],force [uN]\n0,loading,0.02,-0.74\n1,unloading,0.26,3.28\n2,lost,nan,1\n",
-    "P (N);delta (mm)\n-7.4e-7;2e-5\n3.28e-6;2.6e-4\n",
-)
 
 
 def measured(axes: Axes) -> list[Any]:

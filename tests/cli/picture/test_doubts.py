@@ -25,6 +25,10 @@ PUNCH: dict[str, Any] = {"k": 0.2, "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.
 WAVES = {"start": 0.1, "stop": 0.5, "num": 12}
 SEVEN = {"k": {"start": 0.0, "stop": 0.9, "num": 7}}
 WORDS = {bit: FLAG_WORDS[name] for name, bit in FLAGS.items()}
+WRONG = [
+    ("loading_jumps", {"band": "std"}), ("pull_off_force_std", {"band": "std"}), ("pull_off_force", {"band": "std", "kind": "map"}),
+    ("pull_off_force", {"band": "stdd"}), ("pull_off_force", {"band": "std", "over": {"k": "max"}}), ("pull_off_force", {"band": "quantiles"}),
+]  # fmt: skip
 
 
 def open_marks(axes: Axes, bit: int) -> list[Any]:
@@ -190,12 +194,6 @@ def test_few_values_have_bars(sampled: xarray.Dataset) -> None:
     points = points.assign_coords(lambda_over_R=("scene", few["lambda_over_R"].values))
     (axes,) = gr.plot(points, "pull_off_force")
     assert [len(one.get_paths()) for one in axes.collections if isinstance(one, LineCollection)] == [6]
-
-
-WRONG = [
-    ("loading_jumps", {"band": "std"}), ("pull_off_force_std", {"band": "std"}), ("pull_off_force", {"band": "std", "kind": "map"}),
-    ("pull_off_force", {"band": "stdd"}), ("pull_off_force", {"band": "std", "over": {"k": "max"}}), ("pull_off_force", {"band": "quantiles"}),
-]  # fmt: skip
 
 
 def test_a_band_that_is_not_there_is_refused(sampled: xarray.Dataset) -> None:

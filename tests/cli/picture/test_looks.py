@@ -13,6 +13,8 @@ from matplotlib.colors import to_rgb
 import gradhesion as gr
 from tests.cli.conftest import Call, contours
 
+LIMITS = {"0.1 um:400 nm": (1e-7, 4e-7), "1e-7:4e-7": (1e-7, 4e-7), (1e-7, None): (1e-7, 1e-6), ":400nm": (5e-8, 4e-7)}
+
 
 @pytest.fixture(scope="module")
 def grid() -> xarray.Dataset:
@@ -125,9 +127,6 @@ def test_numbers_stand_clear_of_each_other_and_of_other_contours(grid: xarray.Da
             line = axes.transData.transform(np.reshape(path.vertices, (-1, 2)))
             apart = np.hypot(*(line - own).T).min(initial=np.inf)
             assert number == pytest.approx(level, rel=0.01) or apart > 0.08 * inch
-
-
-LIMITS = {"0.1 um:400 nm": (1e-7, 4e-7), "1e-7:4e-7": (1e-7, 4e-7), (1e-7, None): (1e-7, 1e-6), ":400nm": (5e-8, 4e-7)}
 
 
 @pytest.mark.parametrize("xlim", LIMITS)

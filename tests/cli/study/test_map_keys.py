@@ -28,6 +28,11 @@ FOLLOW = {
     "jump-in": {"a_max_over_R": "k lambda_over_R A a_max_over_a2"},
 }
 """What follows, and from what."""
+CONTROLS = ("displacement", "load", "machine")
+SHAPE = {"exponent": 1.7, "harmonics": [{"n": 1, "cos": 1.0}, {"n": 3, "sin": -0.2}]}
+PROFILE = Profile(exponent=1.7, harmonics=(Harmonic(n=1), Harmonic(n=3, cos=0.0, sin=-0.2)))
+SEVERAL = ["envelope", "exact", "asymptotic"]
+SPECTRUM = {"hurst": 0.8, "first": 1, "last": 9, "realisations": 4, "seed": 3}
 
 
 @pytest.fixture
@@ -86,11 +91,6 @@ def test_where_there_is_no_jump_in_radius_there_is_no_value(reduced: Study, ran:
     assert (((dataset["status"] & FAILED) != 0) == strong).all()
 
 
-CONTROLS = ("displacement", "load", "machine")
-SHAPE = {"exponent": 1.7, "harmonics": [{"n": 1, "cos": 1.0}, {"n": 3, "sin": -0.2}]}
-PROFILE = Profile(exponent=1.7, harmonics=(Harmonic(n=1), Harmonic(n=3, cos=0.0, sin=-0.2)))
-
-
 @pytest.fixture
 def shaped(data: dict[str, Any]) -> Study:
     def study(control: str = "machine", **changes: Any) -> dict[str, Any]:
@@ -129,9 +129,6 @@ def test_curves_of_any_shape_and_control_are_drawn(shaped: Study, control: str) 
             np.testing.assert_array_equal(dataset[name][i].values[: found[name].size], found[name])
 
 
-SEVERAL = ["envelope", "exact", "asymptotic"]
-
-
 @pytest.mark.parametrize("shape", [{}, {"profile": SHAPE | {"exponent": 3.0}}])
 def test_each_solver_gives_what_it_gives_alone(shape: dict[str, Any], data: dict[str, Any]) -> None:
     together = compute(study_from(data | shape | {"method": {"solver": SEVERAL}}))
@@ -163,9 +160,6 @@ def test_the_contact_is_checked_unless_the_study_says_no(data: dict[str, Any]) -
     unchecked = compute(study_from(data))
     xarray.testing.assert_equal(checked["status"] & ~1, unchecked["status"])
     xarray.testing.assert_equal(checked["dissipated_energy"], unchecked["dissipated_energy"])
-
-
-SPECTRUM = {"hurst": 0.8, "first": 1, "last": 9, "realisations": 4, "seed": 3}
 
 
 @pytest.fixture

@@ -18,6 +18,13 @@ from tests.cli.conftest import Call, Patch, Run, legend
 PARAMETERS = {"nu": 0.3, "modulus": 30.0, "c0_over_R": 0.1, "lambda_over_R": [0.05, 0.1, 0.2, 0.4, 0.8], "A": 0.05}
 STUDY: dict[str, Any] = {"outputs": ["dissipated_energy"], "parameters": {"k": [0.0, 0.1, 0.2, 0.3]} | PARAMETERS}
 WORDS = BEYOND["contact_slope"].words
+NUMBERS = {"A": [0.0, 1e-5, 0.05, 0.2], "adhesion_range_over_R": [1e-5, 0.01]}
+COUNTED: list[tuple[dict[str, Any], dict[str, int]]] = [
+    ({}, {"wave_slope": 2}),
+    ({"profile": {"harmonics": [{"n": 1, "cos": 0.0, "sin": 0.2}]}}, {}),
+    ({"outputs": ["pull_off_force", "wave_slope"]}, {"wave_slope": 2}),
+    ({"outputs": [*VALIDITY], "parameters": NUMBERS}, {"tabor_parameter": 4, "wave_tabor_parameter": 1, "wave_slope": 2, "johnson_alpha": 2}),
+]  # fmt: skip
 
 
 def asked(**parameters: Any) -> dict[str, Any]:
@@ -195,15 +202,6 @@ def test_a_scene_without_value_has_none_of_them() -> None:
     found = gr.solve(punch, list(VALIDITY[2:]))
     assert found["status"].item() == 64
     assert all(np.isnan(found[name].item()) for name in VALIDITY[2:])
-
-
-NUMBERS = {"A": [0.0, 1e-5, 0.05, 0.2], "adhesion_range_over_R": [1e-5, 0.01]}
-COUNTED: list[tuple[dict[str, Any], dict[str, int]]] = [
-    ({}, {"wave_slope": 2}),
-    ({"profile": {"harmonics": [{"n": 1, "cos": 0.0, "sin": 0.2}]}}, {}),
-    ({"outputs": ["pull_off_force", "wave_slope"]}, {"wave_slope": 2}),
-    ({"outputs": [*VALIDITY], "parameters": NUMBERS}, {"tabor_parameter": 4, "wave_tabor_parameter": 1, "wave_slope": 2, "johnson_alpha": 2}),
-]  # fmt: skip
 
 
 @pytest.mark.parametrize(("more", "beyond"), COUNTED)

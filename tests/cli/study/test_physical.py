@@ -33,6 +33,8 @@ CASES: Final[dict[str, tuple[str, dict[str, str], dict[str, float]]]] = {
     "a machine": ("machine", RIM | {"spring_constant": "7.82 nN/nm"}, RIM_RATIO | {"machine_stiffness": 7.82 / (E_STAR * R)}),
 }  # fmt: skip
 """The control, the quantities by which a cycle ends, and their ratios."""
+BALL: dict[str, Any] = {"k": 0.0, "nu": 0.3, "A": 0.0}
+PIECES = st.sampled_from(["m", "k", "Pa", "inf", "e5", "deg", "**", "-2", *"1/*^ ()'\\é²\n_.,"])
 
 
 def made(parameters: dict[str, Any], outputs: Any = tuple(VALUES), **tables: Any) -> xarray.Dataset:
@@ -89,9 +91,6 @@ def test_curves_have_units_too() -> None:
         assert dataset[name].units == unit
     assert dataset["jump_energy_si"].dims == ("jump",)
     assert "path_branch_si" not in dataset
-
-
-BALL: dict[str, Any] = {"k": 0.0, "nu": 0.3, "A": 0.0}
 
 
 def test_a_smooth_homogeneous_ball_needs_four_numbers() -> None:
@@ -182,9 +181,6 @@ def test_the_shortest_text_of_a_double_is_scaled_and_rounded_once(number: float,
         assert number * 10.0**exponent in (0.0, float("inf"))
     else:
         assert found == float(f"{digits}e{int(power) + exponent}")
-
-
-PIECES = st.sampled_from(["m", "k", "Pa", "inf", "e5", "deg", "**", "-2", *"1/*^ ()'\\é²\n_.,"])
 
 
 @given(text=st.one_of(st.lists(PIECES, max_size=12).map("".join), st.text(max_size=12)))

@@ -23,6 +23,8 @@ from gradhesion.core import solve
 from gradhesion.core.problem.toughness import Rate, Toughness, ToughnessHarmonic
 from tests.cli.conftest import Call, Made, Run
 
+SHAPES = st.lists(st.integers(1, 40), min_size=0, max_size=5).map(tuple).filter(lambda one: math.prod(one) <= 100_000)
+
 
 def same(one: Study, other: Study) -> bool:
     parameters = all(np.array_equal(one.parameters[name], other.parameters[name]) for name in one.parameters)
@@ -124,9 +126,6 @@ def test_values_that_no_short_decimal_is_near_stay_and_no_zero_is_negative() -> 
     assert np.signbit(expanded(-0.0)) == np.False_
     assert not np.signbit(expanded([-0.0, 1.0])).any()
     assert not np.signbit(expanded(Range(start=-0.0, stop=1.0))).any(), "the ends of a search"
-
-
-SHAPES = st.lists(st.integers(1, 40), min_size=0, max_size=5).map(tuple).filter(lambda one: math.prod(one) <= 100_000)
 
 
 @pytest.mark.slow

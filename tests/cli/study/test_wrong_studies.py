@@ -13,6 +13,8 @@ from gradhesion.cli.study.reading import any_from
 
 TABLE = Path(__file__).with_name("wrong_studies.txt").read_text(encoding="utf-8")
 """Right studies, each followed by what makes it wrong; that of a fit names a file that is not there."""
+PUNCH: dict[str, Any] = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1, "A": 0.02, "a_max_over_R": 1.0}  # fmt: skip
+AFM: dict[str, Any] = {"R": "1 um", "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "10 nm", "wavelength": "100 nm"}  # fmt: skip
 
 
 def _rows() -> list[tuple[str, str, str]]:
@@ -51,10 +53,6 @@ def keys_of(refused: StudyError) -> list[str]:
     """Name the keys of all mistakes but that of the file that is not there."""
     found = [re.match(r"study: ([^\s:]+)", sentence) for sentence in refused.mistakes]
     return sorted(key[1] for key in found if key and key[1] != "data.file")
-
-
-PUNCH: dict[str, Any] = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1, "A": 0.02, "a_max_over_R": 1.0}  # fmt: skip
-AFM: dict[str, Any] = {"R": "1 um", "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "10 nm", "wavelength": "100 nm"}  # fmt: skip
 
 
 def without_none(table: dict[str, Any]) -> dict[str, Any]:

@@ -24,6 +24,13 @@ SOLVE = "gradhesion.cli.work.solve.scenes.solve"
 BLOCKS = 6
 Begun = Callable[..., int]
 Values = dict[str, bytes]
+CHANGES = ["parameters.nu=0.3", "parameters.k=[0.1, 0.31]", "method.check_contact=false", "SOURCES", "FORMAT"]
+DAMAGES: dict[str, Callable[[bytes], bytes]] = {
+    "empty": lambda _: b"",
+    "cut short": lambda content: content[:-1],
+    "one bit of a value": lambda content: content[:1000] + bytes([content[1000] ^ 1]) + content[1001:],
+    "something else": lambda _: b"precious" * 100,
+}
 
 
 @pytest.fixture
@@ -85,9 +92,6 @@ def test_an_old_output_stays_until_the_new_one_is_whole_and_another_title_goes_o
         assert file.title == "Another"
 
 
-CHANGES = ["parameters.nu=0.3", "parameters.k=[0.1, 0.31]", "method.check_contact=false", "SOURCES", "FORMAT"]
-
-
 @pytest.mark.parametrize("change", CHANGES)
 def test_blocks_of_another_study_or_version_are_refused_and_kept_until_they_are_dropped(
     change: str, begun: Begun, gradhesion: Call, study_file: Path, output: Path, monkeypatch: Patch
@@ -102,14 +106,6 @@ def test_blocks_of_another_study_or_version_are_refused_and_kept_until_they_are_
     assert len(list(output.parent.glob("out.nc.parts/*.npz"))) == kept
     assert "reused" not in gradhesion(*command, "--fresh").stderr
     assert os.listdir(output.parent) == ["out.nc"]
-
-
-DAMAGES: dict[str, Callable[[bytes], bytes]] = {
-    "empty": lambda _: b"",
-    "cut short": lambda content: content[:-1],
-    "one bit of a value": lambda content: content[:1000] + bytes([content[1000] ^ 1]) + content[1001:],
-    "something else": lambda _: b"precious" * 100,
-}
 
 
 @pytest.mark.parametrize("damage", [*DAMAGES, "another block"])

@@ -25,6 +25,7 @@ from gradhesion.core.problem.status import OF_EVERY_MAP
 from tests.cli.conftest import Call, Called, Made, Patch
 
 SOLVE = "gradhesion.cli.work.solve.scenes.solve"
+Printed = pytest.CaptureFixture[str]
 
 
 @pytest.fixture
@@ -168,9 +169,6 @@ def test_a_failed_write_loses_nothing(limit: int, study_file: Path, tmp_path: Pa
     assert "Traceback" not in done.stderr
     assert old.read_text() == "precious"
     assert os.listdir(folder) == ["out.nc"]
-
-
-Printed = pytest.CaptureFixture[str]
 
 
 @pytest.fixture

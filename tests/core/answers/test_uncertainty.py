@@ -12,6 +12,7 @@ from gradhesion.core.answers.uncertainty import QUANTILES, Spread, differ, drawn
 
 EPS = float(np.finfo(float).eps)
 ROUGH = {"hurst": 0.7, "first": 2, "last": 41, "realisations": 400, "seed": 11}
+WRONG = ({"hurst": -0.1}, {"hurst": 1.1}, {"first": 0}, {"last": 1}, {"last": 66}, {"last": 10_001, "first": 10_000})
 
 
 def waves(profile: Profile) -> tuple[np.ndarray, ...]:
@@ -52,9 +53,6 @@ def test_phases_are_uniform_and_independent() -> None:
     neighbours = (phases[:, 1:] - phases[:, :-1], phases[1:] - phases[:-1])
     for sample in (phases, 2 * phases, *neighbours):
         assert abs(np.mean(np.exp(1j * sample))) < 4.0 / math.sqrt(sample.size)
-
-
-WRONG = ({"hurst": -0.1}, {"hurst": 1.1}, {"first": 0}, {"last": 1}, {"last": 66}, {"last": 10_001, "first": 10_000})
 
 
 @pytest.mark.parametrize("change", [*WRONG, {"realisations": 0}, {"seed": -1}], ids=str)

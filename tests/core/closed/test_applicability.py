@@ -11,6 +11,17 @@ from tests.core.scene import EPS, material_of, profile_of, scene_of
 
 ROUGH = scene_of(0.37, 0.27, 430.0, 0.013, 0.17, 0.041, 1.3)
 NUMBERED = ROUGH | {"adhesion_range_over_R": 1.7e-4}
+SCENE = scene_of(0.3, 0.3, 30.0, 0.1, 0.2, 0.05, math.inf)
+SERIES = profile_of(1.7, (1, 1.0, 0.0), (3, 0.0, 0.2))
+ENERGY = ["dissipated_energy", "contact_slope"]
+REACHED: list[tuple[dict[str, float], dict[str, Any]]] = [
+    ({}, {}),
+    ({"k": 1.0, "nu": 0.5}, {}),
+    ({"lambda_over_R": 0.07, "modulus": 500.0}, {}),
+    ({}, {"profile": SERIES}),
+    ({}, {"loading": Loading(control="load")}),
+    ({"machine_stiffness": 1.0}, {"loading": Loading(control="machine")}),
+]
 
 
 def test_homogeneous_numbers_are_those_of_the_literature() -> None:
@@ -101,11 +112,6 @@ def test_arrays_broadcast_and_what_is_unknown_is_refused() -> None:
         validity(NUMBERED, ["slope"])
 
 
-SCENE = scene_of(0.3, 0.3, 30.0, 0.1, 0.2, 0.05, math.inf)
-SERIES = profile_of(1.7, (1, 1.0, 0.0), (3, 0.0, 0.2))
-ENERGY = ["dissipated_energy", "contact_slope"]
-
-
 def slope(scene: dict[str, Any], outputs: list[str], **how: Any) -> Any:
     return solve(scene, [*outputs, "contact_slope"], **how)["contact_slope"]
 
@@ -119,16 +125,6 @@ def test_the_smooth_sphere_is_that_of_johnson_kendall_and_roberts(modulus: float
     many = ball | {"modulus": np.full(5000, modulus)}  # by the kernels of many smooth scenes
     for scene, solver in ((ball, "exact"), (many, "exact"), (ball, "envelope")):
         np.testing.assert_allclose(slope(scene, ["dissipated_energy"], solver=solver), jump_in, rtol=1e-14)
-
-
-REACHED: list[tuple[dict[str, float], dict[str, Any]]] = [
-    ({}, {}),
-    ({"k": 1.0, "nu": 0.5}, {}),
-    ({"lambda_over_R": 0.07, "modulus": 500.0}, {}),
-    ({}, {"profile": SERIES}),
-    ({}, {"loading": Loading(control="load")}),
-    ({"machine_stiffness": 1.0}, {"loading": Loading(control="machine")}),
-]
 
 
 @pytest.mark.parametrize(("change", "how"), REACHED)

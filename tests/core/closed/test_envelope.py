@@ -16,6 +16,7 @@ from tests.core.scene import EPS, adhesion, envelope_loop, profile_of, scene_of_
 EXPONENTS = [0.0, 0.2, 0.53, 0.9, 1.0 - 1e-9]
 WAVES = ((1, 1.0, 0.1), (3, 0.2, -0.3), (4, 0.0, 0.2))
 PROFILE = profile_of(1.4, *WAVES)
+LOOPS = [*((k, 0.72, 5.8) for k in EXPONENTS), (0.2, 0.031, 0.21), (0.2, 0.72, 0.9), (0.2, 1.0, 1.63), (0.2, 2.6, 5.8)]
 
 
 def envelope(scene: dict[str, Any]) -> dict[str, Any]:
@@ -24,9 +25,6 @@ def envelope(scene: dict[str, Any]) -> dict[str, Any]:
 
 def length_of(k: float, M: float) -> float:
     return M ** (-1 / (3 + k))
-
-
-LOOPS = [*((k, 0.72, 5.8) for k in EXPONENTS), (0.2, 0.031, 0.21), (0.2, 0.72, 0.9), (0.2, 1.0, 1.63), (0.2, 2.6, 5.8)]
 
 
 @pytest.mark.parametrize(("k", "chi", "reach"), LOOPS)

@@ -19,6 +19,7 @@ POINT = ("contact_radius", "indentation", "load")
 CONTRACT = 2e-4
 """How far a curve may be from the chords of its points, in spans."""
 Curves = dict[str, Any]
+CHANGES: list[dict[str, float]] = [{}, {"A": 0.2}, {"A": 0.0}, {"A": 1e-5}, {"lambda_over_R": 1.3}]
 
 
 def _path(curves: Curves) -> Curves:
@@ -119,9 +120,6 @@ def test_whole_waves_without_folds_are_seen(wavelength: float, amplitude: float,
     scene["a_max_over_R"] = float(last + whole * wavelength)
     found, _ = draw_curves(scene, ["equilibrium"])
     assert chord_error(curve_of(scene), [found[name] for name in POINT]) <= CONTRACT
-
-
-CHANGES: list[dict[str, float]] = [{}, {"A": 0.2}, {"A": 0.0}, {"A": 1e-5}, {"lambda_over_R": 1.3}]
 
 
 @pytest.mark.parametrize("change", [*CHANGES, {"k": 1.0, "nu": 0.5}], ids=str)

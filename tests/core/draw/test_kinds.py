@@ -18,6 +18,17 @@ ROUGH = profile_of(1.5, (1, 1.0, 0.3), (3, 0.2, -0.1))
 PATTERN = pattern_of("toughness", (1, 0.2, 0.1), (3, 0.0, 0.1))
 BY_LOAD, BY_MACHINE = Loading(control="load"), Loading(control="machine")
 SPRINGS: dict[str, dict[str, float]] = {"displacement": {}, "load": {}, "machine": {"machine_stiffness": 2.0}}
+WORKS = scene_of(0.1, 0.3, 500.0, 0.01, 0.1, 0.02, 0.5)
+LENGTH = {"toughness_wavelength_over_R": 0.1}
+REFUSED: list[tuple[dict[str, float], str, dict[str, Any], str]] = [
+    *(({}, curve, {"loading": BY_LOAD}, curve) for curve in ("asymptotic", "envelope", "effective")),
+    ({}, "path", {"loading": BY_MACHINE}, "machine_stiffness"),
+    ({"machine_stiffness": 1.0}, "path", {}, "machine_stiffness"),
+    (LENGTH, "envelope", {"toughness": PATTERN}, "envelope"),
+    (LENGTH, "path", {}, "toughness_wavelength"),
+    ({"indentation_max_over_R": 0.1, "load_max": 1.0}, "path", {}, "turns at one of them"),
+]
+STATE = scene_of(0.1, 0.3, 500.0, 0.01, 0.2, 0.055, 0.45)
 
 
 @pytest.mark.parametrize("rim", [0.5, math.inf])
@@ -66,9 +77,6 @@ def test_under_a_load_the_punch_falls_where_it_lets_go() -> None:
     assert path["indentation"][-1] == path["indentation"][-2] == pytest.approx(out, rel=1e-12)
 
 
-WORKS = scene_of(0.1, 0.3, 500.0, 0.01, 0.1, 0.02, 0.5)
-
-
 def test_the_closing_curve_is_that_of_a_punch_of_that_work() -> None:
     found, _ = draw_curves(WORKS | {"closing_ratio": 0.25}, ["closing_equilibrium", "equilibrium"])
     closing, _ = draw_curves(WORKS | {"modulus": 2000.0}, ["equilibrium"])
@@ -102,9 +110,6 @@ def test_envelopes_and_the_effective_path_close_at_the_work_of_closing() -> None
     np.testing.assert_allclose(load, np.interp(a, *on_the_way(500.0, unloading=True)), atol=allowed)
 
 
-LENGTH = {"toughness_wavelength_over_R": 0.1}
-
-
 def test_what_has_no_value() -> None:
     cone = replace(ROUGH, exponent=1.0)  # its waves never cease to fold
     endless, status = draw_curves(SCENE | ENDLESS, ["equilibrium", "smooth"], cone)
@@ -117,23 +122,10 @@ def test_what_has_no_value() -> None:
         assert np.isnan(drawn["load"]).all()
 
 
-REFUSED: list[tuple[dict[str, float], str, dict[str, Any], str]] = [
-    *(({}, curve, {"loading": BY_LOAD}, curve) for curve in ("asymptotic", "envelope", "effective")),
-    ({}, "path", {"loading": BY_MACHINE}, "machine_stiffness"),
-    ({"machine_stiffness": 1.0}, "path", {}, "machine_stiffness"),
-    (LENGTH, "envelope", {"toughness": PATTERN}, "envelope"),
-    (LENGTH, "path", {}, "toughness_wavelength"),
-    ({"indentation_max_over_R": 0.1, "load_max": 1.0}, "path", {}, "turns at one of them"),
-]
-
-
 @pytest.mark.parametrize(("more", "curve", "how", "told"), REFUSED)
 def test_what_is_refused(more: dict[str, float], curve: str, how: dict[str, Any], told: str) -> None:
     with pytest.raises(ValueError, match=told):
         draw_curves(SCENE | more, [curve], **how)
-
-
-STATE = scene_of(0.1, 0.3, 500.0, 0.01, 0.2, 0.055, 0.45)
 
 
 def test_named_states_lie_on_the_path() -> None:

@@ -23,6 +23,13 @@ COSINES, SINES = [-0.021, 0.004, 0.0], [0.003, 0.0, -0.002]
 H0, H1 = (struve(order, 2 * PI * A / 0.13) for order in (0, 1))
 LOG: Final = np.log((1 + A) / (1 - A))
 XI: Final = np.linspace(-1.0, 2.0, 61)
+NO_COEFFICIENTS: dict[str, tuple[Any, Any, int]] = {
+    "terms = 5: 8 samples hold 1 to 3": (general.sampled_coefficients, np.zeros(8), 5),
+    "finite": (general.sampled_coefficients, [0.0, math.nan, 0.0], 1),
+    "one dimension": (general.sampled_coefficients, np.zeros((2, 8)), 1),
+    "terms = 0": (general.coefficients, np.sin, 0),
+    "not resolved": (general.coefficients, lambda xi: np.where(xi % 1 < 0.3, 1.0, 0.0), 2),
+}
 
 
 def sphere(r: Any) -> Any:
@@ -147,15 +154,6 @@ def test_largest_amplitude_of_a_rising_profile() -> None:
         assert below >= 0.0 > above
         assert general.is_monotonic(wavelength, limit)
         assert not general.is_monotonic(wavelength, np.nextafter(limit, 1.0))
-
-
-NO_COEFFICIENTS: dict[str, tuple[Any, Any, int]] = {
-    "terms = 5: 8 samples hold 1 to 3": (general.sampled_coefficients, np.zeros(8), 5),
-    "finite": (general.sampled_coefficients, [0.0, math.nan, 0.0], 1),
-    "one dimension": (general.sampled_coefficients, np.zeros((2, 8)), 1),
-    "terms = 0": (general.coefficients, np.sin, 0),
-    "not resolved": (general.coefficients, lambda xi: np.where(xi % 1 < 0.3, 1.0, 0.0), 2),
-}
 
 
 @pytest.mark.parametrize("message", NO_COEFFICIENTS)

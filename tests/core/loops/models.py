@@ -32,6 +32,8 @@ STIFF: Final = {"machine_stiffness": SPRING / (1e7 * R)}
 RIM: Final = 0.2 * R
 PULLED: Final = {"spring_constant": SPRING, "indentation_max": TURN * R}
 BY_MACHINE: Final = {"loading": Loading(control="machine")}
+NOISE: Final = (1e-4 * R, 0.01 * UNIT)
+"""Of depth and load."""
 
 
 @dataclass(frozen=True)
@@ -89,10 +91,6 @@ def vector(model: LoopModel, **more: float) -> Array:
     known = {"k": 0.0, "turn": TURN * R, "indentation_offset": 2e-9, "load_offset": 1e-8, "load_slope": 0.02}
     known |= TRUE | model.fixed | more
     return np.array([known[name] if name in LINEAR else math.log(known[name]) for name in model.names])
-
-
-NOISE: Final = (1e-4 * R, 0.01 * UNIT)
-"""Of depth and load."""
 
 
 def path_of(model: LoopModel, here: Array) -> LoopPath:

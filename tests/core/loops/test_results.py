@@ -23,6 +23,7 @@ from gradhesion.core.problem.status import ANOTHER_MINIMUM, JUMP_IN_TO_RIM, POOR
 from tests.core.loops.models import CASES, NOISE, SCENE, UNIT, Array, Case, R, misfit_of, path_of, vector
 
 NAMES = ("E_star", "work_of_adhesion")
+FINE = Case({"chi": 0.2, "wavelength": 2e-3 * R})
 
 
 def loop(error: float = 1.0) -> tuple[Misfit, Array]:
@@ -121,9 +122,6 @@ def test_the_status_is_that_of_the_scene_and_of_the_rim_that_is_met() -> None:
     for radius in (0.02, np.nextafter(0.02, 0.0)):  # a radius in m, over R, is rounded
         assert status_of(rim, here, radius) & JUMP_IN_TO_RIM
     assert not status_of(model, here, 0.02) & JUMP_IN_TO_RIM
-
-
-FINE = Case({"chi": 0.2, "wavelength": 2e-3 * R})
 
 
 @pytest.mark.parametrize(

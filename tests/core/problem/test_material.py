@@ -10,6 +10,7 @@ from gradhesion.core.problem.material import stiffness, theta, theta_of, theta_s
 from tests.core.scene import exact_theta
 
 EPS = 2.0**-52
+PLACES = [(0.3, 0.3), (0.9, 0.45), (0.999, 0.3), (0.5, 0.5), (0.9999, 0.5), (1e-4, 0.2), (0.7, -0.5)]
 
 
 def _draws() -> list[tuple[float, float]]:
@@ -66,9 +67,6 @@ def test_the_modulus_law_is_the_same_at_every_reference_depth(k: float) -> None:
     # E = E0 (z/c0)^k is not changed by c0 -> 7 c0, E0 -> 7^k E0
     one, other = stiffness(k, 0.3, [7.0**k * 500.0, 500.0], [7 * 0.02, 0.02])
     assert one == pytest.approx(other, rel=1e-14)
-
-
-PLACES = [(0.3, 0.3), (0.9, 0.45), (0.999, 0.3), (0.5, 0.5), (0.9999, 0.5), (1e-4, 0.2), (0.7, -0.5)]
 
 
 @pytest.mark.parametrize(("k", "nu"), PLACES)

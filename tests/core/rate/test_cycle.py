@@ -16,6 +16,7 @@ from tests.core.scene import ENDLESS, scene_of
 TURNED = scene_of(0.3, 0.3, 500.0, 0.01, 0.2, 0.01, np.inf, indentation_max_over_R=0.05)
 REST = [name for name in KNOWN if name not in RATE]
 BOTH = pytest.mark.parametrize("closing", ["quasi-static", "same"])
+REFUSED: list[tuple[str, dict[str, Any]]] = [("loading_jumps", {}), ("dissipated_energy_sensitivity", {})]
 
 
 def test_cycles_that_close_at_rest_lose_what_another_solver_finds(root: Path) -> None:
@@ -74,9 +75,6 @@ def test_a_cycle_without_contact_has_nothing(closing: str) -> None:
     assert int(found["status"]) == FLAGS["no_contact"]
     assert found["dissipated_energy"] == found["pull_off_force"] == found["front_energy"] == 0.0
     assert np.isnan(found["pull_off_radius"])
-
-
-REFUSED: list[tuple[str, dict[str, Any]]] = [("loading_jumps", {}), ("dissipated_energy_sensitivity", {})]
 
 
 @pytest.mark.parametrize(("output", "how"), [*REFUSED, ("pull_off_force", {"loading": Loading(control="load")})])

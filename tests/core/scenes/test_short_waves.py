@@ -19,6 +19,18 @@ from tests.stress.draw import hostile
 
 ONE, TWO = Profile(), profile_of(2.0, (1, 1.0, 0.0), (3, -0.1, 0.15))
 SINE = profile_of(1.0, (1, 0.0, 1.0))
+PARTS = ("loading_energy", "unloading_energy")
+COUNTS = ("loading_jumps", "unloading_jumps")
+RESULTS = ("pull_off_force", "pull_off_radius", "dissipated_energy", *PARTS)
+DEPTHS = ("delta_max", "delta_jump_out", "turning_radius", "snap_in_force")
+CONTROLS: dict[str, dict[str, float]] = {"displacement": {}, "load": {}, "machine": {"machine_stiffness": 0.4}}
+PROFILES = {
+    "one cosine": Profile(),
+    "asymmetric": profile_of(2.0, (1, 1.0, 0.3), (2, 0.4, -0.2)),
+    "steep between": profile_of(2.0, (1, 0.2, 0.0), (4, 0.5, 0.2)),
+    "exponent 1.5": Profile(exponent=1.5),
+    "cubic": profile_of(3.0, (1, 1.0, 0.0), (3, 0.2, 0.2)),
+}
 
 
 def asymptotic(scene: Scene, profile: Profile = ONE) -> dict[str, Any]:
@@ -102,25 +114,9 @@ def test_hostile_scenes_end_with_a_value_or_a_status() -> None:
         assert steep["dissipated_energy"] > 0.0
 
 
-PARTS = ("loading_energy", "unloading_energy")
-COUNTS = ("loading_jumps", "unloading_jumps")
-RESULTS = ("pull_off_force", "pull_off_radius", "dissipated_energy", *PARTS)
-DEPTHS = ("delta_max", "delta_jump_out", "turning_radius", "snap_in_force")
-CONTROLS: dict[str, dict[str, float]] = {"displacement": {}, "load": {}, "machine": {"machine_stiffness": 0.4}}
-
-
 def scenes(waves: Any, A: Any = 0.02) -> dict[str, Any]:
     """Scenes whose rim, at 0.6 R, has that many waves."""
     return scene_of(0.3, 0.3, 500.0, 0.1, 0.6 / np.asarray(waves, dtype=float), A, 0.6)
-
-
-PROFILES = {
-    "one cosine": Profile(),
-    "asymmetric": profile_of(2.0, (1, 1.0, 0.3), (2, 0.4, -0.2)),
-    "steep between": profile_of(2.0, (1, 0.2, 0.0), (4, 0.5, 0.2)),
-    "exponent 1.5": Profile(exponent=1.5),
-    "cubic": profile_of(3.0, (1, 1.0, 0.0), (3, 0.2, 0.2)),
-}
 
 
 @pytest.mark.parametrize("control", CONTROLS)

@@ -17,6 +17,14 @@ kind = "fit"
 file = "loop.csv"
 {COLUMNS}{BALL}{WORK}"""
 DEPTH, FORCE = {"column": "depth", "unit": "nm"}, {"column": "force", "unit": "nN"}
+OFFSETS: dict[str, tuple[Any, tuple[Any, Any, bool], list[str]]] = {
+    "yes": (True, ("free", "free", False), ["indentation_offset", "load_offset"]),
+    "no": (False, (False, False, False), []),
+    "a tilt": ({"slope": True}, ("free", "free", True), ["indentation_offset", "load_offset", "load_slope"]),
+    "a range": ({"indentation": ["-1 um", "2 um"], "load": False}, ((-1e-6, 2e-6), False, False), ["indentation_offset"]),
+    "contact": ({"indentation": "contact", "load": ["-5 nN", "5 nN"]}, ("contact", (-5e-9, 5e-9), False), ["load_offset"]),
+}  # fmt: skip
+"""What is written, the zero of depth, that of load and the slope, and what is fitted."""
 
 
 def points(count: int, seed: int = 0) -> dict[str, Any]:
@@ -129,16 +137,6 @@ def test_a_file_whose_name_has_a_star_is_one_file(folder: Path) -> None:
     study = load(data__file="loop[1].csv")
     assert study.is_of_one
     assert study.loop.depth.size == 600
-
-
-OFFSETS: dict[str, tuple[Any, tuple[Any, Any, bool], list[str]]] = {
-    "yes": (True, ("free", "free", False), ["indentation_offset", "load_offset"]),
-    "no": (False, (False, False, False), []),
-    "a tilt": ({"slope": True}, ("free", "free", True), ["indentation_offset", "load_offset", "load_slope"]),
-    "a range": ({"indentation": ["-1 um", "2 um"], "load": False}, ((-1e-6, 2e-6), False, False), ["indentation_offset"]),
-    "contact": ({"indentation": "contact", "load": ["-5 nN", "5 nN"]}, ("contact", (-5e-9, 5e-9), False), ["load_offset"]),
-}  # fmt: skip
-"""What is written, the zero of depth, that of load and the slope, and what is fitted."""
 
 
 @pytest.mark.usefixtures("folder")

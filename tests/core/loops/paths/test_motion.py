@@ -27,6 +27,7 @@ SEARCHED: dict[str, tuple[str, ...]] = {
     "rings": ("toughness_wavelength", "toughness_amplitude", *SMOOTH),
     "graded": ("k", "c0", *ALL),
 }
+ALONE = {"spring_constant": "machine", "a_max": "rim", "preload": "preload", "indentation_max": "machine"}
 
 
 def misfit(name: str, seed: int, points: int = 400) -> tuple[Misfit, Array]:
@@ -86,9 +87,6 @@ def test_the_turn_follows_what_it_is_prescribed_by(name: str) -> None:
     one = misfit_of(own.model, here, drawn.places[[drawn.turn]] + [0.0, 5.0 * NOISE[1]], np.zeros(1, bool))
     ends = [one.residual(here + sign * step * np.eye(here.size)[i])[0] for sign in (1.0, -1.0)]
     assert one.jacobian(here)[0, i] == pytest.approx((ends[0] - ends[1]) / (2.0 * step), rel=1e-3)
-
-
-ALONE = {"spring_constant": "machine", "a_max": "rim", "preload": "preload", "indentation_max": "machine"}
 
 
 @pytest.mark.parametrize(("one", "name"), ALONE.items())
