@@ -16,6 +16,11 @@ from gradhesion.cli.study import study_from
 from gradhesion.core.problem.status import OF_EVERY_MAP
 
 PUNCH: dict[str, Any] = {"k": 0.31, "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.013, "lambda_over_R": 0.17, "A": 0.023, "a_max_over_R": 1.7}  # fmt: skip
+NUMBERS = [
+    (0.1, ()), (1, ()), (np.float32(0.1), ()), (np.array(0.1), ()), (xarray.DataArray(0.1), ()), ([0.1], ("A",)), ((0.1, 0.2), ("A",)), (range(3), ("A",)),
+    (np.zeros(1), ("A",)), (pd.Series([0.1, 0.2]), ("index",)), (xarray.DataArray([0.1], dims="x"), ("x",)), ({"start": 0.1, "stop": 0.3, "num": 2}, ("A",)),
+    (xarray.DataArray([[0.1]], dims=["x", "y"], coords={"x": [1], "y": [2]}).stack(z=["x", "y"]), ("z",)), ([-0.0, 0.1], ("A",)),
+]  # fmt: skip
 
 
 def mistakes_of(*arguments: Any, call: Any = gr.solve, **keywords: Any) -> str:
@@ -53,14 +58,7 @@ def test_a_keyword_stands_in_the_place_of_what_the_mapping_has() -> None:
     assert "A" in PUNCH, "the mapping stays as it is"
 
 
-@pytest.mark.parametrize(
-    ("value", "dims"),
-    [
-        (0.1, ()), (1, ()), (np.float32(0.1), ()), (np.array(0.1), ()), (xarray.DataArray(0.1), ()), ([0.1], ("A",)), ((0.1, 0.2), ("A",)), (range(3), ("A",)),
-        (np.zeros(1), ("A",)), (pd.Series([0.1, 0.2]), ("index",)), (xarray.DataArray([0.1], dims="x"), ("x",)), ({"start": 0.1, "stop": 0.3, "num": 2}, ("A",)),
-        (xarray.DataArray([[0.1]], dims=["x", "y"], coords={"x": [1], "y": [2]}).stack(z=["x", "y"]), ("z",)), ([-0.0, 0.1], ("A",)),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("value", "dims"), NUMBERS)
 def test_numbers_of_all_kinds_are_numbers(value: Any, dims: tuple[str, ...]) -> None:
     found = gr.solve(PUNCH | {"A": value}, "pull_off_force", solver="envelope")
     assert found["pull_off_force"].dims == found["A"].dims == dims

@@ -13,6 +13,13 @@ import xarray
 
 import gradhesion as gr
 
+SET = [
+    ("parameters.A", 0.02), ("parameters.A", [0.0, 0.01]), ("parameters.A", np.array([0.0, 0.01])), ("parameters.k", np.float64(0.3)),
+    ("parameters.a_max_over_R", float("inf")), ("parameters.A", 1e-7), ("parameters.A", {"start": 0.0, "stop": 0.1, "num": 3}),
+    ("title", 'quotes " and \\ and \n a line'), ("title", "Ångström"), ("method.check_contact", False),
+    ("method.solver", ("exact", "envelope")), ("profile", {"exponent": 1.7, "harmonics": [{"n": 1, "cos": 1.0}]}),
+]  # fmt: skip
+
 
 def alone(code: str) -> str:
     """What a program prints; that packages of others use what is out of date is theirs."""
@@ -71,15 +78,7 @@ def test_a_study_is_a_file_or_a_mapping_or_what_load_gave(study_file: Path, data
     assert list(ways[0].data_vars) == ["pull_off_force", "status"]
 
 
-@pytest.mark.parametrize(
-    ("key", "value"),
-    [
-        ("parameters.A", 0.02), ("parameters.A", [0.0, 0.01]), ("parameters.A", np.array([0.0, 0.01])), ("parameters.k", np.float64(0.3)),
-        ("parameters.a_max_over_R", float("inf")), ("parameters.A", 1e-7), ("parameters.A", {"start": 0.0, "stop": 0.1, "num": 3}),
-        ("title", 'quotes " and \\ and \n a line'), ("title", "Ångström"), ("method.check_contact", False),
-        ("method.solver", ("exact", "envelope")), ("profile", {"exponent": 1.7, "harmonics": [{"n": 1, "cos": 1.0}]}),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("key", "value"), SET)
 def test_a_key_is_set_alike_in_file_and_mapping(key: str, value: Any, study_file: Path, data: dict[str, Any]) -> None:
     if key == "title" and "\n" in value:
         for study in (study_file, data):

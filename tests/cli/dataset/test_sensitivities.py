@@ -22,6 +22,10 @@ SLOPES = {"outputs": ["pull_off_force", *SENSITIVITIES]}
 QUANTITIES: dict[str, Any] = {"k": 0.2, "nu": 0.3, "A": 0.03, "R": 1e-6, "E_star": 1e9, "work_of_adhesion": 0.05, "c0": 1e-7, "wavelength": 1e-7, "indentation_max": 2e-8}  # fmt: skip
 MACHINE = QUANTITIES | {"control": "machine", "spring_constant": 1000.0}
 INPUTS: dict[str, Any] = {"modulus": "5 %", "A": 0.001, "nu": {"low": 0.25, "high": 0.29}, "lambda_over_R": "1 %"}
+IN_UNITS = [
+    (QUANTITIES, ["pull_off_force", "dissipated_energy"], ["R", "E_star", "work_of_adhesion", "c0", "wavelength", "indentation_max"]),
+    (MACHINE, ["dissipated_energy"], ["spring_constant", "E_star", "R"]),
+]  # fmt: skip
 
 
 def test_the_parameter_is_the_last_dimension(data: dict[str, Any]) -> None:
@@ -46,14 +50,7 @@ def test_turn_and_machine_are_a_parameter_more(spring: dict[str, float], data: d
     assert all(np.isfinite(dataset[ENERGY].sel(parameter=name)).all() for name in spring)
 
 
-@pytest.mark.parametrize(
-    ("scene", "outputs", "names"),
-    [
-        (QUANTITIES, ["pull_off_force", "dissipated_energy"], ["R", "E_star", "work_of_adhesion", "c0", "wavelength", "indentation_max"]),
-        (MACHINE, ["dissipated_energy"], ["spring_constant", "E_star", "R"]),
-    ],
-    ids=["displacement", "machine"],
-)  # fmt: skip
+@pytest.mark.parametrize(("scene", "outputs", "names"), IN_UNITS, ids=["displacement", "machine"])
 def test_with_units_they_are_those_in_si(scene: dict[str, Any], outputs: list[str], names: list[str]) -> None:
     """By differences of fourth order; the stiffness of a machine is its own quantity."""
     found = gr.solve(**scene, outputs=[f"{name}_sensitivity" for name in outputs])

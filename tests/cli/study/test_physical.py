@@ -35,6 +35,21 @@ CASES: Final[dict[str, tuple[str, dict[str, str], dict[str, float]]]] = {
 """The control, the quantities by which a cycle ends, and their ratios."""
 BALL: dict[str, Any] = {"k": 0.0, "nu": 0.3, "A": 0.0}
 PIECES = st.sampled_from(["m", "k", "Pa", "inf", "e5", "deg", "**", "-2", *"1/*^ ()'\\é²\n_.,"])
+QUANTITIES = [
+    ("1 um", "R", 1e-6), ("1 µm", "R", 1e-6), ("1 μm", "R", 1e-6), ("0.3mm", "R", 0.3e-3), ("3 * angstrom", "R", 3e-10),
+    (" 7e2 nm ", "c0", 7e-7), (".5 inch", "wavelength", 0.0127), ("50 kPa", "E_star", 5e4), ("1.7 MPa", "E_star", 1.7e6),
+    ("2 N/mm^2", "E_star", 2e6), ("5e10 dyn/cm^2", "E_star", 5e9), ("20 mJ/m^2", "work_of_adhesion", 0.02),
+    ("20 mJ/m²", "work_of_adhesion", 0.02), ("20 mJ m-2", "work_of_adhesion", 0.02), ("20 mJ m**-2", "work_of_adhesion", 0.02),
+    ("20 mN/m", "work_of_adhesion", 0.02), ("50 erg/cm^2", "work_of_adhesion", 0.05), ("0 nm", "amplitude", 0.0),
+    ("-0 nm", "amplitude", 0.0), ("inf", "a_max", float("inf")), ("inf mm", "a_max", float("inf")),
+    (float("inf"), "a_max", float("inf")),
+]  # fmt: skip
+NO_QUANTITIES = [
+    ("1", "without a unit"), (0.001, "without a unit"), (3, "without a unit"), (True, "not a number"), (["1 m"], "not a number"),
+    ("mm", "not a number"), ("", "not a number"), ("1 2 mm", '"2 mm"'), ("1 foo", '"foo"'), ("1 m**m", '"m**m"'), ("1 m*", '"m*"'),
+    ("1 __import__('os')", "not a known unit"), ("1 degC", '"degC"'), ("1 %", '"%"'), ("1 m^99999999", '"m^99999999"'),
+    ("1" * 70 + " m", "not a number"), ("300,5 nm", "comma"), ("1,000 nm", "comma"),
+]  # fmt: skip
 
 
 def made(parameters: dict[str, Any], outputs: Any = tuple(VALUES), **tables: Any) -> xarray.Dataset:
@@ -125,31 +140,12 @@ def test_youngs_modulus_gives_the_reduced_one() -> None:
     assert alone["modulus"].dims == ("E",)
 
 
-@pytest.mark.parametrize(
-    ("text", "name", "value"),
-    [
-        ("1 um", "R", 1e-6), ("1 µm", "R", 1e-6), ("1 μm", "R", 1e-6), ("0.3mm", "R", 0.3e-3), ("3 * angstrom", "R", 3e-10),
-        (" 7e2 nm ", "c0", 7e-7), (".5 inch", "wavelength", 0.0127), ("50 kPa", "E_star", 5e4), ("1.7 MPa", "E_star", 1.7e6),
-        ("2 N/mm^2", "E_star", 2e6), ("5e10 dyn/cm^2", "E_star", 5e9), ("20 mJ/m^2", "work_of_adhesion", 0.02),
-        ("20 mJ/m²", "work_of_adhesion", 0.02), ("20 mJ m-2", "work_of_adhesion", 0.02), ("20 mJ m**-2", "work_of_adhesion", 0.02),
-        ("20 mN/m", "work_of_adhesion", 0.02), ("50 erg/cm^2", "work_of_adhesion", 0.05), ("0 nm", "amplitude", 0.0),
-        ("-0 nm", "amplitude", 0.0), ("inf", "a_max", float("inf")), ("inf mm", "a_max", float("inf")),
-        (float("inf"), "a_max", float("inf")),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("text", "name", "value"), QUANTITIES)
 def test_a_quantity_is_the_double_next_to_it(text: str, name: str, value: float) -> None:
     assert si_value(text, name) == value
 
 
-@pytest.mark.parametrize(
-    ("value", "words"),
-    [
-        ("1", "without a unit"), (0.001, "without a unit"), (3, "without a unit"), (True, "not a number"), (["1 m"], "not a number"),
-        ("mm", "not a number"), ("", "not a number"), ("1 2 mm", '"2 mm"'), ("1 foo", '"foo"'), ("1 m**m", '"m**m"'), ("1 m*", '"m*"'),
-        ("1 __import__('os')", "not a known unit"), ("1 degC", '"degC"'), ("1 %", '"%"'), ("1 m^99999999", '"m^99999999"'),
-        ("1" * 70 + " m", "not a number"), ("300,5 nm", "comma"), ("1,000 nm", "comma"),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("value", "words"), NO_QUANTITIES)
 def test_what_is_no_quantity_is_told_with_what_is_expected(value: object, words: str) -> None:
     for name, key in PHYSICAL.items():
         with pytest.raises(ValueError, match=r"^[^\n]+$") as caught:

@@ -24,6 +24,7 @@ from gradhesion.core.problem.toughness import Rate, Toughness, ToughnessHarmonic
 from tests.cli.conftest import Call, Made, Run
 
 SHAPES = st.lists(st.integers(1, 40), min_size=0, max_size=5).map(tuple).filter(lambda one: math.prod(one) <= 100_000)
+SOUGHT = [("closing_ratio", "dissipated_energy"), ("speed_over_reference", "pull_off_force")]
 
 
 def same(one: Study, other: Study) -> bool:
@@ -254,9 +255,7 @@ def test_samples_of_the_work_of_closing_stay_below_that_of_opening() -> None:
     assert dataset["dissipated_energy_p95"] > dataset["dissipated_energy_p05"]
 
 
-@pytest.mark.parametrize(
-    ("key", "goal"), [("closing_ratio", "dissipated_energy"), ("speed_over_reference", "pull_off_force")]
-)
+@pytest.mark.parametrize(("key", "goal"), SOUGHT)
 def test_an_optimum_is_sought_over_it(key: str, goal: str) -> None:
     known, (_, more, law) = SCENE | {"a_max_over_R": 0.5}, KEYS[key]
     optimum = {"maximise": goal, "over": [key], "resolution": 50}

@@ -30,6 +30,12 @@ NO_COEFFICIENTS: dict[str, tuple[Any, Any, int]] = {
     "terms = 0": (general.coefficients, np.sin, 0),
     "not resolved": (general.coefficients, lambda xi: np.where(xi % 1 < 0.3, 1.0, 0.0), 2),
 }
+MERGED = [
+    ("any_profile", "load", quadrature), ("gap", "series_gap", quadrature), ("pressure", "pressure", quadrature),
+    ("early_unloading", "drop", effective), ("energy", "first_part", effective), ("profile", "height", general),
+    ("fourier", "coefficients", general), ("stress_intensity", "stress_intensity", general),
+    ("pair", "sine_integrals", hertz), ("saturation", "share", short_waves),
+]  # fmt: skip
 
 
 def sphere(r: Any) -> Any:
@@ -230,15 +236,7 @@ def test_the_shape_is_the_broadcast_one(name: str) -> None:
     np.testing.assert_allclose(found[..., 1, -1], one, rtol=1e-15)  # to the last place of a power
 
 
-@pytest.mark.parametrize(
-    ("old", "function", "new"),
-    [
-        ("any_profile", "load", quadrature), ("gap", "series_gap", quadrature), ("pressure", "pressure", quadrature),
-        ("early_unloading", "drop", effective), ("energy", "first_part", effective), ("profile", "height", general),
-        ("fourier", "coefficients", general), ("stress_intensity", "stress_intensity", general),
-        ("pair", "sine_integrals", hertz), ("saturation", "share", short_waves),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("old", "function", "new"), MERGED)
 def test_names_of_merged_modules_work(old: str, function: str, new: Any) -> None:
     module = importlib.import_module(f"gradhesion.core.equations.{old}")
     assert getattr(module, function) is getattr(getattr(gradhesion.core.equations, old), function)
