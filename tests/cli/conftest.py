@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
@@ -71,6 +72,17 @@ def refusal(gradhesion: Call) -> Told:
 def small_blocks(monkeypatch: Patch) -> None:
     """Cut the small study of 24 scenes into 6 blocks."""
     monkeypatch.setenv("GRADHESION_CHUNK", "2")
+
+
+@pytest.fixture
+def output(tmp_path: Path) -> Path:
+    return tmp_path / "data" / "out.nc"
+
+
+@pytest.fixture
+def run(gradhesion: Call, study_file: Path, output: Path) -> Call:
+    """Run the small study into that file."""
+    return partial(gradhesion, "run", study_file, "-o", output)
 
 
 @pytest.fixture

@@ -59,9 +59,7 @@ def test_a_page_is_taken_at_values_of_axes_and_written_once(gradhesion: Call, da
         np.testing.assert_array_equal(cut["pull_off_force"].values, expected.values)
 
 
-def test_wrong_wishes_and_too_large_a_dataset_are_said(
-    gradhesion: Call, dataset_file: Path, monkeypatch: Patch
-) -> None:
+def test_wrong_wishes_and_too_many_values_are_said(gradhesion: Call, dataset_file: Path, monkeypatch: Patch) -> None:
     with netCDF4.Dataset(dataset_file, "a") as file:
         for name in ("pull_off_force", "dissipated_energy"):
             file[name][:] = np.nan

@@ -118,9 +118,7 @@ def test_a_file_that_is_no_loop_is_refused(refusal: Told, folder: Path) -> None:
     assert refusal("validate", "fit.toml").startswith("fit.toml:")
 
 
-def test_rows_without_a_number_are_left_out_and_noise_that_is_not_given_is_estimated(
-    gradhesion: Call, folder: Path
-) -> None:
+def test_rows_without_a_number_are_left_out_and_noise_is_estimated(gradhesion: Call, folder: Path) -> None:
     measured(folder, [*ROWS[:30], "nan,1.0", "2.0,nan", *ROWS[30:]])
     result = gradhesion("validate", "fit.toml", code=0)
     assert "force_curve.csv: 2 rows without a number were left out" in result.stderr

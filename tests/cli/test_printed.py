@@ -79,9 +79,7 @@ def test_output_that_cannot_be_written_is_a_sentence(command: str, shell: Shell)
         assert b"damaged" not in done.stderr
 
 
-def test_names_not_in_utf_8(
-    shell: Shell, study_file: Path, gradhesion: Call, tmp_path: Path, monkeypatch: Patch
-) -> None:
+def test_names_of_bytes(shell: Shell, study_file: Path, gradhesion: Call, tmp_path: Path, monkeypatch: Patch) -> None:
     """One run by the shell, whose bytes Python has made text of; then with such text."""
     done = shell(rf"mv {study_file} $'s\xfe.toml'; gradhesion validate $'s\xfe.toml'")
     assert done.returncode == 0, done.stderr

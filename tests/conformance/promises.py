@@ -4,7 +4,7 @@ Force and energy are promised to 1e-12 of the sizes of their terms up to 1,000 w
 contact, a digit less for each decade more. Counts are equal wherever `close_to_a_jump` is not set.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any, Final
 
 import numpy as np
@@ -115,9 +115,7 @@ def errors(kind: Kind, scenes: Scenes, found: Results) -> dict[str, Array]:
     return allowed
 
 
-def agree(
-    kind: Kind, scenes: Scenes, found: Results, expected: Results, names: Iterable[str] = (), **more: Any
-) -> None:
+def agree(kind: Kind, scenes: Scenes, found: Results, expected: Results, names: Any = (), **more: Any) -> None:
     """Assert that results are the expected ones, all of the kind or `names`.
 
     Numbers may be off by `times` the promised error, 2 by default: two solves that are compared may be off by it each;

@@ -114,9 +114,7 @@ def test_a_file_of_version_0_2_is_read(study: FitStudy, tmp_path: Path, gradhesi
     assert gradhesion("plot", path).exit_code == 0
 
 
-def test_minima_are_padded_and_flagged_loops_count_in_no_median(
-    study: FitStudy, tmp_path: Path, gradhesion: Call
-) -> None:
+def test_minima_are_padded_and_no_median_has_flagged_loops(study: FitStudy, tmp_path: Path, gradhesion: Call) -> None:
     several = replace(study, loops=(study.loop, study.loop, study.loop), file="*.csv")
     sound = fit(study, others=(), alike=(), status=0, chi_square=500.0)
     write(several, [sound, fit(study), Fit(loop=study.loop, problem="it has no path")], tmp_path / "all.nc")
@@ -187,9 +185,7 @@ CAUTIONS: list[tuple[dict[str, Any], float, dict[str, Any], list[str]]] = [
 
 
 @pytest.mark.parametrize(("line", "reach", "changes", "words"), CAUTIONS)
-def test_cautions_have_a_reason(
-    line: dict[str, float], reach: float, changes: dict[str, Any], words: list[str]
-) -> None:
+def test_cautions_have_reasons(line: dict[str, float], reach: float, changes: dict[str, Any], words: list[str]) -> None:
     study = gr.load(EXAMPLE, set={"physical.adhesion_range": f"{reach} nm"})
     assert isinstance(study, FitStudy)
     base = BaseLine(level=0.0, spread=1e-9, ends=(0.0, 0.0), **line) if line else None

@@ -118,9 +118,7 @@ def test_what_cannot_be_joined_is_told(name: str, refusal: Told, written: Made, 
 
 @pytest.mark.parametrize("text", LIES)
 @pytest.mark.parametrize("seal", [False, True])
-def test_a_study_of_other_values_is_refused(
-    text: str, seal: bool, refusal: Told, written: Made, tmp_path: Path
-) -> None:
+def test_a_study_of_other_values_is_told(text: str, seal: bool, refusal: Told, written: Made, tmp_path: Path) -> None:
     one, other = written("one"), written("other", parameters={"A": 0.5})
     with netCDF4.Dataset(other, "a") as file:
         file.study = file.study.replace("nu = 0.27", text) if text == LIES[0] else text

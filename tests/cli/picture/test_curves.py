@@ -174,9 +174,7 @@ def test_points_stand_where_they_were_measured(curves: xarray.Dataset, probe: xa
     np.testing.assert_allclose(measured(panels[0])[0].get_xydata(), [[1e-8, 1e-7]], rtol=1e-13)
 
 
-def test_other_pictures_refuse_points(
-    gradhesion: Call, curves: xarray.Dataset, probe: xarray.Dataset, tmp_path: Path
-) -> None:
+def test_others_refuse_points(gradhesion: Call, curves: xarray.Dataset, probe: xarray.Dataset, tmp_path: Path) -> None:
     path = tmp_path / "loop.csv"
     path.write_text("depth [nm],force [nN]\n1,2\nnan,1\n")
     states = gr.curves(PUNCH | {"A": 0.02}, "pressure")

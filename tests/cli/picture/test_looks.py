@@ -194,9 +194,7 @@ def test_a_mistake_leaves_what_is_there(grid: xarray.Dataset, tmp_path: Path, gr
 
 
 @pytest.mark.parametrize(("form", "start"), [("svg", b"<?xml"), ("PDF", b"%PDF"), ("png", b"\x89PNG")])
-def test_the_name_gives_the_form(
-    form: str, start: bytes, grid: xarray.Dataset, tmp_path: Path, gradhesion: Call
-) -> None:
+def test_a_name_gives_the_form(form: str, start: bytes, grid: xarray.Dataset, tmp_path: Path, gradhesion: Call) -> None:
     grid.to_netcdf(tmp_path / "x.nc")
     own = tmp_path / "own.mplstyle"
     own.write_text("savefig.dpi: 50\n")

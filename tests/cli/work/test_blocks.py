@@ -34,9 +34,8 @@ def dated(output: Path) -> list[tuple[str, int]]:
 
 
 def test_a_plan_writes_nothing_and_tells_what_is_kept(
-    gradhesion: Call, study_file: Path, root: Path, tmp_path: Path
+    run: Call, gradhesion: Call, study_file: Path, root: Path, tmp_path: Path, output: Path
 ) -> None:
-    output = tmp_path / "new" / "out.nc"
     plan = planned(gradhesion, study_file, "-o", output)
     assert os.listdir(tmp_path) == ["study.toml"]
     assert (plan["scenes"], plan["blocks"], plan["blocks_kept"], plan["refusal"]) == (24, 6, 0, "")
@@ -44,7 +43,7 @@ def test_a_plan_writes_nothing_and_tells_what_is_kept(
     assert min(plan["seconds"], plan["bytes_free"]) > 0
     assert 0 < 6 * plan["seconds_of_block"] < 2 * plan["seconds"] * (os.cpu_count() or 1)
     for shard, kept in (("1/2", 3), ("2/2", 6)):
-        assert gradhesion("run", study_file, "-o", output, "--shard", shard).exit_code == 0
+        assert run("--shard", shard).exit_code == 0
         before = dated(output)
         plan = planned(gradhesion, study_file, "-o", output)
         assert (plan["blocks_kept"], plan["seconds"] is None) == (kept, kept == 6)
@@ -80,8 +79,7 @@ def test_the_time_is_that_of_the_scenes(data: dict[str, Any], monkeypatch: Patch
     assert seconds / scenes == pytest.approx(exact, rel=0.2)
 
 
-def test_running_stopped_and_complete(gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: Patch) -> None:
-    output = tmp_path / "out.nc"
+def test_running_stopped_and_complete(run: Call, gradhesion: Call, monkeypatch: Patch, output: Path) -> None:
     seen: list[dict[str, Any]] = []
     calls = 0
 
@@ -102,13 +100,13 @@ def test_running_stopped_and_complete(gradhesion: Call, study_file: Path, tmp_pa
 
     with monkeypatch.context() as patch:
         patch.setattr("gradhesion.cli.work.solve.scenes.solve", spying)
-        assert gradhesion("run", study_file, "-o", output).exit_code == 1
+        assert run().exit_code == 1
     (running,) = seen
     assert running.items() >= {"state": "running", "blocks": 6, "scenes": 24}.items()
     assert running["kept"] in {3, 4}
     assert running["seconds_left"] == pytest.approx(100.0 / running["kept"] * (6 - running["kept"]))
     assert status().items() >= {"state": "stopped", "seconds_left": None}.items()
-    assert gradhesion("run", study_file, "-o", output, "--quiet").exit_code == 0
+    assert run("--quiet").exit_code == 0
     assert status()["state"] == "complete"
     for content in (output.read_bytes()[:-1000], b"", b"title = 1"):
         output.write_bytes(content)
@@ -118,24 +116,23 @@ def test_running_stopped_and_complete(gradhesion: Call, study_file: Path, tmp_pa
 
 
 @pytest.mark.parametrize("content", ["{", "[]", "null", "{}"])
-def test_a_damaged_mark_is_no_error(content: str, gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
-    output = tmp_path / "out.nc"
-    assert gradhesion("run", study_file, "-o", output, "--shard", "1/2").exit_code == 0
+def test_a_damaged_mark_is_no_error(run: Call, content: str, gradhesion: Call, output: Path) -> None:
+    assert run("--shard", "1/2").exit_code == 0
     (folder_of(output) / "study.json").write_text(content)
     assert gradhesion("status", output).exit_code == 2
-    assert gradhesion("run", study_file, "-o", output).exit_code == 4, "nobody knows whose blocks these are"
-    assert gradhesion("run", study_file, "-o", output, "--fresh").exit_code == 0
+    assert run().exit_code == 4, "nobody knows whose blocks these are"
+    assert run("--fresh").exit_code == 0
 
 
-def test_shards_in_any_order_make_the_dataset(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
-    whole, output = tmp_path / "whole.nc", tmp_path / "data" / "out.nc"
-    assert gradhesion("run", study_file, "-o", whole, "--quiet").exit_code == 0
+def test_shards_in_any_order_make_the_dataset(run: Call, gradhesion: Call, tmp_path: Path, output: Path) -> None:
+    whole = tmp_path / "whole.nc"
+    run("-o", whole, "--quiet", code=0)
     for shard, computed in (("4/4", 1), ("1/4", 2), ("3/4", 1)):
-        result = gradhesion("run", study_file, "-o", output, "--shard", shard, code=0)
+        result = run("--shard", shard, code=0)
         assert f"reused 0 blocks, computed {computed}; `gradhesion merge {output}`" in result.stderr
     assert f"{output}: 2 of 6 blocks are missing or damaged (2, 6)" in gradhesion("merge", output, code=2).stderr
-    assert gradhesion("run", study_file, "-o", output, "--shard", "2/4", "--quiet").exit_code == 0
-    assert "reused 2 blocks, computed 0" in gradhesion("run", study_file, "-o", output, "--shard", "2/4").stderr
+    assert run("--shard", "2/4", "--quiet").exit_code == 0
+    assert "reused 2 blocks, computed 0" in run("--shard", "2/4").stderr
     assert "`gradhesion merge`" in gradhesion("status", output).stdout, "it tells what to do"
     assert not output.exists()
     assert "reused 6 blocks, computed 0" in gradhesion("merge", output, code=0).stderr
@@ -145,38 +142,36 @@ def test_shards_in_any_order_make_the_dataset(gradhesion: Call, study_file: Path
         assert (one.study, one.title) == (other.study, other.title)
 
 
-def test_a_damaged_part_is_not_merged(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
-    output = tmp_path / "out.nc"
-    assert gradhesion("run", study_file, "-o", output, "--shard", "1/1").exit_code == 0
+def test_a_damaged_part_is_not_merged(run: Call, gradhesion: Call, output: Path) -> None:
+    assert run("--shard", "1/1").exit_code == 0
     part = folder_of(output) / "000004.npz"
     part.write_bytes(part.read_bytes()[:-8])
     assert f"{output}: 1 of 6 blocks are missing or damaged (5)" in gradhesion("merge", output, code=2).stderr
     assert not output.exists()
-    assert gradhesion("run", study_file, "-o", output, "--shard", "5/6").exit_code == 0
+    assert run("--shard", "5/6").exit_code == 0
     assert gradhesion("merge", output).exit_code == 0
-    assert gradhesion("run", study_file, "-o", output, "--shard", "1/2", "--overwrite").exit_code == 0
-    assert "reused 3 blocks, computed 3" in gradhesion("run", study_file, "-o", output, "--overwrite").stderr
+    assert run("--shard", "1/2", "--overwrite").exit_code == 0
+    assert "reused 3 blocks, computed 3" in run("--overwrite").stderr
 
 
 @pytest.mark.slow
-def test_shards_work_at_once_but_not_beside_a_run(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
-    output = tmp_path / "out.nc"
+def test_shards_work_at_once_but_not_beside_a_run(run: Call, output: Path) -> None:
+    output.parent.mkdir()
     with claimed(output, "-1-of-2"):
-        assert gradhesion("run", study_file, "-o", output, "--shard", "2/2").exit_code == 0
+        assert run("--shard", "2/2").exit_code == 0
         for shard in ([], ["--shard", "1/2"]):
-            told = gradhesion("run", study_file, "-o", output, *shard, code=4).stderr
+            told = run(*shard, code=4).stderr
             assert "another run is writing it" in told
-        assert gradhesion("run", study_file, "-o", output, "--shard", "1/2", "--set=parameters.nu=0.3").exit_code == 4
+        assert run("--shard", "1/2", "--set=parameters.nu=0.3").exit_code == 4
     with claimed(output):
-        assert gradhesion("run", study_file, "-o", output, "--shard", "2/2").exit_code == 4
+        assert run("--shard", "2/2").exit_code == 4
 
 
-def test_wrong_shards_are_refused(gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: Patch) -> None:
-    output = tmp_path / "out.nc"
+def test_wrong_shards_are_told(run: Call, gradhesion: Call, tmp_path: Path, monkeypatch: Patch, output: Path) -> None:
     for shard in ("0/2", "3/2", "1", "a/b", "1/0"):
-        assert "--shard 3/8" in gradhesion("run", study_file, "-o", output, "--shard", shard, code=2).stderr
-    assert gradhesion("run", study_file, "-o", output, "--shard", "1/2", "--fresh").exit_code == 2
+        assert "--shard 3/8" in run("--shard", shard, code=2).stderr
+    assert run("--shard", "1/2", "--fresh").exit_code == 2
     assert "has no blocks to join" in gradhesion("merge", output, code=2).stderr
     monkeypatch.setenv("GRADHESION_CHUNK", "100")
-    assert "run it without --shard" in gradhesion("run", study_file, "-o", output, "--shard", "1/2").stderr
+    assert "run it without --shard" in run("--shard", "1/2").stderr
     assert os.listdir(tmp_path) == ["study.toml"]

@@ -34,19 +34,14 @@ DAMAGES: dict[str, Callable[[bytes], bytes]] = {
 
 
 @pytest.fixture
-def output(tmp_path: Path) -> Path:
-    return tmp_path / "data" / "out.nc"
-
-
-@pytest.fixture
-def begun(gradhesion: Call, study_file: Path, output: Path, monkeypatch: Patch) -> Begun:
+def begun(run: Call, output: Path, monkeypatch: Patch) -> Begun:
     """Interrupt a run after some blocks; tells how many are kept."""
 
     def begin(number: int, *options: str) -> int:
         really = Mock(side_effect=real_solve)
         with monkeypatch.context() as patch:
             patch.setattr(SOLVE, lambda *a, **b: really(*a, **b) if really.call_count < number else interrupted())
-            assert gradhesion("run", study_file, "-o", output, *options).exit_code == 1, "click's, without main()"
+            assert run(*options).exit_code == 1, "click's, without main()"
         return len(list(output.parent.glob("out.nc.parts/*.npz")))
 
     return begin
@@ -57,11 +52,11 @@ def interrupted() -> dict[str, Any]:
 
 
 @pytest.fixture
-def resumed(gradhesion: Call, study_file: Path, output: Path, whole: Values) -> Call:
+def resumed(run: Call, output: Path, whole: Values) -> Call:
     """Give the same command again, to its end."""
 
     def resume(kept: int, *options: str) -> Result:
-        result = gradhesion("run", study_file, "-o", output, *options, code=0)
+        result = run(*options, code=0)
         assert ("reused" in result.stderr) == (kept > 0)
         assert not kept or f"reused {kept} block{'s' * (kept > 1)}, computed {BLOCKS - kept}" in result.stderr
         assert values_of(output) == whole
@@ -79,12 +74,12 @@ def test_a_run_goes_on_where_it_was_interrupted(number: int, begun: Begun, resum
 
 
 def test_an_old_output_stays_until_the_new_one_is_whole_and_another_title_goes_on(
-    begun: Begun, resumed: Call, gradhesion: Call, study_file: Path, output: Path
+    run: Call, begun: Begun, resumed: Call, study_file: Path, output: Path
 ) -> None:
     output.parent.mkdir()
     output.write_text("precious")
     kept = begun(3, "--overwrite")
-    assert gradhesion("run", study_file, "-o", output).exit_code == 4, "it exists"
+    assert run().exit_code == 4, "it exists"
     assert output.read_text() == "precious"
     study_file.write_text("# another way to write it\n" + study_file.read_text())
     resumed(kept, "--overwrite", "--set=title='Another'")
@@ -94,17 +89,15 @@ def test_an_old_output_stays_until_the_new_one_is_whole_and_another_title_goes_o
 
 @pytest.mark.parametrize("change", CHANGES)
 def test_blocks_of_another_study_or_version_are_refused_and_kept_until_they_are_dropped(
-    change: str, begun: Begun, gradhesion: Call, study_file: Path, output: Path, monkeypatch: Patch
+    run: Call, change: str, begun: Begun, output: Path, monkeypatch: Patch
 ) -> None:
     kept = begun(4)
-    command = ["run", study_file, "-o", output]
-    if "=" in change:
-        command += ["--set", change]
-    else:
+    command = ["--set", change] if "=" in change else []
+    if not command:
         monkeypatch.setattr(f"gradhesion.cli.work.folder.{change}", "another")
-    assert "--fresh" in gradhesion(*command, code=4).stderr
+    assert "--fresh" in run(*command, code=4).stderr
     assert len(list(output.parent.glob("out.nc.parts/*.npz"))) == kept
-    assert "reused" not in gradhesion(*command, "--fresh").stderr
+    assert "reused" not in run(*command, "--fresh").stderr
     assert os.listdir(output.parent) == ["out.nc"]
 
 
@@ -116,30 +109,30 @@ def test_a_damaged_block_is_computed_again(damage: str, begun: Begun, resumed: C
     resumed(kept - 1)
 
 
-def test_one_block_is_not_kept(gradhesion: Call, study_file: Path, output: Path, monkeypatch: Patch) -> None:
+def test_one_block_is_not_kept(run: Call, output: Path, monkeypatch: Patch) -> None:
     """And a second run is refused."""
     output.parent.mkdir()
     with claimed(output):
-        assert gradhesion("run", study_file, "-o", output).exit_code == 4
+        assert run().exit_code == 4
     assert os.listdir(output.parent) == []
     monkeypatch.setenv("GRADHESION_CHUNK", "100")
     monkeypatch.setattr(Parts, "write", lambda *_: pytest.fail("there is none"))
-    assert gradhesion("run", study_file, "-o", output).exit_code == 0
+    assert run().exit_code == 0
 
 
-def test_files_of_users_are_left(begun: Begun, gradhesion: Call, study_file: Path, output: Path) -> None:
+def test_files_of_users_are_left(run: Call, begun: Begun, gradhesion: Call, output: Path) -> None:
     """A folder that no run has made is refused; what is put beside blocks stays."""
     folder = folder_of(output)
     folder.mkdir(parents=True)
     (folder / "thesis.npz").write_text("mine")
     for options in ([], ["--fresh"], ["--overwrite"], ["--shard", "1/2"]):
-        assert gradhesion("run", study_file, "-o", output, *options).exit_code == 4
+        assert run(*options).exit_code == 4
     assert gradhesion("status", output).exit_code == gradhesion("merge", output).exit_code == 2
     assert [path.name for path in folder.iterdir()] == ["thesis.npz"]
     (folder / "thesis.npz").unlink()
     begun(3)
     (folder / "notes.txt").write_text("mine")
-    assert gradhesion("run", study_file, "-o", output).exit_code == 0
+    assert run().exit_code == 0
     assert os.listdir(folder) == ["notes.txt"]
 
 
@@ -182,21 +175,21 @@ def failing(really: Callable[..., Any], number: int, code: int) -> Callable[...,
 @pytest.mark.parametrize("code", [errno.EROFS, errno.ENOSPC])
 @pytest.mark.parametrize("name", ["replace", "hardlink_to", "mkdir"])
 def test_a_change_of_a_name_that_fails_loses_nothing(
-    name: str, code: int, gradhesion: Call, study_file: Path, whole: Values, output: Path
+    run: Call, name: str, code: int, whole: Values, output: Path
 ) -> None:
     """Whichever it is, the run ends in a sentence or goes on without, and the same command makes the dataset."""
     ended = []
     for number in range(1, 40):
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(Path, name, failing(getattr(Path, name), number, code))
-            result = gradhesion("run", study_file, "-o", output, "--quiet")
+            result = run("--quiet")
         ended.append(result.exit_code)
         if result.exit_code:
             assert result.exit_code == 4
             assert result.stderr.count("\n") == 1
             assert os.strerror(code) in result.stderr
             assert not output.exists()
-        again = gradhesion("run", study_file, "-o", output, "--quiet", *(["--overwrite"] if output.exists() else []))
+        again = run("--quiet", *(["--overwrite"] if output.exists() else []))
         assert again.exit_code == 0, again.stderr
         assert values_of(output) == whole
         assert os.listdir(output.parent) == ["out.nc"]
@@ -207,24 +200,24 @@ def test_a_change_of_a_name_that_fails_loses_nothing(
 
 
 def test_a_run_killed_before_it_tidied_up_is_complete(
-    gradhesion: Call, study_file: Path, output: Path, whole: Values, monkeypatch: Patch
+    run: Call, output: Path, whole: Values, monkeypatch: Patch
 ) -> None:
     with monkeypatch.context() as patch:
         patch.setattr("gradhesion.cli.work.folder._remove", lambda _: None)
-        assert gradhesion("run", study_file, "-o", output).exit_code == 0
+        assert run().exit_code == 0
     assert folder_of(output).exists()
     monkeypatch.setattr(SOLVE, lambda *_, **__: pytest.fail("nothing is left to do"))
-    assert "complete already" in gradhesion("run", study_file, "-o", output, code=0).stderr
+    assert "complete already" in run(code=0).stderr
     assert os.listdir(output.parent) == ["out.nc"]
     assert values_of(output) == whole
 
 
-def test_blocks_of_version_0_3_are_refused_until_dropped(gradhesion: Call, study_file: Path, output: Path) -> None:
+def test_blocks_of_version_0_3_are_refused_until_dropped(run: Call, output: Path) -> None:
     folder = folder_of(output)
     folder.mkdir(parents=True)
     for name in ("000000.part", "study.json", "state.json", "lock"):
         (folder / name).write_text("{}")
-    assert "--fresh" in gradhesion("run", study_file, "-o", output, code=4).stderr
+    assert "--fresh" in run(code=4).stderr
     assert (folder / "000000.part").exists()
-    assert gradhesion("run", study_file, "-o", output, "--fresh").exit_code == 0
+    assert run("--fresh").exit_code == 0
     assert os.listdir(output.parent) == ["out.nc"]

@@ -128,9 +128,7 @@ def test_an_output_that_cannot_be_is_refused(output: str, gradhesion: Call, stud
     assert (tmp_path / "old.nc").read_text() == "precious"
 
 
-def test_an_output_is_replaced_if_asked_and_links_are_followed(
-    gradhesion: Call, study_file: Path, tmp_path: Path
-) -> None:
+def test_an_output_is_replaced_if_asked_and_a_link_followed(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
     link, real = tmp_path / "link.nc", tmp_path / "real" / "real.nc"
     real.parent.mkdir()
     link.symlink_to(real)

@@ -212,9 +212,7 @@ def make(target: Path, meanwhile: Callable[[], object], *, overwrite: bool) -> N
 
 
 @pytest.mark.parametrize("links", [True, False])
-def test_a_file_that_appears_meanwhile_stays_beside_the_new_one(
-    links: bool, tmp_path: Path, monkeypatch: Patch
-) -> None:
+def test_a_file_that_appears_meanwhile_stays_beside_the_new(links: bool, tmp_path: Path, monkeypatch: Patch) -> None:
     if not links:
         monkeypatch.setattr(Path, "hardlink_to", without_links)
     target = tmp_path / "out.nc"

@@ -99,8 +99,6 @@ def path_of(model: LoopModel, here: Array) -> LoopPath:
     return drawn
 
 
-def misfit_of(
-    model: LoopModel, here: Array, spots: Array, back: Array, count: float = 1.0, wide: float = 1e3
-) -> Misfit:
+def misfit_of(model: LoopModel, here: Array, spots: Array, back: Any, count: float = 1.0, wide: float = 1e3) -> Misfit:
     """The misfit of some points, with ranges so far away."""
     return Misfit(spots, back, NOISE, np.full(len(spots), count), model, here - wide, here + wide)
