@@ -94,18 +94,26 @@ def study_file(data: dict[str, Any], write_study: Callable[[str], Path]) -> Path
     return write_study(study_from(data).text)
 
 
-@pytest.fixture
-def gradhesion(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Result]:
-    """The command line, called in this process, which may have to end with a code; without lines of progress, of which a busy machine has some."""
+def command(*arguments: str | Path, code: int | None = None) -> Result:
+    """Call the command line in this process; it may have to end with a code."""
     from gradhesion.cli.main import cli
 
+    result = CliRunner().invoke(cli, [str(argument) for argument in arguments], catch_exceptions=False)
+    assert code in (None, result.exit_code), (arguments, result.output)
+    return result
+
+
+@pytest.fixture
+def gradhesion(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Result]:
+    """The command line without lines of progress, of which a busy machine has some."""
     monkeypatch.setattr("gradhesion.cli.terminal.progress.PERIOD", math.inf)
+    return command
 
-    def call(*arguments: str | Path, code: int | None = None) -> Result:
-        result = CliRunner().invoke(cli, [str(argument) for argument in arguments])
-        if result.exception is not None and not isinstance(result.exception, SystemExit):
-            raise result.exception
-        assert code in (None, result.exit_code), result.output
-        return result
 
-    return call
+def mistakes(call: Callable[..., Any], *arguments: Any, **keywords: Any) -> tuple[str, ...]:
+    """What a call is refused for."""
+    from gradhesion.cli.errors import GradhesionError
+
+    with pytest.raises(GradhesionError) as caught:
+        call(*arguments, **keywords)
+    return caught.value.mistakes

@@ -12,6 +12,7 @@ import pytest
 import xarray
 
 import gradhesion as gr
+from tests.conftest import mistakes
 
 SET = [
     ("parameters.A", 0.02), ("parameters.A", [0.0, 0.01]), ("parameters.A", np.array([0.0, 0.01])), ("parameters.k", np.float64(0.3)),
@@ -98,9 +99,8 @@ def test_a_mapping_stays_as_it_is(data: dict[str, Any]) -> None:
 
 
 def test_mistakes_name_the_key_that_was_set(study_file: Path, data: dict[str, Any]) -> None:
-    with pytest.raises(gr.StudyError) as refused:
-        gr.load(study_file, set={"parameters.A": -1.0, "outputs": ["pull_of_force"]})
-    first, second = refused.value.mistakes
+    wrong = {"parameters.A": -1.0, "outputs": ["pull_of_force"]}
+    first, second = mistakes(gr.load, study_file, set=wrong)
     assert first.startswith("set parameters.A=-1.0: parameters.A = -1.0: ")
     assert second.startswith('set outputs=["pull_of_force"]: outputs[0] = "pull_of_force": ')
     with pytest.raises(gr.StudyError, match=r"set title\.x: "):

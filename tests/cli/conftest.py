@@ -18,7 +18,7 @@ from click.testing import Result
 import gradhesion as gr
 from gradhesion.cli.dataset.writer import write
 from gradhesion.cli.study import load_study, study_from
-from tests.conftest import SMALL
+from tests.conftest import SMALL, mistakes
 from tests.faults.trials import values_of
 
 Call = Callable[..., Result]
@@ -93,19 +93,6 @@ def whole(gradhesion: Call, study_file: Path, tmp_path: Path) -> dict[str, bytes
     return values_of(path)
 
 
-@pytest.fixture
-def made(gradhesion: Call, data: dict[str, Any], write_study: Made, tmp_path: Path) -> Made:
-    """Write the dataset of the small study with other keys by the command."""
-
-    def make(name: str = "out", exit_code: int = 0, parameters: dict[str, Any] | None = None, **changes: Any) -> Path:
-        study = study_from(data | changes | {"parameters": data["parameters"] | (parameters or {})})
-        path = tmp_path / f"{name}.nc"
-        gradhesion("run", write_study(study.text), "-o", path, "--quiet", "--overwrite", code=exit_code)
-        return path
-
-    return make
-
-
 class Ran(NamedTuple):
     """A study that was run: what was said, the dataset, and where it stands."""
 
@@ -115,6 +102,17 @@ class Ran(NamedTuple):
 
 
 Run = Callable[..., Ran]
+
+
+@pytest.fixture
+def made(ran: Run, data: dict[str, Any]) -> Made:
+    """Write the dataset of the small study with other keys by the command."""
+
+    def make(name: str = "out", exit_code: int = 0, parameters: dict[str, Any] | None = None, **changes: Any) -> Path:
+        study = data | changes | {"parameters": data["parameters"] | (parameters or {})}
+        return ran(study, "--quiet", "--overwrite", output=f"{name}.nc", exit_code=exit_code).path
+
+    return make
 
 
 @pytest.fixture
@@ -135,9 +133,7 @@ def jkr(a: np.ndarray, R: float, E_star: float, work: float) -> tuple[np.ndarray
 
 
 def mistakes_of(path: Path, *overrides: str) -> list[str]:
-    with pytest.raises(gr.StudyError) as caught:
-        load_study(path, overrides)
-    return list(caught.value.mistakes)
+    return [*mistakes(load_study, path, overrides)]
 
 
 @pytest.fixture

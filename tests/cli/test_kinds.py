@@ -4,6 +4,7 @@ import math
 import shutil
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,13 +14,11 @@ import pint
 import pint_xarray  # noqa: F401 (registers the accessor)
 import pytest
 import xarray
-from click.testing import CliRunner, Result
 
 from gradhesion.cli.dataset import compute
-from gradhesion.cli.main import cli
 from gradhesion.cli.study import load_study, study_from
 from gradhesion.core import OUTPUTS
-from tests.conftest import ROOT
+from tests.conftest import ROOT, command
 
 STUDY: dict[str, Any] = {"title": "A small study", "outputs": ["pull_off_force", "dissipated_energy", "loading_jumps"]}
 MATERIAL: dict[str, Any] = {"k": [0.0, 0.31], "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.013}
@@ -64,16 +63,11 @@ KINDS: dict[str, dict[str, Any]] = {
     "curves at a speed": CURVE | {"outputs": ["path", "equilibrium"], "parameters": CURVE["parameters"] | {"speed_over_reference": 0.1}, "rate": {"exponent": 0.6, "closing": "same"}},
     "states": CURVE | {"outputs": ["pressure", "surface"]},
 }  # fmt: skip
+call = partial(command, code=0)
 SAMPLE = ("--sample", "8", "--seed", "1")
 CHECKED = ("map", "points", "solvers", "similarity", "Young's modulus and a spring", "roughness", "sensitivities", "uncertainty", "two works",
            "optimum", "curve", "jumps", "curve in units", "states", "a part", "reduced")  # fmt: skip
 """Those whose names and attributes differ."""
-
-
-def call(*arguments: Any, code: int = 0) -> Result:
-    result = CliRunner().invoke(cli, [str(argument) for argument in arguments], catch_exceptions=False)
-    assert result.exit_code == code, (arguments, result.output)
-    return result
 
 
 @pytest.fixture(scope="module")

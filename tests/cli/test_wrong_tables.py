@@ -10,6 +10,7 @@ import pytest
 import gradhesion as gr
 from gradhesion.cli.picture.tracks import read_points
 from tests.cli.conftest import BALL, COLUMNS, Call
+from tests.conftest import mistakes
 
 STUDIES = {
     "points": 'outputs = ["pull_off_force"]\n[parameters]\npoints = "table.csv"\nk = 0.0\nnu = 0.3\nlambda_over_R = 0.1\n',
@@ -80,9 +81,7 @@ WORDS = [("loading", "Unloading"), ("approach", "retract"), ("0", "1"), ("0.0", 
 def told(reader: str, folder: Path, gradhesion: Call) -> str:
     """Say what a reader says to the wrong table in a folder."""
     if reader == "data":
-        with pytest.raises(gr.DatasetError) as caught:
-            read_points(folder / "table.csv", [("indentation", "load")], si=True)
-        (sentence,) = caught.value.mistakes
+        (sentence,) = mistakes(read_points, folder / "table.csv", [("indentation", "load")], si=True)
         beginning = f"--data {folder / 'table.csv'}: "
     else:
         study = folder / f"{reader}.toml"

@@ -25,12 +25,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
 
-from gradhesion.cli.main import cli
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.rules.asked import checked
-from tests.conftest import ROOT
+from tests.conftest import ROOT, command
 
 
 def _in_order() -> tuple[Path, ...]:
@@ -119,7 +117,6 @@ BLOCKS = [block for page in PAGES for block in blocks_of(page)]
 SHOWN = ("", "json", "mermaid", "output", "pycon", "text", "{eval-rst}", "{toctree}")
 """Languages of blocks that are looked at only."""
 RUN = ("bash", "console", "python", "sh", "toml")
-
 NOT_RUN = {
     "README.md": {"sets up an environment of its own"},
     "docs/first_steps.md": {"installs"},
@@ -127,22 +124,23 @@ NOT_RUN = {
     "docs/large.md": {"needs several machines", "tests/repository/test_cluster.py runs the scripts"},
 }
 """Every page with blocks that are not run, and why: these are all."""
-
 IN_A_SHELL = ROOT / "README.md"
 """What is read first: its every command is that of the shell; a second each, so that the pages are spared it."""
-
 WHOLE = tomllib.loads(next(block.text for block in BLOCKS if block.language == "toml"))
 """The study of the README, which the parts of studies are added to."""
 
 
 def _run_commands(block: Block, folder: Path) -> None:
-    for command in commands_of(block):
-        line = made_smaller(command.line, block)
+    for one in commands_of(block):
+        line = made_smaller(one.line, block)
         plain = line.startswith("gradhesion ") and not re.search(r"[|&;<>$`~]", line)
-        code, printed = _in_process(line) if plain and block.page != IN_A_SHELL else _in_a_shell(line, folder)
-        assert code == command.code, f"{block.place}: {line}\n{printed}"
-        if command.printed.strip():
-            assert same(command.printed, printed), f"{block.place}: {line}\n{printed}"
+        if plain and block.page != IN_A_SHELL:
+            code, printed = (done := command(*shlex.split(line)[1:])).exit_code, done.output
+        else:
+            code, printed = _in_a_shell(line, folder)
+        assert code == one.code, f"{block.place}: {line}\n{printed}"
+        if one.printed.strip():
+            assert same(one.printed, printed), f"{block.place}: {line}\n{printed}"
 
 
 def _in_a_shell(line: str, folder: Path) -> tuple[int, str]:
@@ -151,13 +149,6 @@ def _in_a_shell(line: str, folder: Path) -> tuple[int, str]:
     ends = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
     done = subprocess.run(bash, cwd=folder, env=own, text=True, timeout=600, check=False, **ends)
     return done.returncode, done.stdout
-
-
-def _in_process(line: str) -> tuple[int, str]:
-    result = CliRunner().invoke(cli, shlex.split(line)[1:])
-    if result.exception is not None and not isinstance(result.exception, SystemExit):
-        raise result.exception
-    return result.exit_code, result.output
 
 
 def _run_python(block: Block, namespace: dict[str, object]) -> str:

@@ -12,6 +12,7 @@ from matplotlib.colors import to_rgb
 import gradhesion as gr
 from gradhesion.core.answers.flags import FLAG_WORDS
 from tests.cli.conftest import Call, legend, words
+from tests.conftest import mistakes
 
 PUNCH: dict[str, Any] = {"k": 0.3, "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.013, "lambda_over_R": 0.17, "a_max_over_R": 0.4}  # fmt: skip
 PROBE: dict[str, Any] = {"k": 0.0, "nu": 0.3, "A": 0.01, "R": "5 um", "E_star": "10 MPa", "work_of_adhesion": "30 mJ/m^2", "wavelength": "0.5 um", "a_max": "1.5 um"}  # fmt: skip
@@ -113,10 +114,9 @@ def test_what_curves_do_not_have_is_refused(curves: xarray.Dataset, probe: xarra
     others = [(without, "y load", {"y": "load"}), (curves[["status", "load"]], "equilibrium", {})]
     others.append((gr.curves(PUNCH | {"A": 0.02}, "jumps"), "jumps", {}))
     for dataset, key, choices in [*((probe, *one) for one in WRONG), *others]:
-        with pytest.raises(gr.DatasetError) as refused:
-            gr.plot(dataset, **choices)
-        assert key in str(refused.value)
-        assert "--" not in str(refused.value).replace("info --jumps", ""), "keywords of Python"
+        (sentence,) = mistakes(gr.plot, dataset, **choices)
+        assert key in sentence
+        assert "--" not in sentence.replace("info --jumps", ""), "keywords of Python"
 
 
 def test_a_doubtful_path_has_open_markers_on_loading() -> None:
@@ -148,8 +148,7 @@ def test_states_are_drawn_over_the_distance() -> None:
     none = states.where(states["status"] < 0).assign(status=states["status"])
     wrong: list[dict[str, Any]] = [{"variables": ["pressure", "path"]}, {"x": "load"}, {"xlim": (0, 1)}]
     for dataset, choices in [*((states, one) for one in wrong), (states.drop_vars("pressure_radius"), {}), (none, {})]:
-        with pytest.raises(gr.DatasetError):
-            gr.plot(dataset, **({"variables": "pressure"} | choices))
+        mistakes(gr.plot, dataset, **({"variables": "pressure"} | choices))
 
 
 def measured(axes: Axes) -> list[Any]:

@@ -12,6 +12,7 @@ from matplotlib.colors import to_rgb
 
 import gradhesion as gr
 from tests.cli.conftest import Call, contours
+from tests.conftest import mistakes
 
 LIMITS = {"0.1 um:400 nm": (1e-7, 4e-7), "1e-7:4e-7": (1e-7, 4e-7), (1e-7, None): (1e-7, 1e-6), ":400nm": (5e-8, 4e-7)}
 
@@ -174,9 +175,7 @@ def test_what_does_not_exist_is_said(grid: xarray.Dataset) -> None:
     even = grid
     for key, choices in WRONG:
         grid = even if key != "logarithmic" else even.assign_coords(wavelength=np.geomspace(5e-8, 1e-6, 40))
-        with pytest.raises(gr.DatasetError) as refused:
-            gr.plot(grid, **({"variables": "pull_off_force"} | choices))
-        (sentence,) = refused.value.mistakes
+        (sentence,) = mistakes(gr.plot, grid, **({"variables": "pull_off_force"} | choices))
         assert key in sentence
         assert "--" not in sentence, "keywords of Python"
 

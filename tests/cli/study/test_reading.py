@@ -14,6 +14,7 @@ from gradhesion.cli.study.rules.form import Form
 from gradhesion.cli.terminal.messages import printable_line
 from gradhesion.core.problem.inputs import INPUTS
 from tests.cli.conftest import Call, Made, Told
+from tests.conftest import mistakes
 
 GOOD = """\
 title = "Good"
@@ -133,10 +134,9 @@ def test_an_endless_file_is_not_read_for_ever() -> None:
 
 
 def test_a_study_made_in_python_is_checked_alike() -> None:
-    with pytest.raises(StudyError) as caught:
-        study_from({"outputs": ["delta_max"], "parameters": {"k": (0.1, 2.0)}}, name="mine")
-    assert caught.value.mistakes[0] == "mine: parameters.k[1] = 2.0: out of range; choose a value with 0 <= k <= 1"
-    assert len(caught.value.mistakes) == 6
+    told = mistakes(study_from, {"outputs": ["delta_max"], "parameters": {"k": (0.1, 2.0)}}, name="mine")
+    assert told[0] == "mine: parameters.k[1] = 2.0: out of range; choose a value with 0 <= k <= 1"
+    assert len(told) == 6
     itself: list[object] = []
     itself.append(itself)
     with pytest.raises(StudyError, match="nested more than"):
@@ -185,9 +185,7 @@ INCLUDING = [
 def test_what_is_wrong_with_an_included_study(text: str, base: str, place: str, words: str, tmp_path: Path) -> None:
     (tmp_path / "study.toml").write_text(text)
     (tmp_path / "base.toml").write_text(base)
-    with pytest.raises(StudyError) as refused:
-        load_study(tmp_path / "study.toml")
-    (sentence,) = refused.value.mistakes
+    (sentence,) = mistakes(load_study, tmp_path / "study.toml")
     assert sentence.startswith(f"{tmp_path / place}: ")
     assert words in sentence
 

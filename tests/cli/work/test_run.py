@@ -28,11 +28,6 @@ SOLVE = "gradhesion.cli.work.solve.scenes.solve"
 Printed = pytest.CaptureFixture[str]
 
 
-@pytest.fixture
-def _nothing_is_computed(monkeypatch: Patch) -> None:
-    monkeypatch.setattr(SOLVE, lambda *_, **__: pytest.fail("nothing is computed"))
-
-
 def test_the_dataset_keeps_its_contract(dataset_file: Path, study_file: Path) -> None:
     with netCDF4.Dataset(dataset_file) as file:
         assert file.data_model == "NETCDF4"
@@ -115,17 +110,17 @@ def test_the_default_output_and_message(gradhesion: Call, study_file: Path, tmp_
     assert (quiet.stdout, quiet.stderr) == ("", "")
 
 
-@pytest.mark.usefixtures("_nothing_is_computed")
-@pytest.mark.parametrize("output", ["old.nc", "folder", "file/out.nc", "/proc/out.nc", "/dev/null", "x" * 300 + ".nc"])
-def test_an_output_that_cannot_be_is_refused(output: str, gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
+def test_an_output_that_cannot_be_is_refused(run: Call, tmp_path: Path, monkeypatch: Patch) -> None:
+    monkeypatch.setattr(SOLVE, lambda *_, **__: pytest.fail("nothing is computed"))
     (tmp_path / "folder").mkdir()
     (tmp_path / "file").touch()
     (tmp_path / "old.nc").write_text("precious")
-    overwrite = [] if output == "old.nc" else ["--overwrite"]
-    result = gradhesion("run", study_file, "-o", tmp_path / output, *overwrite, code=4)
-    assert result.stderr.startswith(str(tmp_path / output))
-    assert "-o" in result.stderr, "it tells what to do"
-    assert (tmp_path / "old.nc").read_text() == "precious"
+    for output in ("old.nc", "folder", "file/out.nc", "/proc/out.nc", "/dev/null", "x" * 300 + ".nc"):
+        overwrite = [] if output == "old.nc" else ["--overwrite"]
+        result = run("-o", tmp_path / output, *overwrite, code=4)
+        assert result.stderr.startswith(str(tmp_path / output))
+        assert "-o" in result.stderr, "it tells what to do"
+        assert (tmp_path / "old.nc").read_text() == "precious"
 
 
 def test_an_output_is_replaced_if_asked_and_a_link_followed(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:

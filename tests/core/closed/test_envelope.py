@@ -23,13 +23,9 @@ def envelope(scene: dict[str, Any]) -> dict[str, Any]:
     return solve(scene, OUTPUTS, solver="envelope")
 
 
-def length_of(k: float, M: float) -> float:
-    return M ** (-1 / (3 + k))
-
-
 @pytest.mark.parametrize(("k", "chi", "reach"), LOOPS)
 def test_the_energy_is_the_loop_integral_of_load_over_depth(k: float, chi: float, reach: float) -> None:
-    M, rim = 37.0, reach * length_of(k, 37.0)
+    M, rim = 37.0, reach * 37.0 ** (-1 / (3 + k))
     scene, one = scene_of_ratio(k, M, 0.0023, chi, rim), chi * adhesion(k, M)
     up, down = (one * swing for swing in swings(k, WAVES))
     with mpmath.workdps(20):
