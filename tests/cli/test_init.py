@@ -24,11 +24,6 @@ PROGRAMS = {
 }
 
 
-def test_the_studies_are_those_of_the_repository() -> None:
-    assert studies() == {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "configs").glob("*.toml")}
-    assert {"map", "curve", "physical", "fig4a"} <= studies().keys()
-
-
 def test_a_map_is_written_and_runs(gradhesion: Call, tmp_path: Path, monkeypatch: Patch) -> None:
     monkeypatch.chdir(tmp_path)
     assert gradhesion("init").exit_code == 0
@@ -61,7 +56,8 @@ def test_an_unknown_name_has_a_suggestion(gradhesion: Call) -> None:
         assert hint in gradhesion("init", name, code=2).stderr
 
 
-def test_the_lists_name_them_all_those_of_figures_apart(gradhesion: Call) -> None:
+def test_the_studies_are_those_of_the_repository_and_listed_those_of_figures_apart(gradhesion: Call) -> None:
+    assert studies() == {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "configs").glob("*.toml")}
     lists = (gradhesion("init", "--list", *more).stdout.splitlines() for more in ((), ["--paper"]))
     features, figures = ([line.split()[0] for line in one] for one in lists)
     assert sorted(features + figures) == sorted(studies())
@@ -81,14 +77,10 @@ def completed(shell: str, words: str, count: int) -> list[str]:
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
-def test_shells_complete_commands_and_studies(shell: str) -> None:
+def test_shells_complete_commands_and_studies_by_a_script(shell: str, tmp_path: Path) -> None:
     commands = [line.split("\t")[0] for line in completed(shell, "gradhesion pl", 1)]
     assert {"bash": "plain,plot", "zsh": "plot", "fish": "plain,plot"}[shell] in commands
     assert any("physical" in line for line in completed(shell, "gradhesion init ph", 2))
-
-
-@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
-def test_the_script_of_a_shell_is_one(shell: str, tmp_path: Path) -> None:
     command = [sys.executable, "-m", "gradhesion.cli", "completion", shell]
     done = subprocess.run(command, env=os.environ | {"PATH": ""}, capture_output=True, text=True, check=True)
     assert done.stderr == ""

@@ -9,7 +9,7 @@ from gradhesion.core import draw_curves
 
 from .kinds import COUNTS, EXACT, KINDS, SCENES, Kind, Scenes, drawn, for_kinds, one_of, rescaled, rng_of, some
 from .promises import NO_VALUE, SHARE, agree, depth_size, errors, has, is_sure, load_size, phase_of, work_size
-from .theory import FORCE, Curve, stiffness, stretch
+from .theory import FORCE, Curve, jump_density, stiffness, stretch
 
 EXPONENTS = np.array([0.0, 0.1, 0.37, 0.7, 0.96])
 SMOOTH: Scenes = {"k": EXPONENTS, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.07, "lambda_over_R": 0.1, "A": 0.0}
@@ -177,8 +177,7 @@ def test_smooth_cycles_have_their_closed_forms(kind: Kind) -> None:
     expected = {"snap_in_force": 8 * (1 + k) * ratio / (3 * (3 + k)), "front_energy": 2.25 * np.pi * (1 - ratio)}
     for name, q, size, work in (("loading", np.ones(5), np.sqrt(ratio), -ratio), ("unloading", (1 - k) / 4, 1.0, 1.0)):
         radius = ((1 + k) * q * size * s) ** (2 / (3 + k))
-        density = 16 * q * q / ((1 + k) * (3 + k) * (5 + k)) - 8 * q / ((1 + k) * (3 + k)) + 2 / (1 + k) - 1
-        expected[f"{name}_energy"] = np.pi * work * density * radius**2
+        expected[f"{name}_energy"] = np.pi * work * jump_density(k, q) * radius**2
     agree(kind, scenes, found, found | expected, [name for name in expected if name in found])
 
 

@@ -9,7 +9,6 @@ import subprocess
 import sys
 import sysconfig
 import tomllib
-from collections.abc import Callable
 from dataclasses import replace
 from importlib.machinery import PathFinder
 from pathlib import Path
@@ -17,7 +16,6 @@ from pathlib import Path
 import click
 import numpy as np
 import pytest
-from click.testing import Result
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
@@ -27,7 +25,7 @@ import gradhesion.core
 import gradhesion.twin
 from gradhesion.cli.main import cli
 from gradhesion.core.problem.inputs import INPUTS
-from tests.conftest import ROOT
+from tests.conftest import ROOT, command
 
 README = (ROOT / "README.md").read_text()
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
@@ -42,13 +40,10 @@ EXTRAS = PROJECT["project"]["optional-dependencies"]
 CLAIMS = [*PROJECT["project"]["dependencies"], *(name for extra in EXTRAS.values() for name in extra)]
 
 
-def loaded(arguments: list[str], names: tuple[str, ...]) -> str:
-    """What a command, in a process of its own, imports of some modules."""
-    code = (
-        "import sys; from gradhesion.cli.main import cli; "
-        f"cli.main({arguments!r}, standalone_mode=False); "
-        f"print([name for name in {names!r} if name in sys.modules])"
-    )
+def loaded(names: tuple[str, ...], *commands: list[str]) -> str:
+    """What some commands, in a process of their own, import of some modules."""
+    code = f"import sys; from gradhesion.cli.main import cli\nfor words in {commands!r}:\n  "
+    code += f"cli.main(words, standalone_mode=False)\nprint([name for name in {names!r} if name in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     return done.stdout.splitlines()[-1]
 
@@ -61,27 +56,23 @@ def test_every_module_says_what_it_is_for_and_its_examples_run(name: str) -> Non
 
 
 @pytest.mark.parametrize("name", sorted(cli.commands))
-def test_every_command_and_every_option_has_help(name: str, gradhesion: Callable[..., Result]) -> None:
-    gradhesion(name, "--help", code=0)
+def test_every_command_and_every_option_has_help(name: str) -> None:
+    command(name, "--help", code=0)
     assert cli.commands[name].help
-    for option in cli.commands[name].params:
-        if isinstance(option, click.Option):
-            assert option.help, option.name
+    assert [one.name for one in cli.commands[name].params if isinstance(one, click.Option) and not one.help] == []
 
 
-@pytest.mark.parametrize("arguments", [["run", "--help"], ["--version"]])
-def test_help_imports_nothing_heavy(arguments: list[str]) -> None:
-    assert loaded(arguments, HEAVY) == "[]"
+def test_help_imports_nothing_heavy() -> None:
+    assert loaded(HEAVY, ["run", "--help"], ["--version"]) == "[]"
 
 
 @pytest.mark.slow
 def test_commands_import_only_what_they_need(tmp_path: Path) -> None:
     study, file = str(ROOT / "configs" / "smoke.toml"), str(tmp_path / "x.nc")
     compilers, extras = ("numba", "llvmlite", "flint"), ("afmformats", "cryptography", "distributed")
-    assert loaded(["run", study, "-o", file, "--quiet"], ("xarray", "pandas", "matplotlib", "pint", *extras)) == "[]"
-    assert loaded(["info", file], (*compilers, "dask", "pint", "scipy", *extras)) == "[]"
-    for arguments in (["validate", study], ["plot", file]):
-        assert loaded(arguments, (*compilers, *extras)) == "[]", arguments
+    assert loaded(("xarray", "pandas", "matplotlib", "pint", *extras), ["run", study, "-o", file, "--quiet"]) == "[]"
+    assert loaded((*compilers, "dask", "pint", "scipy", *extras), ["info", file]) == "[]"
+    assert loaded((*compilers, *extras), ["validate", study], ["plot", file]) == "[]"
 
 
 def test_the_picture_of_the_readme_compares_like_with_like() -> None:
@@ -148,12 +139,9 @@ def test_make_alone_prints_the_targets() -> None:
         assert f"make {target}" in README
 
 
-def test_the_public_names_are_all_that_is_listed() -> None:
+def test_the_public_names_are_all_that_is_listed_and_every_parameter_is_a_keyword() -> None:
     assert dir(gradhesion) == sorted(gradhesion.__all__)
     assert not {"Any", "Final", "importlib", "sys"} & {*dir(gradhesion)}
-
-
-def test_every_parameter_is_a_keyword_that_editors_complete() -> None:
     for call in (gradhesion.solve, gradhesion.curves):
         assert INPUTS.keys() <= inspect.signature(call).parameters.keys()
 

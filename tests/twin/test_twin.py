@@ -19,6 +19,7 @@ from gradhesion.twin.scene import PARAMETERS, solve, waves_to_follow
 from gradhesion.twin.series import Series
 from gradhesion.twin.shape import PLAIN, Shape
 from gradhesion.twin.special import s0_series, s1_series, struve_expansion
+from tests.conformance.theory import jump_density
 from tests.core.scene import Waves, scene_of
 from tests.stress.draw import eventful, hostile
 
@@ -159,8 +160,7 @@ def test_smooth_punch_of_any_wavelength(k: float, nu: float) -> None:
         s, x = curve.adhesion, arb(k)
         q, first = (1 - x) / 4, ((1 + x) * curve.adhesion) ** (2 / (3 + x))
         if rim > first:
-            two, three = (1 + x) * (3 + x), (1 + x) * (3 + x) * (5 + x)
-            part = [16 * p * p / three - 8 * p / two + 2 / (1 + x) - 1 for p in (q, 1)]
+            part = [jump_density(x, p) for p in (q, 1)]
             last = (q * (1 + x) * s) ** (2 / (3 + x)) if k < 1 else arb(0)
             energy = arb.pi() * (part[0] * last * last - part[1] * first * first)
             assert abs(solution.dissipated_energy / energy - 1) < arb("1e-35")

@@ -202,9 +202,3 @@ def test_what_a_map_reports_of_the_cycle_is_told_with_the_path(scene: dict[str, 
     assert draw_curves(scene, ["jumps", "path"])[1] == CLOSE_TO_A_JUMP
     for own in (gains, gains | {"load_max": 1e4}, scene):
         assert draw_curves(own, ["equilibrium"])[1] == 0
-
-
-def test_mistakes_of_the_caller_are_named(scene: dict[str, float]) -> None:
-    for wrong, curve, told in ((scene, "hysteresis", "'hysteresis'"), ({"k": 0.3}, "smooth", "'nu'")):
-        with pytest.raises(ValueError, match=told):
-            draw_curves(wrong, [curve])

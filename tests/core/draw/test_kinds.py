@@ -20,8 +20,10 @@ BY_LOAD, BY_MACHINE = Loading(control="load"), Loading(control="machine")
 SPRINGS: dict[str, dict[str, float]] = {"displacement": {}, "load": {}, "machine": {"machine_stiffness": 2.0}}
 WORKS = scene_of(0.1, 0.3, 500.0, 0.01, 0.1, 0.02, 0.5)
 LENGTH = {"toughness_wavelength_over_R": 0.1}
-REFUSED: list[tuple[dict[str, float], str, dict[str, Any], str]] = [
+REFUSED: list[tuple[dict[str, Any], str, dict[str, Any], str]] = [
     *(({}, curve, {"loading": BY_LOAD}, curve) for curve in ("asymptotic", "envelope", "effective")),
+    ({}, "hysteresis", {}, "'hysteresis'"),
+    ({"nu": None}, "smooth", {}, "'nu'"),
     ({}, "path", {"loading": BY_MACHINE}, "machine_stiffness"),
     ({"machine_stiffness": 1.0}, "path", {}, "machine_stiffness"),
     (LENGTH, "envelope", {"toughness": PATTERN}, "envelope"),
@@ -123,9 +125,9 @@ def test_what_has_no_value() -> None:
 
 
 @pytest.mark.parametrize(("more", "curve", "how", "told"), REFUSED)
-def test_what_is_refused(more: dict[str, float], curve: str, how: dict[str, Any], told: str) -> None:
+def test_what_is_refused(more: dict[str, Any], curve: str, how: dict[str, Any], told: str) -> None:
     with pytest.raises(ValueError, match=told):
-        draw_curves(SCENE | more, [curve], **how)
+        draw_curves({name: value for name, value in (SCENE | more).items() if value is not None}, [curve], **how)
 
 
 def test_named_states_lie_on_the_path() -> None:

@@ -124,15 +124,12 @@ def test_what_is_out_of_range(kind: Any, values: dict[str, Any], told: str) -> N
         kind(**values)
 
 
-def test_what_a_harmonic_leaves_out() -> None:
+def test_what_a_harmonic_leaves_out_and_a_power_that_is_whole() -> None:
+    """Kernels are compiled for floats: one of an integer would be compiled anew."""
     given: list[dict[str, float]] = [{}, {"sin": 0.2}, {"cos": 0.0}, {"cos": 0.3, "sin": 0.2}]
     made = [Harmonic(n=3, **one) for one in given]
     assert [(one.cos, one.sin) for one in made] == [(1.0, 0.0), (0.0, 0.2), (0.0, 0.0), (0.3, 0.2)]
     assert [dataclasses.replace(one, n=3) for one in made] == made
-
-
-def test_a_whole_number_is_a_power_like_any_other() -> None:
-    """Kernels are compiled for floats: one of an integer would be compiled anew."""
     assert isinstance(Profile(exponent=3).exponent, float)
     assert Profile(exponent=3) == Profile(exponent=3.0)
 

@@ -117,14 +117,11 @@ def test_the_path_encloses_the_energy(turn: dict[str, float], closing: str, spee
     assert (np.diff(opening) <= np.finfo(float).eps).all()
 
 
-def test_at_speed_0_it_is_the_path_of_an_edge_at_rest() -> None:
+def test_at_speed_0_it_is_the_path_of_an_edge_at_rest_and_has_no_jumps_beyond() -> None:
     scene = BALL | DRIVEN[0]
     rest, _ = draw_curves(scene, ["path", "jumps"])
     still, _ = draw_curves(scene | {"speed_over_reference": 0.0}, ["path", "jumps"], rate=Rate(exponent=0.6))
     for name, values in rest.items():
         assert np.array_equal(still[name], values)
-
-
-def test_jumps_are_refused() -> None:
     with pytest.raises(ValueError, match="has no jumps"):
         draw_curves(BALL | DRIVEN[0] | {"speed_over_reference": 0.1}, ["jumps", "path"], rate=Rate(exponent=0.6))
