@@ -148,6 +148,6 @@ def test_an_editable_installation_has_the_same_package_and_sees_new_modules(tmp_
         "print(gradhesion.__file__, gradhesion.added.__file__, gradhesion.core.problem.status.__file__, "
         "gradhesion.cli.study.study.__file__, gradhesion.configs.__file__, gradhesion.load.__module__)"
     )
-    *files, module = call("-S", "-c", code, cwd=elsewhere).split()
+    *files, module = call("-S", "-c", code, cwd=elsewhere, PYTHONPATH="").split()
     assert [Path(file).relative_to(tree).parts[0] for file in files] == ["api", "api", "core", "cli", "configs"]
     assert module == "gradhesion.studies"
