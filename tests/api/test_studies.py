@@ -31,10 +31,9 @@ def alone(code: str) -> str:
 
 
 def test_the_import_loads_nothing_and_names_alone_no_array() -> None:
-    code = "import sys, importlib, typing; before = {*sys.modules}; import gradhesion as gr; gr.__all__, dir(gr); "
-    code += (
-        "print(sorted({*sys.modules} - before)); gr.OUTPUTS, gr.PARAMETERS, gr.CURVES, gr.StudyError, gr.__version__\n"
-    )
+    code = "import sys, importlib, typing; before = {*sys.modules}; import gradhesion as gr; gr.__all__, dir(gr)\n"
+    code += "print(sorted({*sys.modules} - before)); "
+    code += "gr.OUTPUTS, gr.PARAMETERS, gr.CURVES, gr.StudyError, gr.__version__\n"
     code += "print([name for name in ('numpy', 'xarray', 'click', 'numba', 'pydantic') if name in sys.modules])"
     assert alone(code).splitlines() == ["['gradhesion']", "[]"]
 
@@ -44,7 +43,7 @@ def test_what_computes_nothing_needs_no_compiler(data: dict[str, Any], tmp_path:
     gr.run(data).to_netcdf(tmp_path / "x.nc")
     (tmp_path / "study.toml").write_text(gr.load(data).text)
     code = (
-        f"import os, sys, gradhesion as gr, xarray; os.chdir({str(tmp_path)!r}); print(hasattr(xarray.Dataset, 'gr'))\n"
+        f"import os, sys, gradhesion as gr, xarray; os.chdir({str(tmp_path)!r})\nprint(hasattr(xarray.Dataset, 'gr'))\n"
     )
     code += "gr.load('study.toml'); gr.open('x.nc').gr.valid(); gr.plot('x.nc'); print(hasattr(xarray.Dataset, 'gr'))\n"
     code += "print([name for name in ('numba', 'llvmlite') if name in sys.modules])"
@@ -67,7 +66,7 @@ def test_the_package_runs_as_a_command() -> None:
 def test_what_was_imported_before_is_still_there_and_the_accessor_where_xarray_was() -> None:
     code = "import xarray; from gradhesion.core import solve, Profile; from gradhesion.cli.dataset import compute; import gradhesion\n"
     code += (
-        "from gradhesion.cli.study import load_study, study_from, Study; from gradhesion.cli.errors import StudyError\n"
+        "from gradhesion.cli.study import load_study, study_from, Study\nfrom gradhesion.cli.errors import StudyError\n"
     )
     code += "print(gradhesion.StudyError is StudyError, gradhesion.Study is Study, hasattr(xarray.Dataset, 'gr'))"
     assert alone(code) == "True True True"

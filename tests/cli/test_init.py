@@ -71,9 +71,7 @@ def completed(shell: str, words: str, count: int) -> list[str]:
     place = words.rsplit(maxsplit=1)[-1] if shell == "fish" else str(count)
     asked = {"_GRADHESION_COMPLETE": f"{shell}_complete", "COMP_WORDS": words, "COMP_CWORD": place}
     command = [sys.executable, "-m", "gradhesion.cli"]
-    return subprocess.run(
-        command, env=os.environ | asked, stdout=subprocess.PIPE, text=True, check=True
-    ).stdout.splitlines()
+    return subprocess.check_output(command, env=os.environ | asked, text=True).splitlines()
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])

@@ -191,10 +191,8 @@ def test_what_is_wrong_with_an_included_study(text: str, base: str, place: str, 
 
 
 def test_a_valid_study_and_all_mistakes_of_another(gradhesion: Call, study_file: Path) -> None:
-    axes, outputs = (
-        "k (2), lambda_over_R (3), A (2), a_max_over_R (2)",
-        "pull_off_force, dissipated_energy, loading_jumps",
-    )
+    axes = "k (2), lambda_over_R (3), A (2), a_max_over_R (2)"
+    outputs = "pull_off_force, dissipated_energy, loading_jumps"
     told = gradhesion("validate", study_file, code=0).stdout
     assert told == f"{study_file}: valid; a map of 24 scenes; axes: {axes}; outputs: {outputs}\n"
     result = gradhesion("validate", study_file, "--set=parameters.nu=0.7", "--set=parameters.k=-1.0")

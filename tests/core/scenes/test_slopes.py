@@ -163,9 +163,8 @@ def test_against_differences(given: Scene, output: str) -> None:
 
 def test_what_is_zero_has_no_slope_and_what_has_no_influence_none() -> None:
     ball = BASE | ENDLESS | {"k": 0.0, "A": 0.0}
-    slopes = slopes_to_keys(
-        ball, ["A", "c0_over_R", "a_max_over_R"], PARAMETERS, 1.0, solve(ball, [OF_FORCE])[OF_FORCE], {}
-    )
+    names, found = ["A", "c0_over_R", "a_max_over_R"], solve(ball, [OF_FORCE])[OF_FORCE]
+    slopes = slopes_to_keys(ball, names, PARAMETERS, 1.0, found, {})
     assert np.isnan(slopes["A"])
     assert slopes["c0_over_R"] == slopes["a_max_over_R"] == 0.0
 

@@ -23,9 +23,8 @@ def stored() -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
     """Parameters of 2,184 scenes, what is expected of them, and what is found."""
     file = json.loads((Path(__file__).parents[2] / "twin" / "scenes.json").read_text(encoding="utf-8"))
     columns = zip(file["columns"], zip(*file["scenes"], strict=True), strict=True)
-    numbers = {
-        name: np.array(own, dtype=float) for name, own in columns if name not in ("group", "note")
-    }  # null is NaN
+    words = ("group", "note")
+    numbers = {name: np.array(own, dtype=float) for name, own in columns if name not in words}  # null is NaN
     expected = {name: np.where(np.isnan(column), math.inf, column) for name, column in numbers.items()}
     scenes = {name: expected[name] for name in PARAMETERS}
     return scenes, expected, solve(scenes, OUTPUTS)
@@ -90,15 +89,13 @@ GAINS = ("adhesion_gain", "energy_gain")
 PATTERN = ((1, 0.2, 0.1), (3, 0.0, 0.1))
 LENGTH = {"toughness_wavelength_over_R": 0.13}
 OF_WORK = {"toughness": pattern_of("work", *PATTERN)}
+BY_MACHINE = {"loading": Loading(control="machine")}
 KINDS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "plain": ({"a_max_over_R": np.array([0.05, 0.2, 0.8, np.inf])}, {}),
     "two works": ({"closing_ratio": np.array([0.4, 1.0])}, {}),
     "turned": ({"indentation_max_over_R": 0.05}, {}),
     "pattern of toughness": (LENGTH, {"toughness": pattern_of("toughness", *PATTERN)}),
-    "pattern of work, machine": (
-        LENGTH | {"machine_stiffness": 0.1},
-        OF_WORK | {"loading": Loading(control="machine")},
-    ),
+    "pattern of work, machine": (LENGTH | {"machine_stiffness": 0.1}, OF_WORK | BY_MACHINE),
 }
 
 
