@@ -170,9 +170,9 @@ def test_few_scenes_have_a_line_each_with_their_parameters_and_values(table: Cal
 
 def test_columns_that_do_not_fit_go_on_below(table: Callable[..., str]) -> None:
     outputs = [name for name in OUTPUTS if name not in ("loading_energy", "unloading_energy")]
-    table = table(gr.solve(PUNCH, outputs, A=[0.0, 0.01])).partition("\n\n")[2]
-    assert max(map(len, table.splitlines())) <= 100
-    assert {*outputs} < {*table.split()}
+    told = table(gr.solve(PUNCH, outputs, A=[0.0, 0.01])).partition("\n\n")[2]
+    assert max(map(len, told.splitlines())) <= 100
+    assert {*outputs} < {*told.split()}
 
 
 def test_only_few_scenes_have_a_table(table: Callable[..., str]) -> None:
