@@ -3,6 +3,7 @@
 import gc
 import math
 import os
+import sys
 from collections.abc import Callable
 from copy import deepcopy
 from pathlib import Path
@@ -12,12 +13,11 @@ import pytest
 from click.testing import CliRunner, Result
 from hypothesis import HealthCheck, settings
 
-from tests.memory import in_memory
-
 settings.register_profile("no clock", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("no clock")
 
 ROOT = Path(__file__).parents[1]
+SHARED = Path("/dev/shm")  # noqa: S108 (folders are made in it)
 SMALL = {
     "title": "A small study",
     "outputs": ["pull_off_force", "dissipated_energy", "loading_jumps"],
@@ -33,9 +33,19 @@ SMALL = {
 }
 
 
+def in_memory(size: int) -> str | None:
+    """Return where so many bytes of files, and programs among them, can stand in memory, as a disk is slower than most tests; None if nowhere."""
+    if not (SHARED.is_dir() and os.access(SHARED, os.W_OK)):
+        return None
+    system = os.statvfs(SHARED)
+    room = system.f_bavail * system.f_frsize
+    return str(SHARED) if room >= size and not system.f_flag & os.ST_NOEXEC else None
+
+
 def pytest_configure() -> None:
     """Have temporary folders in memory, where there is room, and old objects looked through for cycles seldom."""
     gc.set_threshold(2_000, 10, 30)
+    sys.path.append(str(ROOT))  # scripts of benchmarks, documents and figures are not installed
     if place := in_memory(2**32):
         os.environ.setdefault("PYTEST_DEBUG_TEMPROOT", place)
 
@@ -84,17 +94,26 @@ def study_file(data: dict[str, Any], write_study: Callable[[str], Path]) -> Path
     return write_study(study_from(data).text)
 
 
-@pytest.fixture
-def gradhesion(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Result]:
-    """The command line, called in this process; without lines of progress, of which a busy machine has some."""
+def command(*arguments: str | Path, code: int | None = None) -> Result:
+    """Call the command line in this process; it may have to end with a code."""
     from gradhesion.cli.main import cli
 
+    result = CliRunner().invoke(cli, [str(argument) for argument in arguments], catch_exceptions=False)
+    assert code in (None, result.exit_code), (arguments, result.output)
+    return result
+
+
+@pytest.fixture
+def gradhesion(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Result]:
+    """The command line without lines of progress, of which a busy machine has some."""
     monkeypatch.setattr("gradhesion.cli.terminal.progress.PERIOD", math.inf)
+    return command
 
-    def call(*arguments: str | Path) -> Result:
-        result = CliRunner().invoke(cli, [str(argument) for argument in arguments])
-        if result.exception is not None and not isinstance(result.exception, SystemExit):
-            raise result.exception
-        return result
 
-    return call
+def mistakes(call: Callable[..., Any], *arguments: Any, **keywords: Any) -> tuple[str, ...]:
+    """What a call is refused for."""
+    from gradhesion.cli.errors import GradhesionError
+
+    with pytest.raises(GradhesionError) as caught:
+        call(*arguments, **keywords)
+    return caught.value.mistakes

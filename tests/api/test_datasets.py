@@ -11,8 +11,10 @@ import xarray
 import gradhesion as gr
 from gradhesion.cli.dataset.read.reader import in_own_units
 from gradhesion.core.problem.status import DOUBTFUL, FAILED
+from tests.conftest import mistakes
 
 PUNCH: dict[str, Any] = {"k": 0.0, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1, "a_max_over_R": 1.0}  # fmt: skip
+PROBE = {"nu": 0.5, "E": "2 MPa", "work_of_adhesion": "50 mJ/m^2", "k": 0.0, "wavelength": "5 um", "A": 0.02}
 
 
 @pytest.fixture(scope="module")
@@ -30,9 +32,8 @@ def test_a_flag_is_its_bit(flag: str, every_status: xarray.Dataset) -> None:
 
 
 def test_what_is_valid_depends_on_what_is_asked(every_status: xarray.Dataset) -> None:
-    whole, energy, force = (
-        every_status.gr.valid(name).values for name in (None, "dissipated_energy", "pull_off_force")
-    )
+    names = (None, "dissipated_energy", "pull_off_force")
+    whole, energy, force = (every_status.gr.valid(name).values for name in names)
     for status in range(128):
         assert whole[status] == (status & FAILED == 0)
         assert energy[status] == (status & (FAILED | DOUBTFUL) == 0)
@@ -92,10 +93,9 @@ def test_a_dataset_of_another_program_says_what_is_missing(lack: str, tmp_path: 
     dataset.to_netcdf(path)
     calls: list[tuple[Any, Any, str]] = [(call, path, str(path)) for call in (gr.open, gr.verify, gr.plot, gr.explore)]
     for call, given, name in [*calls, (gr.verify, dataset, "the dataset"), (gr.plot, dataset, "the dataset")]:
-        with pytest.raises(gr.DatasetError) as refused:
-            call(given)
-        assert str(refused.value).startswith(f"{name}: ")
-        assert lack in str(refused.value)
+        (sentence,) = mistakes(call, given)
+        assert sentence.startswith(f"{name}: ")
+        assert lack in sentence
 
 
 def test_a_value_that_was_changed_is_found(tmp_path: Path) -> None:
@@ -139,12 +139,8 @@ def test_what_cannot_be_verified_says_why() -> None:
     assert np.isfinite(points["pull_off_force"]).all()
 
 
-PROBE = {"nu": 0.5, "E": "2 MPa", "work_of_adhesion": "50 mJ/m^2", "k": 0.0, "wavelength": "5 um", "A": 0.02}
-
-
 @pytest.fixture(scope="module")
 def tips() -> xarray.Dataset:
-    """The force of two tips, in SI."""
     return gr.solve(PROBE, "pull_off_force", R=["20 um", "40 um"], a_max="10 um")
 
 

@@ -19,7 +19,6 @@ PUNCH: dict[str, Any] = {"nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "a_max_
 
 @pytest.fixture(scope="module")
 def grid() -> xarray.Dataset:
-    """A map over two axes."""
     return gr.solve(PUNCH, k=[0.0, 0.3, 0.6], lambda_over_R=[0.1, 0.2, 0.4])
 
 
@@ -32,16 +31,13 @@ def test_a_figure_is_that_of_the_command(grid: xarray.Dataset, tmp_path: Path, g
     assert panels._repr_png_() == (tmp_path / "command.png").read_bytes()
     (line, *_) = panels[0].get_lines()
     assert line.get_ydata() == pytest.approx(grid["pull_off_force"].sel(k=0.3).values, rel=1e-15)
-    assert [axes.get_ylabel() for axes in gr.plot(tmp_path / "x.nc", at={"k": 0.3})] == [
-        axes.get_ylabel() for axes in grid.gr.plot(at={"k": 0.3})
-    ]
+    both = gr.plot(tmp_path / "x.nc", at={"k": 0.3}), grid.gr.plot(at={"k": 0.3})
+    assert len({tuple(axes.get_ylabel() for axes in panels) for panels in both}) == 1
 
 
 def test_named_dimensions_are_for_xarray() -> None:
     named = gr.solve(PUNCH, k=0.3, lambda_over_R=xarray.DataArray([0.1, 0.2], dims="x"))
-    with pytest.raises(
-        gr.DatasetError, match="its dimension x is no parameter, and pictures are drawn over parameters"
-    ):
+    with pytest.raises(gr.DatasetError, match="dimension x is no parameter, and pictures are drawn over parameters"):
         named.gr.plot()
     points = gr.solve(PUNCH, k=0.3, lambda_over_R=xarray.DataArray([0.1, 0.2], dims="scene"))
     assert points.gr.plot("pull_off_force", x="lambda_over_R")
@@ -100,7 +96,6 @@ class Notebook:
         self.shell = SimpleNamespace(events=events, kernel=object() if kernel else None)
 
     def display(self, value: Any) -> None:
-        """Show a value, as a picture if it is one."""
         if hasattr(value, "_repr_png_"):
             self.outputs.append(value._repr_png_())
 

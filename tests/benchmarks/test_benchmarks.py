@@ -1,13 +1,16 @@
-"""The benchmarks run; what they measure is never asserted."""
+"""The benchmarks run, and drawn loops are what their page says; what they measure is never asserted."""
 
 import importlib
+import re
 import subprocess
 import sys
-from pathlib import Path
 
+import numpy as np
 import pytest
 
-ROOT = Path(__file__).parents[2]
+from benchmarks import measured_loops as loops
+from tests.conftest import ROOT
+
 SCRIPTS = sorted(path.stem for path in (ROOT / "benchmarks").glob("*.py") if "\ndef main(" in path.read_text("utf-8"))
 
 
@@ -17,7 +20,6 @@ def python(*arguments: str) -> str:
 
 @pytest.mark.parametrize("name", SCRIPTS)
 def test_every_script_has_help(name: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    monkeypatch.syspath_prepend(ROOT)
     monkeypatch.setattr(sys, "argv", ["benchmark", "--help"])
     with pytest.raises(SystemExit, match=r"^0$"):
         importlib.import_module(f"benchmarks.{name}").main()
@@ -26,10 +28,7 @@ def test_every_script_has_help(name: str, monkeypatch: pytest.MonkeyPatch, capsy
 
 def test_a_part_runs_alone() -> None:
     printed = python("-m", "benchmarks", "one_scene")
-    assert [line for line in printed.splitlines() if line.startswith("#")] == [
-        "# Benchmarks",
-        "### One scene in Python",
-    ]
+    assert re.findall("^#.*", printed, re.MULTILINE) == ["# Benchmarks", "### One scene in Python"]
     assert "| ratio | " in printed
 
 
@@ -66,3 +65,38 @@ def test_what_is_compared_with_tends_to_the_exact_values(code: str, fewest: int,
     for coarse, fine in zip(errors[::2], errors[1::2], strict=True):
         assert fine < least
         assert fine <= coarse or coarse < 1e-12
+
+
+@pytest.mark.parametrize("kind", ["smooth", "wavy", "wavy+works", "smooth+works+tilt+retract"])
+def test_points_lie_about_the_path_as_far_as_noise_has_them(kind: str) -> None:
+    for number in range(3):
+        loop, again = (loops.draw_loop(5, number, kind) for _ in range(2))
+        count = loop.depth.size
+        assert abs(loop.chi_square() / count - 1.0) < 6.0 * np.sqrt(2.0 / count)
+        assert (loop.number, loop.kind) == (number, kind)
+        assert np.array_equal([loop.depth, loop.load], [again.depth, again.load])
+    assert loop.true != loops.draw_loop(5, 0, kind).true
+
+
+def test_ranges_are_wide_and_nowhere_centred() -> None:
+    places = []
+    for number in range(6):
+        loop = loops.draw_loop(6, number, "wavy")
+        for name, decades in loops.DECADES.items():
+            low, high = loop.free[name]
+            assert np.log10(high / low) == pytest.approx(decades)
+            places.append(np.log10(loop.true[name] / low) / decades)
+    assert 0.09 < min(places) < max(places) < 0.91
+    assert np.std(places) > 0.1
+
+
+def test_words_change_what_they_say() -> None:
+    plain, drifting, approach = (loops.draw_loop(5, 0, f"smooth{word}") for word in ("", "+drift", "+approach"))
+    assert plain.depth.size == loops.POINTS > approach.depth.size > 0
+    assert not approach.unloading.any()
+    assert plain.noise[1] / loops.NOISE == pytest.approx(plain.true["load_offset"] - plain.load.min(), rel=0.1)
+    line = plain.depth < plain.depth.min() + 0.3 * (plain.true["indentation_offset"] - plain.depth.min())
+    assert np.std(plain.load[line]) == pytest.approx(plain.noise[1], rel=0.5)
+    assert drifting.chi_square() > plain.chi_square()
+    with pytest.raises(ValueError, match="'rough' is none of smooth, wavy"):
+        loops.draw_loop(5, 0, "rough")

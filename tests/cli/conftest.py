@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
@@ -17,13 +18,14 @@ from click.testing import Result
 import gradhesion as gr
 from gradhesion.cli.dataset.writer import write
 from gradhesion.cli.study import load_study, study_from
-from tests.conftest import SMALL
+from tests.conftest import SMALL, mistakes
 from tests.faults.trials import values_of
 
 Call = Callable[..., Result]
 Made = Callable[..., Path]
+Told = Callable[..., str]
 Patch = pytest.MonkeyPatch
-Completed = subprocess.CompletedProcess[str]
+Called = Callable[..., subprocess.CompletedProcess[str]]
 
 COLUMNS: Final = """indentation = { column = "depth", unit = "nm" }
 load = { column = "force", unit = "nN" }
@@ -54,9 +56,33 @@ def dataset_file(_written_once: Path, tmp_path: Path) -> Path:
 
 
 @pytest.fixture
+def refusal(gradhesion: Call) -> Told:
+    """What is said where a command is refused: one sentence, of options below their usage, and nothing else."""
+
+    def refuse(*command: Any, code: int = 2) -> str:
+        result = gradhesion(*command, code=code)
+        said = result.stderr if result.stderr.startswith("Usage: ") else f"\n\n\n{result.stderr}"
+        assert (result.stdout, said.count("\n")) == ("", 4), result.output
+        return result.stderr
+
+    return refuse
+
+
+@pytest.fixture
 def small_blocks(monkeypatch: Patch) -> None:
     """Cut the small study of 24 scenes into 6 blocks."""
     monkeypatch.setenv("GRADHESION_CHUNK", "2")
+
+
+@pytest.fixture
+def output(tmp_path: Path) -> Path:
+    return tmp_path / "data" / "out.nc"
+
+
+@pytest.fixture
+def run(gradhesion: Call, study_file: Path, output: Path) -> Call:
+    """Run the small study into that file."""
+    return partial(gradhesion, "run", study_file, "-o", output)
 
 
 @pytest.fixture
@@ -65,20 +91,6 @@ def whole(gradhesion: Call, study_file: Path, tmp_path: Path) -> dict[str, bytes
     path = tmp_path / "whole.nc"
     assert gradhesion("run", study_file, "-o", path, "--quiet").exit_code == 0
     return values_of(path)
-
-
-@pytest.fixture
-def made(gradhesion: Call, data: dict[str, Any], write_study: Made, tmp_path: Path) -> Made:
-    """Write the dataset of the small study with other keys by the command."""
-
-    def make(name: str = "out", exit_code: int = 0, parameters: dict[str, Any] | None = None, **changes: Any) -> Path:
-        study = study_from(data | changes | {"parameters": data["parameters"] | (parameters or {})})
-        path = tmp_path / f"{name}.nc"
-        result = gradhesion("run", write_study(study.text), "-o", path, "--quiet", "--overwrite")
-        assert result.exit_code == exit_code, result.stderr
-        return path
-
-    return make
 
 
 class Ran(NamedTuple):
@@ -93,13 +105,21 @@ Run = Callable[..., Ran]
 
 
 @pytest.fixture
-def ran(gradhesion: Call, write_study: Made, tmp_path: Path) -> Run:
-    """Run a study by the command."""
+def made(ran: Run, data: dict[str, Any]) -> Made:
+    """Write the dataset of the small study with other keys by the command."""
 
+    def make(name: str = "out", exit_code: int = 0, parameters: dict[str, Any] | None = None, **changes: Any) -> Path:
+        study = data | changes | {"parameters": data["parameters"] | (parameters or {})}
+        return ran(study, "--quiet", "--overwrite", output=f"{name}.nc", exit_code=exit_code).path
+
+    return make
+
+
+@pytest.fixture
+def ran(gradhesion: Call, write_study: Made, tmp_path: Path) -> Run:
     def run(study: dict[str, Any], *options: str, output: str = "out.nc", exit_code: int = 0) -> Ran:
         path = tmp_path / output
-        result = gradhesion("run", write_study(study_from(study).text), "-o", path, *options)
-        assert result.exit_code == exit_code, result.stderr
+        result = gradhesion("run", write_study(study_from(study).text), "-o", path, *options, code=exit_code)
         with gr.open(path) as dataset:
             return Ran(result.stderr, dataset.load(), path)
 
@@ -113,18 +133,15 @@ def jkr(a: np.ndarray, R: float, E_star: float, work: float) -> tuple[np.ndarray
 
 
 def mistakes_of(path: Path, *overrides: str) -> list[str]:
-    """List what is wrong with a study."""
-    with pytest.raises(gr.StudyError) as caught:
-        load_study(path, overrides)
-    return list(caught.value.mistakes)
+    return [*mistakes(load_study, path, overrides)]
 
 
 @pytest.fixture
-def on_a_full_disk() -> Callable[..., Completed]:
+def on_a_full_disk() -> Called:
     """Start the command where no file may be larger than so many bytes; the bytecode of its modules would be cut, too."""
     import resource
 
-    def run(size: int, *words: str | Path) -> Completed:
+    def run(size: int, *words: str | Path) -> subprocess.CompletedProcess[str]:
         def full_disk() -> None:
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
@@ -133,3 +150,22 @@ def on_a_full_disk() -> Callable[..., Completed]:
         return subprocess.run(command, preexec_fn=full_disk, capture_output=True, text=True, check=False)
 
     return run
+
+
+def legend(panels: Any) -> list[str]:
+    return [text.get_text() for one in panels.figure.legends for text in one.get_texts()]
+
+
+def words(panels: Any) -> str:
+    """All that stands above the panels."""
+    return str(panels.figure.get_suptitle()).replace("\N{NO-BREAK SPACE}", " ").replace("$", "").replace("{}", " ")
+
+
+def curves(axes: Any) -> list[Any]:
+    return [line for line in axes.get_lines() if not str(line.get_label()).startswith("_")]
+
+
+def contours(axes: Any) -> Any:
+    from matplotlib.contour import QuadContourSet
+
+    return next(one for one in axes.collections if isinstance(one, QuadContourSet) and not one.filled)

@@ -14,6 +14,12 @@ from gradhesion.cli.explorer import page as of_page
 from gradhesion.cli.explorer.data import rounded, study_data
 from tests.cli.conftest import Call, Made, Patch
 
+PLACES = ("k=0", "lambda_over_R=0.11", "A=0", "a_max_over_R=0.7")
+WRONG = {
+    '"pull_off_force"': ["--variable", "pull_of_force"], '"k"': ["--at", "K=0.31"], "0 to 0.31": ["--at", "k=0.7"], ".html": ["-o", "page.png"],
+    "pull_off_force: ": ["--variable", "pull_off_force"], "nothing varies": [f"--at={place}" for place in PLACES],
+}  # fmt: skip
+
 
 @given(st.lists(st.floats(allow_infinity=False), min_size=1))
 def test_rounded_values_are_exact_to_their_six_digits_and_single_where_they_fit(values: list[float]) -> None:
@@ -53,32 +59,16 @@ def test_a_page_is_taken_at_values_of_axes_and_written_once(gradhesion: Call, da
         np.testing.assert_array_equal(cut["pull_off_force"].values, expected.values)
 
 
-PLACES = ("k=0", "lambda_over_R=0.11", "A=0", "a_max_over_R=0.7")
-WRONG = {
-    '"pull_off_force"': ["--variable", "pull_of_force"],
-    '"k"': ["--at", "K=0.31"],
-    "0 to 0.31": ["--at", "k=0.7"],
-    ".html": ["-o", "page.png"],
-    "pull_off_force: ": ["--variable", "pull_off_force"],
-    "nothing varies": [f"--at={place}" for place in PLACES],
-}
-
-
-def test_wrong_wishes_are_said(gradhesion: Call, dataset_file: Path) -> None:
+def test_wrong_wishes_and_too_many_values_are_said(gradhesion: Call, dataset_file: Path, monkeypatch: Patch) -> None:
     with netCDF4.Dataset(dataset_file, "a") as file:
         for name in ("pull_off_force", "dissipated_energy"):
             file[name][:] = np.nan
     for key, options in WRONG.items():
-        result = gradhesion("explore", dataset_file, *options)
-        assert result.exit_code == 2, options
+        result = gradhesion("explore", dataset_file, *options, code=2)
         assert key in result.stderr
         assert not dataset_file.with_suffix(".html").exists()
     assert gradhesion("explore", dataset_file).exit_code == 0  # the jumps are there
-
-
-def test_a_dataset_too_large_for_a_page_is_said(gradhesion: Call, dataset_file: Path, monkeypatch: Patch) -> None:
     monkeypatch.setattr(of_page, "MOST", 90)
-    result = gradhesion("explore", dataset_file)
-    assert result.exit_code == 2
+    result = gradhesion("explore", dataset_file, "--overwrite", code=2)
     assert "96 values are too many for a page, which takes 90" in result.stderr
-    assert gradhesion("explore", dataset_file, "--at", "k=0.31").exit_code == 0
+    assert gradhesion("explore", dataset_file, "--at", "k=0.31", "--overwrite").exit_code == 0

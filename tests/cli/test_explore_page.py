@@ -41,16 +41,20 @@ STUDIES: dict[str, dict[str, Any]] = {
 AXES = ("k", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
 APART = ("status", "steep_contact", "solver")
 """What the page says in words."""
+FRAMES = """[...explorer.parts.maps, ...explorer.parts.sections.flatMap((both) => Object.values(both))].map((part) => {
+    const view = Bokeh.index.find_one(part.figure), box = view.canvas_view.el.getBoundingClientRect()
+    return [box.left + view.frame.bbox.left, box.left + view.frame.bbox.right]
+})"""
+"""Of two maps, and of the two sections of each."""
 
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
     found = next(filter(None, map(shutil.which, BROWSERS)), None)
     if found is None:
-        assert not {"BROWSER_REQUIRED", "CI"} & os.environ.keys(), (
-            "no browser: install chromium, as `apt-get install chromium` does"
-        )
-        pytest.skip("no browser is installed: chromium, as `apt-get install chromium` installs it, tests the pages")
+        told = "no browser is installed: chromium, as `apt-get install chromium` installs it, tests the pages"
+        assert not {"BROWSER_REQUIRED", "CI"} & os.environ.keys(), told
+        pytest.skip(told)
     with sync_playwright() as playwright:
         running = playwright.chromium.launch(executable_path=found, args=["--no-sandbox"])
         yield running
@@ -117,7 +121,6 @@ class Opened:
         return self.page.inner_text(f"#{element}")
 
     def press(self, axis: str, *keys: str) -> None:
-        """Move the slider of an axis by keys."""
         self.page.focus(f"#axis-{axis}")
         for key in keys:
             self.page.keyboard.press(key)
@@ -132,7 +135,6 @@ class Opened:
         self.settle()
 
     def point_of(self, part: str, x: float, y: float) -> tuple[float, float]:
-        """Find the point in the window at a place in a figure."""
         self.page.evaluate(f"window.view = Bokeh.index.find_one({part}.figure); null")
         self.page.evaluate("view.el.scrollIntoView({block: 'center'})")
         box = "const box = view.canvas_view.el.getBoundingClientRect(), {x_scale, y_scale} = view.frame;"
@@ -141,21 +143,17 @@ class Opened:
         return float(left), float(top)
 
     def point(self, part: str, x: Any, y: Any) -> None:
-        """Move the pointer to a place in a figure."""
         self.page.mouse.move(*self.point_of(part, x, y))
         self.settle()
 
     def boxes(self, which: str) -> list[dict[str, float]]:
-        """Say where some elements stand."""
-        return list(
-            self.js(f"[...document.querySelectorAll('{which}')].map(one => one.getBoundingClientRect().toJSON())")
-        )
+        found = f"[...document.querySelectorAll('{which}')].map(one => one.getBoundingClientRect().toJSON())"
+        return list(self.js(found))
 
     def wait_for_text(self, element: str, text: str) -> None:
         self.page.wait_for_function(f"document.getElementById('{element}').textContent.includes('{text}')")
 
     def download(self, what: str) -> bytes:
-        """Save a table, a study or a script."""
         with self.page.expect_download() as waiting:
             self.page.click(f"#save-{what}")
         return Path(waiting.value.path()).read_bytes()
@@ -173,7 +171,6 @@ class Opened:
 
 
 def number(text: str) -> float:
-    """Read a number as the page writes it."""
     if text in {"∞", "unbounded", "no value"}:
         return np.nan if text == "no value" else np.inf
     plain = text.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--"))
@@ -314,13 +311,6 @@ def test_on_a_phone_there_is_one_column_and_a_finger_reads_a_cell(open_page: Ope
     page.shows(k=3, c0_over_R=0, lambda_over_R=1, A=1, a_max_over_R=1)
 
 
-FRAMES = """[...explorer.parts.maps, ...explorer.parts.sections.flatMap((both) => Object.values(both))].map((part) => {
-    const view = Bokeh.index.find_one(part.figure), box = view.canvas_view.el.getBoundingClientRect()
-    return [box.left + view.frame.bbox.left, box.left + view.frame.bbox.right]
-})"""
-"""Of two maps, and of the two sections of each."""
-
-
 @pytest.mark.parametrize("width", [360, 1920])
 def test_the_page_is_used_frames_stand_in_line_and_everything_has_a_label(width: int, open_page: Open) -> None:
     page = open_page("maps", viewport={"width": width, "height": 900})
@@ -356,12 +346,9 @@ def test_lines_are_those_of_all_solvers_and_points_are_dots_over_a_parameter(ope
     page.shows(scene=2)
 
 
-@pytest.mark.parametrize(
-    ("name", "units"),
-    [("curves", {}), ("curves in units", {"indentation": 1e-9, "contact_radius": 1e-9, "load": 1e-6})],
-)
-def test_curves_are_those_of_the_scene_and_can_be_hidden(name: str, units: dict[str, float], open_page: Open) -> None:
-    page = open_page(name)
+@pytest.mark.parametrize("units", [{}, {"indentation": 1e-9, "contact_radius": 1e-9, "load": 1e-6}])
+def test_curves_are_those_of_the_scene_and_can_be_hidden(units: dict[str, float], open_page: Open) -> None:
+    page = open_page("curves in units" if units else "curves")
     for axis in ("A", "k"):
         page.press(axis, "End")
     scene = page.dataset.isel(A=2, k=1)
@@ -412,14 +399,9 @@ def test_what_an_address_has_not_is_said_and_the_rest_is_taken(open_page: Open) 
     assert open_page("maps", "#%zz=1&k=%").page.is_visible("#wrong")
 
 
-@pytest.mark.parametrize(
-    ("name", "at", "value"),
-    [("maps", {"A": 2, "a_max_over_R": 2}, "dissipated_energy"), ("machine", {"R": 2}, "pull_off_force_si")],
-)
-def test_a_study_and_a_script_that_are_downloaded_give_the_scene(
-    name: str, at: dict[str, int], value: str, open_page: Open, tmp_path: Path
-) -> None:
-    page = open_page(name)
+@pytest.mark.parametrize(("name", "value"), [("maps", "dissipated_energy"), ("machine", "pull_off_force_si")])
+def test_a_downloaded_study_and_script_give_the_scene(name: str, value: str, open_page: Open, tmp_path: Path) -> None:
+    page, at = open_page(name), {"A": 2, "a_max_over_R": 2} if name == "maps" else {"R": 2}
     for axis in at:
         page.press(axis, "End")
     scene = page.dataset.isel({axis: (size - 1) // 2 for axis, size in page.dataset.sizes.items()} | at)

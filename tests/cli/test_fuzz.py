@@ -12,18 +12,15 @@ from hypothesis import strategies as st
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.reading import load_study, study_from
+from tests.conftest import ROOT
 
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).parents[2]
 PIECES = [
     "nan", "-inf", "inf", "true", '"x"', "[", "]", "{", "}", "=", ".", ",", "#", "\n", "'", '"""', "1e999", "-0.0", "0x1F",
     "1979-05-27", "[[1], [2]]", "{}", "[{}]", "{a = {b = 1}}", "99999999999999999999", "\\", "\u00e9", "\u2028", "\x0b",
 ]  # fmt: skip
-SENTENCE = re.compile(
-    r"(:\d+: .*|--set .*: .*|: not valid TOML, .*|: not a study, .*|: [\w.]+: .* (required|needs this key)); .*|... and .*",
-    re.DOTALL,
-)
+SENTENCE = r"(?s)(:\d+: .*|--set .*: .*|: not valid TOML, .*|: not a study, .*|: [\w.]+: .* (required|needs this key)); .*|... and .*"
 """The place, what is wrong, and what to do about it."""
 CONFIG = """\
 outputs = ["pull_off_force"]
@@ -37,6 +34,10 @@ a_max_over_R = 1.0
 """
 CONFIGS = [path.read_text(encoding="utf-8").splitlines() for path in sorted((ROOT / "configs").glob("*.toml"))]
 pieces = st.one_of(st.sampled_from(PIECES), st.text(max_size=4))
+KEYS = st.sampled_from(["parameters.k", "parameters.k.num", "title", "a.b", "", "."])
+NUMBERS = ["-1", "0", "1e400", "nan", "inf", "7", "1e-300", "0.5", '"0.5"', "true", "5 m", ""]
+DEEP = [".".join("a" * 20_000) + " = 1", "[" + ".".join("a" * 20_000) + "]", "x = { " + ".".join("a" * 20_000) + " = 1 }",
+        "\n".join(".".join("ab" * 40) + f".c{i} = 1" for i in range(100)), f"k = {'[' * 50}{']' * 50}", f"k = {'{a=' * 50}1{'}' * 50}"]  # fmt: skip
 
 
 def read(content: bytes, overrides: list[str]) -> None:
@@ -52,13 +53,7 @@ def read(content: bytes, overrides: list[str]) -> None:
         assert all(one.startswith((str(path), "--set ", "... and ")) for one in mistakes)
         assert len(mistakes) == len(set(mistakes))
         for one in mistakes:
-            assert SENTENCE.fullmatch(one.removeprefix(str(path))), one
-
-
-KEYS = st.sampled_from(["parameters.k", "parameters.k.num", "title", "a.b", "", "."])
-
-
-NUMBERS = ["-1", "0", "1e400", "nan", "inf", "7", "1e-300", "0.5", '"0.5"', "true", "5 m", ""]
+            assert re.fullmatch(SENTENCE, one.removeprefix(str(path))), one
 
 
 @st.composite
@@ -80,9 +75,8 @@ def edited(draw: st.DrawFn) -> str:
             here = draw(st.sampled_from(numbers))
             lines[at] = f"{key}={value[: here.start()]}{draw(st.sampled_from(NUMBERS))}{value[here.end() :]}"
         elif slip == "key" and equals:
-            lines[at] = (
-                f"{draw(st.sampled_from([f'{key.strip()}s', key.upper(), 'parameters.k', 'k', 'n', '']))} ={value}"
-            )
+            keys = [f"{key.strip()}s", key.upper(), "parameters.k", "k", "n", ""]
+            lines[at] = f"{draw(st.sampled_from(keys))} ={value}"
         elif slip == "swap":
             lines[at], lines[other] = lines[other], lines[at]
         elif slip == "add":
@@ -107,10 +101,6 @@ def test_random_bytes(content: bytes) -> None:
 @pytest.mark.parametrize("value", ["[" * 2000, "{a=" * 500, "1" * 5000, "-" * 50, '"' * 3, "0" * 50, "\x00", "'\ud800"])
 def test_hostile_values(value: str) -> None:
     read(f"outputs = {value}\n[parameters]\nk = {value}".encode("utf-8", "replace"), [f"title={value}", f"{value}=1"])
-
-
-DEEP = [".".join("a" * 20_000) + " = 1", "[" + ".".join("a" * 20_000) + "]", "x = { " + ".".join("a" * 20_000) + " = 1 }",
-        "\n".join(".".join("ab" * 40) + f".c{i} = 1" for i in range(100)), f"k = {'[' * 50}{']' * 50}", f"k = {'{a=' * 50}1{'}' * 50}"]  # fmt: skip
 
 
 @pytest.mark.parametrize("text", DEEP)

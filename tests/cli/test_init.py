@@ -1,32 +1,34 @@
-"""Studies to start from: each is written, valid, and commented; and the shell completes what is typed."""
+"""What is met first: studies to start from, what the shell completes, and installations whose packages do not serve or lack what others have."""
 
+import json
 import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from gradhesion.cli.commands.init import studies
-from tests.cli.conftest import Call, Patch
+from gradhesion.cli.errors import MissingExtraError
+from gradhesion.cli.installation import checked, misfit, refuse_without_threads, unmet
+from tests.cli.conftest import Call, Called, Patch
+from tests.conftest import ROOT
 
-CONFIGS = Path(__file__).parents[2] / "configs"
-
-
-def test_the_studies_are_those_of_the_repository() -> None:
-    assert studies() == {path.stem: path.read_text(encoding="utf-8") for path in CONFIGS.glob("*.toml")}
-    assert {"map", "curve", "physical", "fig4a"} <= studies().keys()
+COMMAND = (sys.executable, "-m", "gradhesion")
+SCENE = "k=0.3, nu=0.3, modulus=500.0, c0_over_R=0.01, lambda_over_R=0.1, A=0.0, a_max_over_R=1.0"
+PROGRAMS = {
+    f"import gradhesion as gr; gr.solve({SCENE})": "numba 0.60.0 numba>=0.62",
+    "from gradhesion import solve": "numba 0.60.0 numba>=0.62",
+    "import gradhesion as gr; gr.explore('none.nc')": "bokeh 3.4.0 bokeh>=3.6",
+}
 
 
 def test_a_map_is_written_and_runs(gradhesion: Call, tmp_path: Path, monkeypatch: Patch) -> None:
     monkeypatch.chdir(tmp_path)
     assert gradhesion("init").exit_code == 0
     assert Path("map.toml").read_text(encoding="utf-8") == studies()["map"]
-    result = gradhesion("run", "map.toml", "--set=parameters.lambda_over_R=0.2", "--quiet")
-    assert result.exit_code == 0, result.stderr
+    gradhesion("run", "map.toml", "--set=parameters.lambda_over_R=0.2", "--quiet", code=0)
     assert Path("outputs/map.nc").exists()
 
 
@@ -40,9 +42,7 @@ def test_another_name_and_place_and_an_existing_file(gradhesion: Call, tmp_path:
     assert path.read_text(encoding="utf-8") == studies()["map"]
 
 
-def test_a_full_disk_leaves_what_was_there(
-    gradhesion: Call, tmp_path: Path, on_a_full_disk: Callable[..., Any]
-) -> None:
+def test_a_full_disk_leaves_what_was_there(gradhesion: Call, tmp_path: Path, on_a_full_disk: Called) -> None:
     path = tmp_path / "mine.toml"
     path.write_text("precious")
     assert on_a_full_disk(100, "init", "-o", path, "--overwrite").returncode == 4
@@ -51,20 +51,15 @@ def test_a_full_disk_leaves_what_was_there(
     assert gradhesion("init", "-o", path, "--overwrite").exit_code == 0
 
 
-@pytest.mark.parametrize(
-    ("name", "hint"), [("fig4", '"fig4'), ("mine.toml", "init map -o mine.toml"), ("curve.toml", "init curve -o")]
-)
-def test_an_unknown_name_has_a_suggestion(name: str, hint: str, gradhesion: Call) -> None:
-    result = gradhesion("init", name)
-    assert result.exit_code == 2
-    assert hint in result.stderr
+def test_an_unknown_name_has_a_suggestion(gradhesion: Call) -> None:
+    for name, hint in {"fig4": '"fig4', "mine.toml": "init map -o mine.toml", "curve.toml": "init curve -o"}.items():
+        assert hint in gradhesion("init", name, code=2).stderr
 
 
-def test_the_lists_name_them_all_those_of_figures_apart(gradhesion: Call) -> None:
-    features, figures = (
-        [line.split()[0] for line in gradhesion("init", "--list", *more).stdout.splitlines()]
-        for more in ((), ["--paper"])
-    )
+def test_the_studies_are_those_of_the_repository_and_listed_those_of_figures_apart(gradhesion: Call) -> None:
+    assert studies() == {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "configs").glob("*.toml")}
+    lists = (gradhesion("init", "--list", *more).stdout.splitlines() for more in ((), ["--paper"]))
+    features, figures = ([line.split()[0] for line in one] for one in lists)
     assert sorted(features + figures) == sorted(studies())
     assert {"map", "curve", "fit"} <= {*features}
     assert figures == [name for name in sorted(studies()) if name.startswith(("fig", "extra_"))]
@@ -73,30 +68,17 @@ def test_the_lists_name_them_all_those_of_figures_apart(gradhesion: Call) -> Non
 
 def completed(shell: str, words: str, count: int) -> list[str]:
     """Ask the command what it would complete, as the script of a shell does."""
-    environment = os.environ | {
-        "_GRADHESION_COMPLETE": f"{shell}_complete",
-        "COMP_WORDS": words,
-        "COMP_CWORD": str(count),
-    }
-    if shell == "fish":
-        environment["COMP_CWORD"] = words.rsplit(maxsplit=1)[-1]
-    done = subprocess.run(
-        [sys.executable, "-m", "gradhesion.cli"], env=environment, capture_output=True, text=True, check=True
-    )
-    return done.stdout.splitlines()
+    place = words.rsplit(maxsplit=1)[-1] if shell == "fish" else str(count)
+    asked = {"_GRADHESION_COMPLETE": f"{shell}_complete", "COMP_WORDS": words, "COMP_CWORD": place}
+    command = [sys.executable, "-m", "gradhesion.cli"]
+    return subprocess.check_output(command, env=os.environ | asked, text=True).splitlines()
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
-def test_shells_complete_commands_and_studies(shell: str) -> None:
-    commands = completed(shell, "gradhesion pl", 1)
-    assert {"bash": "plain,plot", "zsh": "plot", "fish": "plain,plot"}[shell] in [
-        line.split("\t")[0] for line in commands
-    ]
+def test_shells_complete_commands_and_studies_by_a_script(shell: str, tmp_path: Path) -> None:
+    commands = [line.split("\t")[0] for line in completed(shell, "gradhesion pl", 1)]
+    assert {"bash": "plain,plot", "zsh": "plot", "fish": "plain,plot"}[shell] in commands
     assert any("physical" in line for line in completed(shell, "gradhesion init ph", 2))
-
-
-@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
-def test_the_script_of_a_shell_is_one(shell: str, tmp_path: Path) -> None:
     command = [sys.executable, "-m", "gradhesion.cli", "completion", shell]
     done = subprocess.run(command, env=os.environ | {"PATH": ""}, capture_output=True, text=True, check=True)
     assert done.stderr == ""
@@ -105,3 +87,129 @@ def test_the_script_of_a_shell_is_one(shell: str, tmp_path: Path) -> None:
         script = tmp_path / "script"
         script.write_text(done.stdout)
         subprocess.run([shell, "-n", script], check=True)
+
+
+def of_another_version(folder: Path, name: str, version: str, code: str, needs: str = "") -> None:
+    """Make a package that is found before the installed one."""
+    (folder / name).mkdir(parents=True)
+    (folder / name / "__init__.py").write_text(code)
+    about = folder / f"{name}-{version}.dist-info"
+    about.mkdir()
+    metadata = f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\n"
+    (about / "METADATA").write_text(metadata + (f"Requires-Dist: {needs}\n" if needs else ""))
+
+
+def ends(folder: Path, *command: str) -> tuple[int, list[str]]:
+    """How a command ends, and the lines that it writes to stderr, with the packages of a folder before the others."""
+    environment = os.environ | {"PYTHONPATH": str(folder), "PYTHONWARNINGS": "ignore"}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    return done.returncode, done.stderr.splitlines()
+
+
+@pytest.mark.parametrize("words", ["numba 0.60.0 warmup numba>=0.62", "click 7.1 --help click>=8.2"])
+def test_a_package_too_old_is_named(words: str, tmp_path: Path) -> None:
+    package, version, command, needed = words.split()
+    of_another_version(tmp_path, package, version, "")
+    code, lines = ends(tmp_path, *COMMAND, command)
+    assert code == 2
+    assert len(lines) <= 2, "at most one beside it, of what begins"
+    assert f"{needed} ({version} is installed)" in lines[-1]
+    assert lines[-1].endswith(f'{sys.executable} -m pip install "{needed}"')
+
+
+def test_what_does_not_need_it_works(tmp_path: Path) -> None:
+    of_another_version(tmp_path, "numba", "0.60.0", "")
+    of_another_version(tmp_path, "bokeh", "3.4.0", "")
+    assert ends(tmp_path, *COMMAND, "--help") == (0, [])
+
+
+@pytest.mark.parametrize("code", PROGRAMS)
+def test_python_says_it_too(code: str, tmp_path: Path) -> None:
+    package, version, needed = PROGRAMS[code].split()
+    of_another_version(tmp_path, package, version, "")
+    status, lines = ends(tmp_path, sys.executable, "-c", code)
+    assert status == 1
+    assert lines[-1].startswith("gradhesion.cli.errors.MissingExtraError: ")
+    assert f"gradhesion needs {needed} ({version} is installed); run " in lines[-1]
+
+
+def test_what_a_package_needs_of_another_is_looked_at(tmp_path: Path) -> None:
+    """As numba, which refuses a numpy that is newer than itself."""
+    refuses = "raise ImportError('Numba needs NumPy 1.9 or less')"
+    of_another_version(tmp_path, "numba", "0.68.0", refuses, "numpy<1.10")
+    code, lines = ends(tmp_path, *COMMAND, "warmup")
+    assert code == 2
+    assert lines[-1].startswith("Numba needs NumPy 1.9 or less: numba needs numpy<1.10 (")
+    assert lines[-1].endswith('-m pip install "numpy<1.10"')
+
+
+def test_where_all_packages_serve_an_error_stays_what_it_is() -> None:
+    assert unmet() == []
+    error = ImportError("no library")
+    assert misfit(error) is None
+    assert issubclass(MissingExtraError, ImportError)
+    with pytest.raises(ImportError, match=r"^no library$") as raised, checked():
+        raise error
+    assert raised.value is error
+
+
+def test_nothing_is_looked_up_before_something_fails() -> None:
+    code = "import sys, gradhesion as gr; gr.load; print('packaging.requirements' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "False\n"
+
+
+@pytest.mark.parametrize("number", ["0", "abc", ""])
+def test_no_thread_for_the_compiler_is_one_sentence(number: str, gradhesion: Call, monkeypatch: Patch) -> None:
+    monkeypatch.setenv("NUMBA_NUM_THREADS", number)
+    if number == "":
+        refuse_without_threads()
+        assert "NUMBA_NUM_THREADS" not in os.environ
+        return
+    result = gradhesion("run", "study.toml", code=2)
+    (line,) = result.stderr.splitlines()
+    assert line.startswith(f"NUMBA_NUM_THREADS = {number}: ")
+
+
+WITHOUT = """
+import builtins, importlib, json, os, pkgutil, signal, sys
+
+missing = {"fcntl", "grp", "posix", "pwd", "resource", "syslog", "termios", "tty"}
+plain = builtins.__import__
+
+def without(name, globals=None, *rest, **named):
+    if name in missing and str((globals or {}).get("__name__")).startswith("gradhesion."):
+        raise ModuleNotFoundError(f"No module named {name!r}", name=name)  # libraries have ways of their own
+    return plain(name, globals, *rest, **named)
+
+builtins.__import__ = without
+for name in ("SIGHUP", "SIGKILL", "SIGUSR1", "SIGUSR2", "SIGPIPE", "SIGALRM", "SIGQUIT"):
+    delattr(signal, name)
+for name in ("O_CLOEXEC", "O_DIRECTORY", "fork", "getpgid", "killpg", "sched_getaffinity"):
+    delattr(os, name)
+
+import gradhesion.cli
+from gradhesion.cli.main import cli, main
+
+for found in pkgutil.walk_packages(gradhesion.cli.__path__, "gradhesion.cli."):
+    if not found.name.startswith("gradhesion.cli.work.cluster") and not found.name.endswith("__main__"):
+        importlib.import_module(found.name)
+*first, last = json.loads(sys.argv[1])
+for arguments in first:
+    assert not cli.main(arguments, prog_name="gradhesion", standalone_mode=False), arguments
+sys.argv[1:] = last
+main()
+"""
+
+
+@pytest.mark.slow
+def test_a_study_is_run_shown_and_checked_without_what_windows_lacks(root: Path, tmp_path: Path) -> None:
+    """But for the engine of clusters: Dask has its own ways on each system."""
+    first, last = ["run", str(root / "configs" / "smoke.toml"), "-o"], ["--sample", "2", "--seed", "1"]
+    readers = [[name, "smoke.nc"] for name in ("status", "info", "plot", "explore")]
+    commands = [[*first, "smoke.nc"], *readers, ["verify", "smoke.nc", *last]]
+    command = [sys.executable, "-c", WITHOUT, json.dumps(commands)]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=300, check=False)
+    assert done.returncode == 0, (done.stdout, done.stderr)
+    assert done.stdout.endswith("values are within their stated errors\n"), "the last has come to its end"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["smoke.html", "smoke.nc", "smoke.png"]

@@ -4,6 +4,7 @@ import math
 import shutil
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,13 +14,12 @@ import pint
 import pint_xarray  # noqa: F401 (registers the accessor)
 import pytest
 import xarray
-from click.testing import CliRunner, Result
 
 from gradhesion.cli.dataset import compute
-from gradhesion.cli.main import cli
 from gradhesion.cli.study import load_study, study_from
+from gradhesion.core import OUTPUTS
+from tests.conftest import ROOT, command
 
-CONFIGS = Path(__file__).parents[2] / "configs"
 STUDY: dict[str, Any] = {"title": "A small study", "outputs": ["pull_off_force", "dissipated_energy", "loading_jumps"]}
 MATERIAL: dict[str, Any] = {"k": [0.0, 0.31], "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.013}
 PUNCH = MATERIAL | {"lambda_over_R": [0.11, 0.3], "A": [0.0, 0.023], "a_max_over_R": [0.7, math.inf]}
@@ -27,10 +27,8 @@ LISTS = {"k": [0.0, 0.2, 0.31], "lambda_over_R": [0.11, 0.3, 0.2], "A": [0.0, 0.
 BALL = {"R": ["1 um", "1.3 um"], "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "13 nm"}
 TIP = BALL | {"wavelength": "0.3 um", "a_max": ["0.7 um", "inf"]}
 SHAPE = {"exponent": 1.7, "harmonics": [{"n": 1, "cos": 1.0}, {"n": 3, "sin": -0.2}]}
-CURVE: dict[str, Any] = {
-    "kind": "curve",
-    "parameters": PUNCH | {"k": 0.31, "lambda_over_R": 0.17, "a_max_over_R": [0.41, 0.7]},
-}
+DRAWN = PUNCH | {"k": 0.31, "lambda_over_R": 0.17, "a_max_over_R": [0.41, 0.7]}
+CURVE: dict[str, Any] = {"kind": "curve", "parameters": DRAWN}
 REDUCED = MATERIAL | {"lambda_over_L": [0.5, 0.9], "chi": [0.0, 0.4], "a_max_over_L": [1.5, 2.5]}
 RIM = {name: value for name, value in PUNCH.items() if name != "a_max_over_R"} | {"a_max_over_a2": [0.7, math.inf]}
 SEARCHED = PUNCH | {"A": 0.02, "a_max_over_R": 1.0, "lambda_over_R": {"start": 0.05, "stop": 1.0, "spacing": "log"}}
@@ -47,9 +45,9 @@ KINDS: dict[str, dict[str, Any]] = {
     "points in units": {"layout": "points", "parameters": {"k": [0.0, 0.31], "nu": 0.27, "A": 0.023}, "physical": TIP, "method": {"solver": ["envelope", "exact"]}},
     "Young's modulus and a spring": {"parameters": {"k": 0.0, "nu": [-0.9, 0.49], "A": 0.0}, "loading": {"control": "machine"},
                                      "physical": {"R": "5 um", "E": "2 MPa", "work_of_adhesion": "45 mJ/m^2", "a_max": "2 um", "spring_constant": ["3 N/m", "9 N/m"]}},
-    "another shape": {"parameters": PUNCH | {"lambda_over_R": 0.3}, "profile": SHAPE},
-    "dead load": {"parameters": PUNCH | {"lambda_over_R": 0.3}, "profile": SHAPE, "loading": {"control": "load"}},
-    "machine": {"parameters": PUNCH | {"lambda_over_R": 0.3, "a_max_over_R": [0.6, 0.8]}, "profile": SHAPE, "loading": {"control": "machine", "machine_stiffness": [0.1, 3.0]}},
+    "another shape": {"outputs": [*OUTPUTS], "parameters": PUNCH | {"lambda_over_R": 0.3}, "profile": SHAPE},
+    "dead load": {"outputs": [*OUTPUTS], "parameters": PUNCH | {"lambda_over_R": 0.3}, "profile": SHAPE, "loading": {"control": "load"}},
+    "machine": {"outputs": [*OUTPUTS], "parameters": PUNCH | {"lambda_over_R": 0.3, "a_max_over_R": [0.6, 0.8]}, "profile": SHAPE, "loading": {"control": "machine", "machine_stiffness": [0.1, 3.0]}},
     "roughness": {"parameters": PUNCH | {"A": 0.004, "a_max_over_R": 0.4}, "profile": {"spectrum": {"hurst": 0.8, "first": 1, "last": 9, "realisations": 3, "seed": 3}}},
     "sensitivities": {"parameters": PUNCH, "outputs": ["pull_off_force", "dissipated_energy", "pull_off_force_sensitivity", "dissipated_energy_sensitivity"]},
     "uncertainty": {"parameters": PUNCH | {"A": 0.02}, "uncertainty": {"modulus": "5 %", "samples": 8, "seed": 1}},
@@ -65,16 +63,11 @@ KINDS: dict[str, dict[str, Any]] = {
     "curves at a speed": CURVE | {"outputs": ["path", "equilibrium"], "parameters": CURVE["parameters"] | {"speed_over_reference": 0.1}, "rate": {"exponent": 0.6, "closing": "same"}},
     "states": CURVE | {"outputs": ["pressure", "surface"]},
 }  # fmt: skip
-NO_PAGE = ("states",)
+call = partial(command, code=0)
 SAMPLE = ("--sample", "8", "--seed", "1")
 CHECKED = ("map", "points", "solvers", "similarity", "Young's modulus and a spring", "roughness", "sensitivities", "uncertainty", "two works",
            "optimum", "curve", "jumps", "curve in units", "states", "a part", "reduced")  # fmt: skip
 """Those whose names and attributes differ."""
-
-
-def call(*arguments: Any) -> Result:
-    """Call a command."""
-    return CliRunner().invoke(cli, [str(argument) for argument in arguments], catch_exceptions=False)
 
 
 @pytest.fixture(scope="module")
@@ -88,15 +81,12 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
             study = {key: value for key, value in (STUDY | keys).items() if value is not None}
             path = paths[kind].with_suffix(".toml")
             path.write_text(study_from(study).text, encoding="utf-8")
-            done = call("run", path, "-o", paths[kind], "--quiet", "--threads", "2")
-            assert done.exit_code == 0, (kind, done.stderr)
+            call("run", path, "-o", paths[kind], "--quiet", "--threads", "2")
     for name, words in {"a part": ["--at", "lambda_over_R=0.2:0.4"], "reduced": ["--over", "k=max"]}.items():
         paths[name] = folder / f"{name}.nc"
-        assert call("select", paths["map"], *words, "-o", paths[name]).exit_code == 0
+        call("select", paths["map"], *words, "-o", paths[name])
     paths["fit"] = folder / "fit.nc"
-    assert (
-        call("run", CONFIGS / "fit.toml", "-o", paths["fit"], "--quiet", '--set=fit.intervals="linear"').exit_code == 0
-    )
+    call("run", ROOT / "configs" / "fit.toml", "-o", paths["fit"], "--quiet", '--set=fit.intervals="linear"')
     return paths
 
 
@@ -120,45 +110,37 @@ def test_a_file_in_blocks_is_what_python_computes_in_one(kind: str, files: dict[
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_command_takes_it(kind: str, files: dict[str, Path], tmp_path: Path) -> None:
     told = call("info", files[kind])
-    assert told.exit_code == 0
     with xarray.open_dataset(files[kind]) as dataset:
         plain = [name for name in map(str, dataset.data_vars) if f"{name}_si" not in dataset]
         shown = [name for name in plain if dataset[name].dtype == float and not name.endswith("branch")]
         assert [name for name in shown if name not in told.stdout] == []
-    assert call("plot", files[kind], "-o", tmp_path / "x.svg").exit_code == 0
-    assert call("explore", files[kind], "-o", tmp_path / "x.html").exit_code == 2 * (kind in NO_PAGE)
+    call("plot", files[kind], "-o", tmp_path / "x.svg")
+    call("explore", files[kind], "-o", tmp_path / "x.html", code=2 * (kind == "states"))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_maps_are_verified_and_changed_values_are_found(kind: str, files: dict[str, Path], tmp_path: Path) -> None:
     """Results, those in SI units, and parameters that follow from others."""
-    path = tmp_path / "x.nc"
-    found = call("verify", files[kind], *SAMPLE)
-    if KINDS[kind].get("kind", "map") != "map":
-        assert (found.exit_code, found.stdout) == (2, "")
+    path, is_map = tmp_path / "x.nc", KINDS[kind].get("kind", "map") == "map"
+    found = call("verify", files[kind], *SAMPLE, code=0 if is_map else 2)
+    if not is_map:
+        assert found.stdout == ""
         return
-    assert found.exit_code == 0, found.stdout + found.stderr
     with netCDF4.Dataset(files[kind]) as file:
         given = file.study.partition("[parameters]")[2]
-        follow = [
-            name
-            for name in ("modulus", "lambda_over_R", "A", "a_max_over_R")
-            if f"\n{name} =" not in given and file[name].ndim
-        ]
-        names = [
-            name for name in (*file.variables, *follow) if name.endswith(("force", "energy", "_si")) or name in follow
-        ]
-        names = [name for name in dict.fromkeys(names) if np.isfinite(file[name][:]).any()]
+        of_punch = [name for name in ("modulus", "lambda_over_R", "A", "a_max_over_R") if file[name].ndim]
+        names = [name for name in file.variables if name.endswith(("force", "energy", "_si"))]
+        names += [name for name in of_punch if f"\n{name} =" not in given]
+        names = [name for name in names if np.isfinite(file[name][:]).any()]
     for name in names:
         shutil.copy(files[kind], path)
         with netCDF4.Dataset(path, "a") as file:
             file[name][...] = file[name][...] * (1 + 1e-11)
-        assert call("verify", path, *SAMPLE).exit_code == 3, name
+        call("verify", path, *SAMPLE, code=3)
 
 
 def checker(*files: Path) -> subprocess.CompletedProcess[str]:
-    """Run the checker of others."""
     command = [Path(sys.prefix) / "bin" / "compliance-checker", "-t", "cf:1.11", "-c", "strict", *files]
     return subprocess.run(command, capture_output=True, text=True, check=False)
 

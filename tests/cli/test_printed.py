@@ -24,11 +24,9 @@ def shell(tmp_path: Path) -> Shell:
     """Run a line of a shell in which `gradhesion` is this one."""
 
     def call(line: str, **variables: str) -> subprocess.CompletedProcess[bytes]:
-        program = f'gradhesion() {{ {sys.executable} -m gradhesion.cli "$@"; }}; '
-        environment = os.environ | variables
-        return subprocess.run(
-            ["bash", "-c", program + line], cwd=tmp_path, env=environment, capture_output=True, check=False, timeout=120
-        )
+        command = ["bash", "-c", f'gradhesion() {{ {sys.executable} -m gradhesion.cli "$@"; }}; {line}']
+        own = os.environ | variables
+        return subprocess.run(command, cwd=tmp_path, env=own, capture_output=True, check=False, timeout=120)
 
     return call
 
@@ -81,9 +79,7 @@ def test_output_that_cannot_be_written_is_a_sentence(command: str, shell: Shell)
         assert b"damaged" not in done.stderr
 
 
-def test_names_not_in_utf_8(
-    shell: Shell, study_file: Path, gradhesion: Call, tmp_path: Path, monkeypatch: Patch
-) -> None:
+def test_names_of_bytes(shell: Shell, study_file: Path, gradhesion: Call, tmp_path: Path, monkeypatch: Patch) -> None:
     """One run by the shell, whose bytes Python has made text of; then with such text."""
     done = shell(rf"mv {study_file} $'s\xfe.toml'; gradhesion validate $'s\xfe.toml'")
     assert done.returncode == 0, done.stderr
@@ -93,8 +89,7 @@ def test_names_not_in_utf_8(
     assert rb"gradhesion run 's\udcfe.toml'" in done.stdout
     monkeypatch.chdir(tmp_path)
     for name in ("o\udcff.nc", "o\udcff/o.nc"):
-        result = gradhesion("run", "s\udcfe.toml", "-o", name)
-        assert result.exit_code == 4
+        result = gradhesion("run", "s\udcfe.toml", "-o", name, code=4)
         assert "cannot be written" in result.stderr
     Path("o\udcff.nc").touch()
     for command in READERS:
@@ -105,9 +100,7 @@ def test_names_not_in_utf_8(
 def test_names_that_are_none(name: str, gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: Patch) -> None:
     monkeypatch.chdir(tmp_path)
     for command in READERS:
-        result = gradhesion(command, name)
-        assert result.exit_code == 2
-        assert result.stderr.count("\n") == 1
+        assert gradhesion(command, name, code=2).stderr.count("\n") == 1
     no_dataset = name == "a/../.."  # there is no such folder, and no such ending
     assert gradhesion("run", study_file, "-o", name).exit_code == (2 if no_dataset else 4)
 

@@ -10,6 +10,7 @@ import pytest
 import gradhesion as gr
 from gradhesion.cli.picture.curves import read_points
 from tests.cli.conftest import BALL, COLUMNS, Call
+from tests.conftest import mistakes
 
 STUDIES = {
     "points": 'outputs = ["pull_off_force"]\n[parameters]\npoints = "table.csv"\nk = 0.0\nnu = 0.3\nlambda_over_R = 0.1\n',
@@ -57,11 +58,8 @@ TABLES: dict[str, tuple[str, str]] = {
 }  # fmt: skip
 """Texts with @x and @y in the place of the columns that a reader wants, and what is said."""
 
-NO_NUMBERS = ("1.234,5", "1 234", "0x1F", "1.5D-3", "\u22125", "2 nN", "lost", "1_000")
-TABLES |= {
-    f"number: {cell}": (f"@x\t@y\n1\t{cell}\n", f'line 2: @y = "{cell}" is not a number; write one')
-    for cell in NO_NUMBERS
-}
+for cell in ("1.234,5", "1 234", "0x1F", "1.5D-3", "\u22125", "2 nN", "lost", "1_000"):
+    TABLES[cell] = (f"@x\t@y\n1\t{cell}\n", f'line 2: @y = "{cell}" is not a number; write one')
 ENCODINGS = {"Windows text": "cp1252", "cut UTF-16": "utf-16"}
 
 OWN: dict[str, tuple[str, str, str]] = {
@@ -76,20 +74,19 @@ OWN: dict[str, tuple[str, str, str]] = {
     "data: other names": ("data", "depht;laod\n1,5;2\n", 'it has "depht", "laod"; rename some'),
 }  # fmt: skip
 """Wrong for one reader."""
+TWO_READERS = [(name, [*HEADS][(i + j) % 4]) for i, name in enumerate(TABLES) for j in (0, 2)]
+WORDS = [("loading", "Unloading"), ("approach", "retract"), ("0", "1"), ("0.0", "1.0"), ("false", "TRUE"), ("forward", "Backward"), ("Approaching", "retracting"), ("extend", "withdraw")]  # fmt: skip
 
 
 def told(reader: str, folder: Path, gradhesion: Call) -> str:
     """Say what a reader says to the wrong table in a folder."""
     if reader == "data":
-        with pytest.raises(gr.DatasetError) as caught:
-            read_points(folder / "table.csv", [("indentation", "load")], si=True)
-        (sentence,) = caught.value.mistakes
+        (sentence,) = mistakes(read_points, folder / "table.csv", [("indentation", "load")], si=True)
         beginning = f"--data {folder / 'table.csv'}: "
     else:
         study = folder / f"{reader}.toml"
         study.write_text(STUDIES[reader])
-        result = gradhesion("validate", study)
-        assert result.exit_code == 2
+        result = gradhesion("validate", study, code=2)
         sentences = result.stderr.splitlines()
         assert len(sentences) == 1, sentences
         sentence, beginning = sentences[0], f"{study}:"
@@ -97,9 +94,6 @@ def told(reader: str, folder: Path, gradhesion: Call) -> str:
     assert sentence.startswith(beginning)
     assert "\n" not in sentence
     return sentence.replace(str(folder), "")
-
-
-TWO_READERS = [(name, [*HEADS][(i + j) % 4]) for i, name in enumerate(TABLES) for j in (0, 2)]
 
 
 @pytest.mark.parametrize(("name", "reader"), TWO_READERS)
@@ -133,23 +127,14 @@ def test_what_is_no_file_is_one_sentence(reader: str, gradhesion: Call, tmp_path
     assert "the file cannot be read (" in told(reader, tmp_path, gradhesion)
 
 
-@pytest.mark.parametrize(
-    ("column", "cell"),
-    [
-        *(("cycle", one) for one in ("0.6", "inf", "1e20", "first")),
-        *(("branch", one) for one in ("unloadng", "3", "0.5")),
-    ],
-)
-def test_wrong_cycles_and_branches_are_one_sentence(column: str, cell: str, tmp_path: Path) -> None:
-    with pytest.raises(gr.StudyError) as caught:
+@pytest.mark.parametrize("cell", ["0.6", "inf", "1e20", "first", "unloadng", "3", "0.5"])
+def test_wrong_cycles_and_branches_are_one_sentence(cell: str, tmp_path: Path) -> None:
+    column = "branch" if cell in ("unloadng", "3", "0.5") else "cycle"
+    with pytest.raises(gr.StudyError, match=f'^[^\n]*line 2: {column} = "{cell}" is [^\n]*;[^\n]*$'):
         loop(tmp_path, f"depth,force,{column}\n1,2,{cell}\n", **{column: column})
-    (sentence,) = caught.value.mistakes
-    assert f'line 2: {column} = "{cell}" is ' in sentence
-    assert ";" in sentence
 
 
 def loop(tmp_path: Path, text: str, **more: str) -> Any:
-    """The loop of a fit with such a table."""
     (tmp_path / "table.csv").write_text(text)
     data = "".join(f'{key} = "{value}"\n' for key, value in more.items())
     (tmp_path / "fit.toml").write_text(STUDIES["fit"].replace("[parameters]", data + "[parameters]"))
@@ -165,9 +150,6 @@ def test_cycles_are_whole_numbers(numbers: tuple[Any, Any], kept: tuple[int, int
     assert found.cycle.tolist() == [number for number in kept for _ in ways]
     assert found.unloading.tolist() == 2 * [False, False, False, True]
     assert found.depth.tolist()[:4] == [0.0, 1e-9, 2e-9, 1e-9]
-
-
-WORDS = [("loading", "Unloading"), ("approach", "retract"), ("0", "1"), ("0.0", "1.0"), ("false", "TRUE"), ("forward", "Backward"), ("Approaching", "retracting"), ("extend", "withdraw")]  # fmt: skip
 
 
 @pytest.mark.parametrize("words", WORDS)

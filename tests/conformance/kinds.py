@@ -168,12 +168,10 @@ def drawn(kind: Kind) -> tuple[Scenes, dict[str, NDArray[Any]]]:
 
 
 def some(scenes: Mapping[str, Any], index: Any) -> Scenes:
-    """Some scenes, or their results."""
     return {name: np.asarray(values)[index] for name, values in scenes.items()}
 
 
 def one_of(scenes: Mapping[str, Any], i: Any) -> dict[str, float]:
-    """One scene as numbers."""
     return {name: float(values[i]) for name, values in scenes.items()}
 
 

@@ -10,7 +10,7 @@ from gradhesion.core import CURVES, OUTPUTS, Loading, draw_curves, solve
 from gradhesion.core.draw.draw import INTEGERS
 from tests.core.scene import pattern_of
 
-from .kinds import COUNTS, DEPTH, KINDS, LOAD, Kind, drawn, for_kinds, some
+from .kinds import COUNTS, DEPTH, KINDS, LOAD, Kind, Scenes, drawn, for_kinds, some
 from .promises import NO_CONTACT, NO_VALUE, agree, has
 
 NAN, INF = math.nan, math.inf
@@ -54,9 +54,7 @@ CONTRADICTORY: list[tuple[str, dict[str, Any], dict[str, Any]]] = [  # what the 
 
 
 @pytest.mark.parametrize(("name", "keys", "how"), CONTRADICTORY)
-def test_what_contradicts_itself_or_lacks_a_parameter_is_refused(
-    name: str, keys: dict[str, Any], how: dict[str, Any]
-) -> None:
+def test_what_contradicts_itself_or_lacks_a_parameter_is_refused(name: str, keys: Scenes, how: Scenes) -> None:
     with pytest.raises(ValueError, match=name):
         solve({key: value for key, value in (SCENE | keys).items() if value is not None}, **how)
 

@@ -1,15 +1,49 @@
-"""Laws of the theory that hold for every kind: similarity, the sum of the parts, drawn paths, rims and turns."""
+"""Laws of the theory that hold for every kind, limits in which another theory has the same values, and scenes beside others."""
 
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
+import pytest
 
 from gradhesion.core import draw_curves
 
 from .kinds import COUNTS, EXACT, KINDS, SCENES, Kind, Scenes, drawn, for_kinds, one_of, rescaled, rng_of, some
-from .promises import NO_VALUE, agree, depth_size, errors, is_sure, load_size, phase_of, work_size
-from .theory import FORCE, Curve, stiffness
+from .promises import NO_VALUE, SHARE, agree, depth_size, errors, has, is_sure, load_size, phase_of, work_size
+from .theory import FORCE, Curve, jump_density, stiffness, stretch
+
+NAMES = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
+REACH_FARTHER = {
+    "waves still fold where the search for the one ends": [
+        [
+            (0.76, 0.3806, 243.1, 0.01414, 1.806e-05, 0.0403, 0.9732),
+            (0.76, 0.01491, 6.326, 4.729, 1.429e-05, 4.256e-05, np.inf),
+        ],
+        [
+            (0.18, 0.1775, 1.04, 1.952, 1.488e-05, 0.001846, 2.616),
+            (0.18, 0.1481, 1.335, 2.572, 1.921e-05, 0.02306, np.inf),
+        ],
+        [
+            (0.76, 0.007996, 77650.0, 0.004449, 5.813e-05, 0.05437, 1.194),
+            (0.76, 0.06749, 550.9, 1.902, 1.626e-05, 7.473e-05, np.inf),
+        ],
+    ],
+    "waves so faint that the load has a single trough": [
+        [
+            (0.32, 0.2972, 40400.0, 0.006701, 0.001735, 1.496e-05, np.inf),
+            (0.32, 0.2918, 56740.0, 0.003083, 0.001109, 0.0003233, np.inf),
+        ],
+        [
+            (0.46, 0.2695, 10090.0, 0.07659, 0.003054, 2.722e-05, np.inf),
+            (0.46, 0.3448, 17280.0, 0.004058, 0.001156, 0.0001069, 0.3042),
+        ],
+    ],
+}
+"""Scenes and neighbours of the same exponent that must be known farther out."""
+EXPONENTS = np.array([0.0, 0.1, 0.37, 0.7, 0.96])
+SMOOTH: Scenes = {"k": EXPONENTS, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.07, "lambda_over_R": 0.1, "A": 0.0}
+PARABOLOIDS = [k for k in EXACT if k.exponent == 2 and not k.turn and not k.pattern]
+EVERY = for_kinds(KINDS)
 
 
 @for_kinds(KINDS)
@@ -147,3 +181,135 @@ def has_the_area(kind: Kind, scene: Scenes, path: Any, energy: float) -> None:
     area = float(np.sum(0.5 * (load[1:] + load[:-1]) * np.diff(depth)))
     moved = np.hypot(np.diff(depth) / np.ptp(depth), np.diff(load) / np.ptp(load))
     assert abs(area - energy) <= 2e-4 * np.ptp(depth) * np.ptp(load) * moved.sum(), scene
+
+
+@for_kinds(PARABOLOIDS)
+def test_smooth_punches_are_those_of_jkr(kind: Kind) -> None:
+    """Force (3 + k)/3 at any modulus, and at k = 0 the radius of Johnson, Kendall & Roberts, (9 pi/(8 E*))^(1/3)."""
+    moduli = np.array([[1.0], [700.0], [1e5]])
+    scenes = SMOOTH | {"modulus": moduli, "a_max_over_R": np.inf}
+    scenes |= {"machine_stiffness": 0.3} if kind.control == "machine" else {}
+    scenes |= {"closing_ratio": 0.4} if kind.ratio else {}
+    found = kind.solve(scenes, ["pull_off_force", "pull_off_radius"])
+    np.testing.assert_allclose(found["pull_off_force"], np.broadcast_to((3 + EXPONENTS) / 3, (3, 5)), rtol=4 * SHARE)
+    np.testing.assert_allclose(found["pull_off_radius"][:, 0], (9 * np.pi / (8 * moduli[:, 0])) ** (1 / 3), rtol=1e-6)
+
+
+@for_kinds(["cosine", "two harmonics", "cosine, two works", "envelope of a cosine"])
+def test_smooth_cycles_have_their_closed_forms(kind: Kind) -> None:
+    """Section 10: pi a^2 F(q) of the jumps in (q = 1) and out (q = (1-k)/4); section 16: the pull after the first."""
+    ratio = np.array([0.04, 0.4, 0.9, 1.0, 0.7]) if kind.ratio else np.ones(5)
+    scenes = {name: np.broadcast_to(value, 5) for name, value in (SMOOTH | {"a_max_over_R": 1.5}).items()}
+    scenes |= {"closing_ratio": ratio} if kind.ratio else {}
+    found = kind.solve(scenes)
+    k, s = EXPONENTS, stretch(EXPONENTS, stiffness(EXPONENTS, 0.3, 500.0, 0.07))
+    expected = {"snap_in_force": 8 * (1 + k) * ratio / (3 * (3 + k)), "front_energy": 2.25 * np.pi * (1 - ratio)}
+    for name, q, size, work in (("loading", np.ones(5), np.sqrt(ratio), -ratio), ("unloading", (1 - k) / 4, 1.0, 1.0)):
+        radius = ((1 + k) * q * size * s) ** (2 / (3 + k))
+        expected[f"{name}_energy"] = np.pi * work * jump_density(k, q) * radius**2
+    agree(kind, scenes, found, found | expected, [name for name in expected if name in found])
+
+
+@for_kinds([kind for kind in EXACT if kind.control == "machine"])
+def test_a_stiff_machine_prescribes_the_depth(kind: Kind) -> None:
+    """What is prescribed differs by P/S from the depth: energies differ in proportion to 1/S."""
+    scenes = drawn(kind)[0]
+    plain = replace(kind, control="displacement")
+    expected = plain.solve({name: values for name, values in scenes.items() if name != "machine_stiffness"})
+    bound = work_size(plain, scenes, scenes["a_max_over_R"])
+    for stiff in (1e6, 1e9, 1e12):
+        found = kind.solve(scenes | {"machine_stiffness": np.full_like(scenes["k"], stiff)})
+        # a turn may pass a fold that it just does not pass under the other control
+        same = np.abs(found["turning_radius"] - expected["turning_radius"]) <= 1e-3 * scenes["a_max_over_R"]
+        assert same.mean() > 0.9
+        off = np.abs(found["dissipated_energy"] - expected["dissipated_energy"])[same]
+        assert (off <= (1e4 / stiff + 4 * SHARE) * bound[same]).all()
+        agree(plain, scenes, found, expected, ["pull_off_force"], where=same, more=1e4 / stiff)
+
+
+@for_kinds(["cosine, load", "sines, load"])
+def test_a_soft_machine_prescribes_the_load(kind: Kind) -> None:
+    """All but the last jump, whose energy grows as 1/S."""
+    scenes, expected = drawn(kind)
+    soft = replace(kind, control="machine").solve(scenes | {"machine_stiffness": np.full_like(scenes["k"], 1e-13)})
+    agree(kind, scenes, soft, expected, ["pull_off_force", "loading_jumps", "unloading_jumps"])
+    bound = work_size(kind, scenes, scenes["a_max_over_R"])
+    assert (np.abs(soft["loading_energy"] - expected["loading_energy"]) <= 1e-8 * bound).all()
+
+
+@for_kinds([kind for kind in EXACT if kind.ratio])
+def test_a_tiny_ratio_is_none(kind: Kind) -> None:
+    """Closing without adhesion is the limit: sqrt(Gamma) = 1e-12 is what enters depth and load."""
+    scenes = drawn(kind)[0]
+    none, tiny = (kind.solve(scenes | {"closing_ratio": np.full_like(scenes["k"], ratio)}) for ratio in (0.0, 1e-24))
+    same = np.abs(none["turning_radius"] - tiny["turning_radius"]) <= 1e-3 * scenes["a_max_over_R"]
+    assert same.mean() > 0.9
+    for name in ("dissipated_energy", "pull_off_force", "delta_max"):
+        bound = 2 * errors(kind, scenes, none)[name] + 1e-8 * (np.abs(none[name]) + scenes["a_max_over_R"] ** 2)
+        off = np.abs(none[name] - tiny[name])
+        assert ((off <= bound) | (off == 0))[same].all(), name
+
+
+@EVERY
+def test_in_any_order_in_pieces_and_alone_by_any_threads(kind: Kind) -> None:
+    scenes, found = drawn(kind)
+    order = rng_of(f"order {kind.name}").permutation(found["status"].size)
+    for piece in (*np.array_split(order, 3), *order[:4, None]):
+        other, twice = (kind.solve(some(scenes, piece), threads=threads) for threads in (1, 2))
+        for name in other:
+            np.testing.assert_array_equal(other[name], twice[name])  # threads change no bit
+        agree(kind, some(scenes, piece), other, some(found, piece), bits=True)
+
+
+@EVERY
+def test_two_neighbours(kind: Kind) -> None:
+    """Pairs that differ in one parameter alone, against both alone: what a solver shares between them is not mixed."""
+    scenes, found = drawn(kind)
+    rng = rng_of(f"pairs {kind.name}")
+    for name in scenes:
+        first, second = (one_of(scenes, i) for i in rng.choice(found["status"].size, 2, replace=False))
+        if name in ("k", "nu") and max(first["k"], second["k"]) > 0.98:
+            continue  # only nu = 1/2 has a value there
+        own = {n: np.array([first[n], second[n] if n == name else first[n]]) for n in first}
+        pair = kind.solve(first | {name: own[name]})
+        for i in range(2):
+            agree(kind, some(own, [i]), kind.solve(some(own, [i])), some(pair, [i]), bits=True)
+
+
+@EVERY
+def test_a_grid_is_its_points(kind: Kind) -> None:
+    """Rims along the last axis share a trace, and other parameters stand before or behind them."""
+    scenes, found = drawn(kind)
+    one = one_of(scenes, rng_of(f"grid {kind.name}").integers(found["status"].size))
+    rims = np.array([0.5, np.inf, 0.2, 1.0]) if kind.unbounded else one["a_max_over_R"] * np.array([1.0, 0.4, 1.3, 0.7])
+    first = "closing_ratio" if kind.ratio else "machine_stiffness" if kind.control == "machine" else "A"
+    values = np.array([0.0, 1.0, 0.37]) if kind.ratio else one[first] * np.array([1.0, 0.5, 1.2])
+    columns = [axis.ravel() for axis in np.meshgrid(values, rims, indexing="ij")]
+    points = {n: np.full(12, v) for n, v in one.items()} | {first: columns[0], "a_max_over_R": columns[1]}
+    expected = kind.solve(points)
+    for outer, inner in ((values[:, None], rims), (values, rims[:, None])):
+        grid = kind.solve(one | {first: outer, "a_max_over_R": inner})
+        flat = {name: (array if outer.ndim == 2 else array.T).ravel() for name, array in grid.items()}
+        agree(kind, points, flat, expected, bits=True)
+
+
+@EVERY
+def test_what_is_asked_for_changes_no_value(kind: Kind) -> None:
+    scenes, found = (some(values, slice(SCENES // 2)) for values in drawn(kind))
+    names = [name for name in kind.outputs if name != "contact_slope"]  # it is that of what else is asked for
+    order = [str(name) for name in rng_of(f"asked {kind.name}").permutation(names)]
+    alone = ["pull_off_force", "pull_off_radius", "turning_radius"]  # need no cycle; of short waves one without value
+    where = (kind.solver != "asymptotic") | ~has(found, NO_VALUE)
+    for few in (order[:3], order[3:6], order[6:9], order[9:], alone):
+        asked = kind.solve(scenes, few)
+        assert set(asked) == {*few, "status"}
+        agree(kind, scenes, found | asked, found, few, where=where)
+
+
+@pytest.mark.parametrize("why", REACH_FARTHER)
+def test_a_neighbour_that_reaches_farther_changes_no_bit(why: str) -> None:
+    for pair in REACH_FARTHER[why]:
+        scenes = dict(zip(NAMES, np.array(pair).T, strict=True))
+        found, alone = KINDS[0].solve(scenes), KINDS[0].solve(some(scenes, [0]))
+        for name in found:
+            np.testing.assert_array_equal(alone[name], found[name][:1], err_msg=name)

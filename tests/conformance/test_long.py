@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from gradhesion.core import draw_curves
+from tests.core.scene import scene_of
 
 from .kinds import COUNTS, DEPTH, TWO, Kind, Scenes, for_kinds, one_of, rescaled, rng_of, some
 from .promises import agree
@@ -120,16 +121,8 @@ def test_a_turn_is_a_rim_there(kind: Kind) -> None:
 def test_waves_below_rounding_lose_nothing() -> None:
     """At k = 1 a flat punch lands on all of its area; what rounding leaves of its waves is no way out of contact."""
     rim = 7.053812616961874e-07
-    scene = {
-        "k": 1.0,
-        "nu": 0.5,
-        "modulus": 222747622.36116394,
-        "c0_over_R": 0.5,
-        "lambda_over_R": 5.29e-11,
-        "A": 6.4e-9,
-    }
-    found = PLAIN[0].solve(
-        scene | {"a_max_over_R": rim * (1.0 + 1e-12 * np.arange(4))}, ["dissipated_energy", "unloading_energy"]
-    )
+    rims = rim * (1.0 + 1e-12 * np.arange(4))
+    scenes = scene_of(1.0, 0.5, 222747622.36116394, 0.5, 5.29e-11, 6.4e-9, rims)
+    found = PLAIN[0].solve(scenes, ["dissipated_energy", "unloading_energy"])
     np.testing.assert_allclose(found["dissipated_energy"], np.pi * rim**2, rtol=1e-11)
     np.testing.assert_allclose(found["unloading_energy"], 0.0, atol=1e-11 * np.pi * rim**2)

@@ -7,12 +7,14 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from gradhesion.core import FLAGS, draw_curves
+from tests.core.scene import scene_of
 
 from .kinds import BY_NAME, COUNTS, EXACT, SCENES, Kind, Scenes, drawn, for_kinds, one_of, rng_of, some
 from .promises import CLOSE, has
-from .theory import Curve
+from .theory import Array, Curve, Waves
 
 NOT_ONE = FLAGS["loading_contact_not_one_disc"]
+DIPS: list[Waves] = [((1, 0.5, 0.0), (4, -0.4, 0.2)), ((1, 0.5, 0.3), (5, -0.7, 0.0)), ((1, 0.2, 0.1), (3, -0.3, 0.4))]
 
 
 @for_kinds(EXACT)
@@ -87,14 +89,17 @@ def least_gap(kind: Kind, scene: Scenes) -> float:
     return least
 
 
+def swings(waves: Waves, x: Array) -> Any:
+    """The height of waves at x wavelengths, over that of one cosine."""
+    phases = [2 * np.pi * n * x for n, _, _ in waves]
+    return sum(even * (1 - np.cos(x)) + odd * np.sin(x) for (_, even, odd), x in zip(waves, phases, strict=True))
+
+
 def touches_elsewhere(kind: Kind, scene: Scenes) -> bool:
     """Tell whether the punch is lower somewhere than at its centre, so that contact starts elsewhere."""
-    r = np.linspace(0.0, scene["a_max_over_R"], 4000)
-    height = r**kind.exponent / kind.exponent
-    for n, even, odd in kind.waves:
-        phase = 2 * np.pi * n * r / scene["lambda_over_R"]
-        height = height + scene["lambda_over_R"] * scene["A"] * (even * (1 - np.cos(phase)) + odd * np.sin(phase))
-    return bool(height.min() < 0)
+    r, wavelength = np.linspace(0.0, scene["a_max_over_R"], 4000), scene["lambda_over_R"]
+    waves = wavelength * scene["A"] * swings(kind.waves, r / wavelength)
+    return bool(np.min(r**kind.exponent / kind.exponent + waves) < 0)
 
 
 def beside_the_step(kind: Kind, scenes: Scenes) -> list[Scenes]:
@@ -138,18 +143,11 @@ def test_a_punch_that_touches_elsewhere_first_is_flagged(kind: Kind) -> None:
     assert has(found, NOT_ONE)[lower].all()
 
 
-@pytest.mark.parametrize(
-    "waves", [((1, 0.5, 0.0), (4, -0.4, 0.2)), ((1, 0.5, 0.3), (5, -0.7, 0.0)), ((1, 0.2, 0.1), (3, -0.3, 0.4))]
-)
-def test_the_amplitude_from_which_a_punch_touches_elsewhere_first(waves: tuple[tuple[int, float, float], ...]) -> None:
+@pytest.mark.parametrize("waves", DIPS)
+def test_the_amplitude_from_which_a_punch_touches_elsewhere_first(waves: Waves) -> None:
     """A dip that reaches the height of the centre between two samples of the profile; the amplitude is that of many."""
-    wavelength = 0.1
-    r = np.linspace(0.0, 1.2 * wavelength, 1_000_001)[1:]
-    swing = sum(
-        even * (1 - np.cos(2 * np.pi * n * r / wavelength)) + odd * np.sin(2 * np.pi * n * r / wavelength)
-        for n, even, odd in waves
-    )
-    least = np.min(0.5 * r[swing < 0] ** 2 / (-wavelength * swing[swing < 0]))
-    scene = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": wavelength, "a_max_over_R": 1.0}
-    found = Kind("a dip", waves=waves).solve(scene | {"A": least * np.array([1 - 2e-4, 1 + 2e-4])})
-    assert has(found, NOT_ONE).tolist() == [False, True]
+    wavelength, x = 0.1, np.linspace(0.0, 1.2, 1_000_001)[1:]
+    swing = swings(waves, x)
+    least = np.min(0.5 * wavelength * x[swing < 0] ** 2 / -swing[swing < 0])
+    scene = scene_of(0.3, 0.3, 500.0, 0.01, wavelength, least * np.array([1 - 2e-4, 1 + 2e-4]), 1.0)
+    assert has(Kind("a dip", waves=waves).solve(scene), NOT_ONE).tolist() == [False, True]

@@ -35,6 +35,11 @@ def stretch(k: Any, M: Any) -> Array:
     return np.asarray(np.sqrt(2 ** (1 + np.asarray(k)) * np.pi / M))
 
 
+def jump_density(k: Any, q: Any) -> Any:
+    """The energy of a jump of a smooth punch over pi a^2, section 10: q = 1 of the jump in, (1-k)/4 of that out."""
+    return 16 * q * q / ((1 + k) * (3 + k) * (5 + k)) - 8 * q / ((1 + k) * (3 + k)) + 2 / (1 + k) - 1
+
+
 def power_factor(k: Any, m: float) -> Array:
     """depth of the punch r^m/m over a^m, corrected equation (5.5)."""
     k = np.asarray(k, dtype=float)

@@ -25,6 +25,36 @@ MAP: dict[str, Any] = {"nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "A": 0.1,
 CURVE = scene_of(0.2, 0.3, 300.0, 0.01, 0.1, 0.03, 0.6)
 WAVELENGTHS = np.geomspace(0.02, 2.0, 200)
 EXPONENTS = np.arange(0.0, 1.01, 0.02)[:, None]
+BEST = [
+    *(({"modulus": modulus, "A": A}, best) for modulus, A, best in ((500.0, 0.1, 0.68), (100.0, 0.05, 0.72))),
+    *(({"c0_over_R": c0}, best) for c0, best in ((1.0, 0.0), (0.1, 0.06), (0.03, 0.52), (0.001, 0.8))),
+    *(({"nu": nu}, best) for nu, best in ((0.45, 0.76), (0.49, 0.86))),
+    *(({"nu": 0.5, "c0_over_R": c0}, k) for c0, k in ((0.01, 1.0), (0.05, 1.0), (0.1, 0.58), (0.2, 0.0))),
+    ({"nu": 0.5, "c0_over_R": 0.1, "A": 0.05}, 0.7),
+]
+THRESHOLDS = [(0.7, 500.0, 0.1, 0.574), (0.2, 500.0, 0.1, 0.646), (0.0, 500.0, 0.1, 0.695), (0.2, 100.0, 0.05, 0.564)]
+ERRORS = [
+    (0.1, 0.0102, 0.315, 0.0772, 3.93e-3, 3.26e-3),
+    (0.05, 0.0049, 0.241, 0.0408, -6.92e-4, 8.12e-4),
+    (0.01, 0.00095, 0.128, 0.0085, -6.68e-6, 2.79e-5),
+]
+TIPS = [(0.1, 0.166, 0.531), (0.05, 0.072, 0.376), (0.01, 0.0148, 0.0909), (0.001, 0.0022, 0.0140)]
+TURNS = [(0.1, -0.0279, -3.47e-5), (0.01, -0.00566, -2.48e-6), (0.001, -5.87e-4, -1.62e-7)]
+LEAST = [(0.1, 0.03, (0.72, 0.42, 0.16)), (0.01, 0.03, (0.71, 0.49, 0.20)), (0.1, 0.0, (0.65, 0.14, 0.0))]
+ELSEWHERE = [
+    *((0.5, c0, 0.1, {"exact": lowest}) for c0, lowest in ((0.1, 0.84), (1.0, 0.22))),
+    (0.3, 0.01, 0.01, {"envelope": 0.77, "fits": 0.77}),
+    (0.3, 0.1, 0.01, {"envelope": 0.56, "fits": 0.56}),
+    (0.3, 1.0, 0.01, {"envelope": 0.16, "fits": 0.17}),
+]
+GRADIENTS = [
+    *(({"k": k, "A": 0.0}, 2 * k / (3 + k), 1e-9) for k in (0.2, 0.5, 0.8)),  # 0.125, 0.286, 0.421
+    ({"k": 1.0, "nu": 0.5, "A": 0.0}, 0.5, 1e-9),
+    ({}, 0.043, 5e-4),
+    ({"lambda_over_R": 0.01}, 0.024, 5e-4),
+    ({"k": 1.0, "nu": 0.5}, 0.337, 5e-4),
+]
+ENVELOPES = [(1.0, 1.0, 0.132), (1.0, 2.0, 0.046), (1.0, 4.0, 0.013), (0.0, 2.0, 0.00032), (0.5, 2.0, 0.0026)]
 
 
 def _force(**changes: Any) -> Array:
@@ -32,7 +62,6 @@ def _force(**changes: Any) -> Array:
 
 
 def _largest_force(**changes: Any) -> Array:
-    """Return the largest pull-off force over the wavelength."""
     return np.asarray(_force(lambda_over_R=WAVELENGTHS, **changes).max(axis=-1))
 
 
@@ -50,21 +79,10 @@ def _strengths(scene: dict[str, Any]) -> tuple[Array, Array]:
 
 
 def _turned(scene: dict[str, Any]) -> dict[str, Any]:
-    """Return a scene whose rim is at 2 a_2."""
     return scene | {"a_max_over_R": np.asarray(2 * effective.jump_in_radius(scene["k"], *_strengths(scene)))}
 
 
-@pytest.mark.parametrize(
-    ("changes", "best"),
-    [
-        *(({"modulus": modulus, "A": A}, best) for modulus, A, best in ((500.0, 0.1, 0.68), (100.0, 0.05, 0.72))),
-        *(({"c0_over_R": c0}, best) for c0, best in ((1.0, 0.0), (0.1, 0.06), (0.03, 0.52), (0.001, 0.8))),
-        *(({"nu": nu}, best) for nu, best in ((0.45, 0.76), (0.49, 0.86))),
-        *(({"nu": 0.5, "c0_over_R": c0}, k) for c0, k in ((0.01, 1.0), (0.05, 1.0), (0.1, 0.58), (0.2, 0.0))),
-        ({"nu": 0.5, "c0_over_R": 0.1, "A": 0.05}, 0.7),
-    ],
-    ids=str,
-)
+@pytest.mark.parametrize(("changes", "best"), BEST, ids=str)
 def test_the_best_exponent(changes: dict[str, float], best: float) -> None:
     """Fig. 4a: the pull-off force has its maximum at a k inside (0, 1), near 0.7; where depends on all else."""
     exponents = EXPONENTS if changes.get("nu") == 0.5 else EXPONENTS[:-1]
@@ -91,10 +109,7 @@ def test_the_largest_force() -> None:
     assert not_one_disc == pytest.approx(0.48, abs=0.006), "loading does not reach half of the scenes as one disc"
 
 
-@pytest.mark.parametrize(
-    ("k", "modulus", "A", "place"),
-    [(0.7, 500.0, 0.1, 0.574), (0.2, 500.0, 0.1, 0.646), (0.0, 500.0, 0.1, 0.695), (0.2, 100.0, 0.05, 0.564)],
-)
+@pytest.mark.parametrize(("k", "modulus", "A", "place"), THRESHOLDS)
 def test_the_threshold(k: float, modulus: float, A: float, place: float) -> None:
     """Fig. 4c: beyond a_max/R of about 0.56, the furthest radius of pull-off, a finite punch is an infinite one."""
     scene = MAP | {"k": k, "modulus": modulus, "A": A, "lambda_over_R": np.geomspace(0.02, 2.0, 2000)}
@@ -115,14 +130,7 @@ def test_a_finite_size() -> None:
     assert ((inner > force[:, :-2]) & (inner > force[:, 2:])).sum(axis=1).tolist() == [9, 9, 9, 9]
 
 
-@pytest.mark.parametrize(
-    ("wavelength", "depth", "printed", "load", "force", "loss"),
-    [
-        (0.1, 0.0102, 0.315, 0.0772, 3.93e-3, 3.26e-3),
-        (0.05, 0.0049, 0.241, 0.0408, -6.92e-4, 8.12e-4),
-        (0.01, 0.00095, 0.128, 0.0085, -6.68e-6, 2.79e-5),
-    ],
-)
+@pytest.mark.parametrize(("wavelength", "depth", "printed", "load", "force", "loss"), ERRORS)
 def test_the_asymptotic_form(
     wavelength: float, depth: float, printed: float, load: float, force: float, loss: float
 ) -> None:
@@ -141,10 +149,7 @@ def test_the_asymptotic_form(
         assert short[name] / whole[name] - 1 == pytest.approx(expected, rel=0.01)
 
 
-@pytest.mark.parametrize(
-    ("wavelength", "nearest", "furthest"),
-    [(0.1, 0.166, 0.531), (0.05, 0.072, 0.376), (0.01, 0.0148, 0.0909), (0.001, 0.0022, 0.0140)],
-)
+@pytest.mark.parametrize(("wavelength", "nearest", "furthest"), TIPS)
 def test_tips(wavelength: float, nearest: float, furthest: float) -> None:
     """Fig. 6: how far the envelopes are from the tips of the curve, where it folds, over the amplitude."""
     k, A, M = CURVE["k"], CURVE["A"], _material(CURVE)
@@ -160,10 +165,7 @@ def test_tips(wavelength: float, nearest: float, furthest: float) -> None:
     assert [inside.min(), inside.max()] == pytest.approx([nearest, furthest], rel=0.02)
 
 
-@pytest.mark.parametrize(
-    ("wavelength", "radius", "depth"),
-    [(0.1, -0.0279, -3.47e-5), (0.01, -0.00566, -2.48e-6), (0.001, -5.87e-4, -1.62e-7)],
-)
+@pytest.mark.parametrize(("wavelength", "radius", "depth"), TURNS)
 def test_the_effective_path(wavelength: float, radius: float, depth: float) -> None:
     """Fig. 7: a_am tends to a_max, and the least depths of both paths to each other, as lambda/a tends to 0."""
     scene = CURVE | {"lambda_over_R": wavelength}
@@ -201,10 +203,7 @@ def _over_exponents(end: float, nu: float, c0: float, wavelength: float, A: floa
     return _turned(CURVE | scene)
 
 
-@pytest.mark.parametrize(
-    ("wavelength", "A", "best"),
-    [(0.1, 0.03, (0.72, 0.42, 0.16)), (0.01, 0.03, (0.71, 0.49, 0.20)), (0.1, 0.0, (0.65, 0.14, 0.0))],
-)
+@pytest.mark.parametrize(("wavelength", "A", "best"), LEAST)
 def test_the_energy_over_the_exponent(wavelength: float, A: float, best: tuple[float, ...]) -> None:
     """Fig. 9: for a_am = 2 a_2 the energy falls up to k = 1 of a shallow gradient, if the half-space is incompressible."""
     for c0, lowest in zip((0.01, 0.1, 1.0), best, strict=True):
@@ -213,15 +212,7 @@ def test_the_energy_over_the_exponent(wavelength: float, A: float, best: tuple[f
     assert (np.diff(_loss(**_over_exponents(1.0, 0.5, 0.01, wavelength, A))) < 0.0).all()
 
 
-@pytest.mark.parametrize(
-    ("nu", "c0", "wavelength", "lowest"),
-    [
-        *((0.5, c0, 0.1, {"exact": lowest}) for c0, lowest in ((0.1, 0.84), (1.0, 0.22))),
-        (0.3, 0.01, 0.01, {"envelope": 0.77, "fits": 0.77}),
-        (0.3, 0.1, 0.01, {"envelope": 0.56, "fits": 0.56}),
-        (0.3, 1.0, 0.01, {"envelope": 0.16, "fits": 0.17}),
-    ],
-)
+@pytest.mark.parametrize(("nu", "c0", "wavelength", "lowest"), ELSEWHERE)
 def test_the_least_energy_elsewhere(nu: float, c0: float, wavelength: float, lowest: dict[str, float]) -> None:
     """A deep gradient has a minimum too; and the formula and the fits have minima of their own."""
     scene = _over_exponents(1.0 if nu == 0.5 else 0.99, nu, c0, wavelength, 0.03)
@@ -232,16 +223,7 @@ def test_the_least_energy_elsewhere(nu: float, c0: float, wavelength: float, low
         assert k[np.argmin(loss)] == pytest.approx(expected, abs=0.011), way
 
 
-@pytest.mark.parametrize(
-    ("changes", "power", "error"),
-    [
-        *(({"k": k, "A": 0.0}, 2 * k / (3 + k), 1e-9) for k in (0.2, 0.5, 0.8)),  # 0.125, 0.286, 0.421
-        ({"k": 1.0, "nu": 0.5, "A": 0.0}, 0.5, 1e-9),
-        ({}, 0.043, 5e-4),
-        ({"lambda_over_R": 0.01}, 0.024, 5e-4),
-        ({"k": 1.0, "nu": 0.5}, 0.337, 5e-4),
-    ],
-)
+@pytest.mark.parametrize(("changes", "power", "error"), GRADIENTS)
 def test_the_depth_of_the_gradient(changes: dict[str, float], power: float, error: float) -> None:
     """Conclusion (2), that the root of c0/R controls the energy: waves lower d ln H/d ln c0, which is 1/2 at k = 1 only."""
     loss = _loss(c0_over_R=0.01 * np.array([0.99, 1.01]), **changes)
@@ -361,10 +343,7 @@ def test_one_disc() -> None:
     assert (lowest_outside - highest)[visited].min() == pytest.approx(0.045, abs=1e-3)
 
 
-@pytest.mark.parametrize(
-    ("k", "reach", "off"),
-    [(1.0, 1.0, 0.132), (1.0, 2.0, 0.046), (1.0, 4.0, 0.013), (0.0, 2.0, 0.00032), (0.5, 2.0, 0.0026)],
-)
+@pytest.mark.parametrize(("k", "reach", "off"), ENVELOPES)
 def test_the_energy_of_the_envelopes(k: float, reach: float, off: float) -> None:
     """That of solver = "envelope" leaves out the mean height of the waves (docs/validity.md).
 

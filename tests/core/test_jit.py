@@ -16,9 +16,8 @@ import pytest
 from gradhesion.core.jit import CORE, changeable
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has other rights")
-as_root = pytest.mark.skipif(
-    sys.platform != "win32" and os.getuid() != 0, reason="files of another user are made by root alone"
-)
+is_root = sys.platform == "win32" or os.getuid() == 0
+as_root = pytest.mark.skipif(not is_root, reason="files of another user are made by root alone")
 OTHER = 12345
 """Another user."""
 
@@ -47,6 +46,7 @@ print(json.dumps({
 }))
 """
 """A program with kernels, and one of its user's own."""
+NAMES = [".", "core", "core/one.nbi", "core/one.nbc"]
 
 
 def ended(script: Path, tree: Path | None = None, **environment: str) -> dict[str, Any]:
@@ -54,12 +54,9 @@ def ended(script: Path, tree: Path | None = None, **environment: str) -> dict[st
     if not script.exists():  # some versions of numba compile anew what is as it was, but written again
         script.write_text(KERNELS)
     unset = ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME")
-    inherited = {name: value for name, value in os.environ.items() if name not in unset}
-    if tree is not None:
-        environment["PYTHONPATH"] = str(tree)
-    done = subprocess.run(
-        [sys.executable, script], env=inherited | environment, cwd="/", capture_output=True, text=True, check=False
-    )
+    own = {name: value for name, value in os.environ.items() if name not in unset} | environment
+    own |= {"PYTHONPATH": str(tree)} if tree is not None else {}
+    done = subprocess.run([sys.executable, script], env=own, cwd="/", capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
     found: dict[str, Any] = json.loads(done.stdout)
     assert found["value"] == 25.0
@@ -152,9 +149,6 @@ def test_a_pickle_of_another_user_is_not_run(shared: Path, tmp_path: Path) -> No
         os.chown(path, os.getuid(), -1)
     assert ended(script, **where)["folder"] == str(folder)
     assert (tmp_path / "run").exists()
-
-
-NAMES = [".", "core", "core/one.nbi", "core/one.nbc"]
 
 
 @pytest.mark.parametrize("name", NAMES)

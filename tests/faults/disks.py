@@ -18,14 +18,13 @@ from pathlib import Path
 from typing import Final
 
 from gradhesion.cli.terminal import interrupts
+from tests.conftest import in_memory
 from tests.faults.trials import OLD, Trials, ended, run, signal_at
-from tests.memory import in_memory
 
 PAGE: Final = os.sysconf("SC_PAGE_SIZE")
 
 
 def mount(*words: str | Path) -> None:
-    """Mount something."""
     subprocess.run(["mount", *map(str, words)], check=True, capture_output=True)
 
 
@@ -38,7 +37,6 @@ def checked(trials: Trials, code: int, *, overwrite: bool) -> int:
 
 
 def empty(trials: Trials) -> None:
-    """Empty the disk."""
     for path in trials.folder.iterdir():
         shutil.rmtree(path) if path.is_dir() else path.unlink()
 
@@ -142,12 +140,10 @@ def at_random_moments(trials: Trials, what: str, count: int, draw: random.Random
 
 
 def in_words(codes: Counter[int]) -> str:
-    """Write down how runs ended."""
     return f"{codes.total():,} ({codes[4]:,} ended with exit code 4)"
 
 
 def main() -> None:
-    """Try disks, in a namespace of their own."""
     if "--inside" not in sys.argv:
         command = ["unshare", "-m", sys.executable, "-m", "tests.faults.disks", "--inside", *sys.argv[1:]]
         sys.exit(subprocess.run(command, check=False).returncode)

@@ -4,22 +4,22 @@ import re
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
-pytestmark = pytest.mark.slow
+from tests.conftest import ROOT
 
-ROOT = Path(__file__).parents[2]
+pytestmark = pytest.mark.slow
+MOUNT = ["unshare", "-m", "mount", "-t", "tmpfs", "none", "/mnt"]
+CAN_MOUNT = shutil.which("unshare") and subprocess.run(MOUNT, check=False, capture_output=True).returncode == 0
 
 
 def test_a_killed_run_loses_nothing_and_leaves_nothing_behind() -> None:
     command = [sys.executable, "-m", "tests.faults.trials", "--random", "6", "--seed", "5"]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
-    told = re.match(
-        r"killed before and after each of (\d+) changes .*: (\d+) runs ended early, (\d+) parts", done.stdout
-    )
+    words = r"killed before and after each of (\d+) changes .*: (\d+) runs ended early, (\d+) parts"
+    told = re.match(words, done.stdout)
     assert told, done.stdout
     changes, ended, kept = map(int, told.groups())
     assert changes >= 6 + 3, "a rename a part, those of the study, the state and the dataset"
@@ -27,13 +27,7 @@ def test_a_killed_run_loses_nothing_and_leaves_nothing_behind() -> None:
     assert kept >= 2 * changes
 
 
-MOUNT = ["unshare", "-m", "mount", "-t", "tmpfs", "none", "/mnt"]
-
-
-@pytest.mark.skipif(
-    shutil.which("unshare") is None or subprocess.run(MOUNT, check=False, capture_output=True).returncode != 0,
-    reason="no disk can be mounted here",
-)
+@pytest.mark.skipif(not CAN_MOUNT, reason="no disk can be mounted here")
 def test_disks_that_are_full_read_only_or_gone_lose_nothing() -> None:
     """A run is stopped before its 1st, 8th ... change of a name."""
     command = [sys.executable, "-m", "tests.faults.disks", "7", "2"]

@@ -9,6 +9,7 @@ link, an unlink, a removal of a folder), or by SIGKILL or SIGTERM at a random mo
 
 import argparse
 import atexit
+import itertools
 import os
 import random
 import shutil
@@ -29,14 +30,12 @@ from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.main import main as gradhesion
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.terminal import interrupts
-from tests.conftest import SMALL
-from tests.memory import in_memory
+from tests.conftest import SMALL, in_memory
 
 OLD = b"precious"
 
 
 def values_of(path: Path) -> dict[str, bytes]:
-    """Read all bytes of all variables."""
     with netCDF4.Dataset(path) as file:
         file.set_auto_mask(False)
         return {name: np.asarray(variable[...]).tobytes() for name, variable in file.variables.items()}
@@ -64,7 +63,6 @@ def start(*words: str | Path, folder: Path, before: Callable[[], None] = lambda:
 
 
 def ended(pid: int) -> int:
-    """Wait for a run; a signal that has killed it is negative."""
     return os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
 
 
@@ -112,14 +110,16 @@ class Trials:
     def _in_full(self) -> int:
         return ended(run(self.study, self.output, "--overwrite"))
 
-    def fault(self, *, overwrite: bool, before: Callable[[], None], kill: Callable[[int], None]) -> int:
-        """Kill a run, and check what is left and what the same command makes of it."""
+    def empty(self) -> None:
         shutil.rmtree(self.folder)
         self.folder.mkdir()
-        options = ["--overwrite"] if overwrite else []
+
+    def fault(self, *, overwrite: bool, before: Callable[[], None], kill: Callable[[int], None]) -> int:
+        """Kill a run, and check what is left and what the same command makes of it."""
+        self.empty()
         if overwrite:
             self.output.write_bytes(OLD)
-        pid = run(self.study, self.output, *options, before=before)
+        pid = run(self.study, self.output, *(["--overwrite"] if overwrite else []), before=before)
         kill(pid)
         return self.checked(ended(pid), overwrite=overwrite, codes=(0, 130, -signal.SIGKILL, -signal.SIGTERM))
 
@@ -147,41 +147,32 @@ class Trials:
         return code
 
     def told(self) -> str:
-        """What the last run has written to stderr."""
         return (self.folder.parent / "stderr").read_text()
 
-    def at_every_change_of_a_name(self) -> int:
-        """Kill a run before and after each change of a name; tells how many there are."""
-        for number in range(1, 1000):
-            for after in (False, True):
-                code = self.fault(
-                    overwrite=number % 2 == 0,
-                    before=partial(signal_at, number, signal.SIGKILL, after=after),
-                    kill=lambda _: None,
-                )
-                if code == 0:
-                    return number - 1
+    def at_every_change_of_a_name(self, trial: Callable[[int, Callable[[], None]], int]) -> int:
+        """Kill what is tried before and after each change of a name; tells how many there are."""
+        for number, after in itertools.product(range(1, 1000), (False, True)):
+            if trial(number, partial(signal_at, number, signal.SIGKILL, after=after)) == 0:
+                return number - 1
         raise AssertionError("it never ends")
 
-    def merges_at_every_change_of_a_name(self) -> int:
-        """Kill a merge before and after each change of a name, and give the same command again."""
-        for number in range(1, 1000):
-            for after in (False, True):
-                shutil.rmtree(self.folder)
-                self.folder.mkdir()
-                assert ended(run(self.study, self.output, "--shard", "1/1")) == 0
-                command = ("merge", self.output)
-                kill = partial(signal_at, number, signal.SIGKILL, after=after)
-                code = ended(start(*command, folder=self.folder.parent, before=kill))
-                if self.output.exists():
-                    assert status_of(self.output)["state"] == "complete"
-                assert ended(start(*command, folder=self.folder.parent)) == 0, self.told()
-                assert status_of(self.output)["state"] == "complete"
-                assert values_of(self.output) == self.whole
-                assert os.listdir(self.folder) == ["out.nc"], os.listdir(self.folder)
-                if code == 0:
-                    return number - 1
-        raise AssertionError("it never ends")
+    def of_a_run(self, number: int, before: Callable[[], None]) -> int:
+        """Kill a run, whose output is there before every other time."""
+        return self.fault(overwrite=number % 2 == 0, before=before, kill=lambda _: None)
+
+    def of_a_merge(self, _number: int, before: Callable[[], None]) -> int:
+        """Kill a merge, and give the same command again."""
+        self.empty()
+        assert ended(run(self.study, self.output, "--shard", "1/1")) == 0
+        command = ("merge", self.output)
+        code = ended(start(*command, folder=self.folder.parent, before=before))
+        if self.output.exists():
+            assert status_of(self.output)["state"] == "complete"
+        assert ended(start(*command, folder=self.folder.parent)) == 0, self.told()
+        assert status_of(self.output)["state"] == "complete"
+        assert values_of(self.output) == self.whole
+        assert os.listdir(self.folder) == ["out.nc"], os.listdir(self.folder)
+        return code
 
     def at_random(self, count: int, seed: int) -> None:
         """Kill runs at random moments of their life, by SIGKILL and SIGTERM in turn."""
@@ -196,7 +187,6 @@ class Trials:
 
 
 def main() -> None:
-    """Kill runs, and tell how many."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--random", type=int, default=200)
     parser.add_argument("--seed", type=int, default=random.randrange(10**6))
@@ -205,8 +195,7 @@ def main() -> None:
     start = time.monotonic()
     with tempfile.TemporaryDirectory(dir=in_memory(2**26)) as folder:
         trials = Trials(Path(folder))
-        changes = trials.at_every_change_of_a_name()
-        merges = trials.merges_at_every_change_of_a_name()
+        changes, merges = map(trials.at_every_change_of_a_name, (trials.of_a_run, trials.of_a_merge))
         trials.at_random(asked.random, asked.seed)
     print(
         f"killed before and after each of {changes} changes of a name ({merges} of a merge), and at {asked.random} random moments (seed "

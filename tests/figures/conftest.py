@@ -1,19 +1,14 @@
 """The studies of the figures, computed in memory, and the scripts that draw them."""
 
-import sys
 from collections.abc import Callable
 from functools import cache
-from pathlib import Path
 
 import pytest
 import xarray
 
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.study.reading import load_study
-
-ROOT = Path(__file__).parents[2]
-if str(ROOT) not in sys.path:
-    sys.path.append(str(ROOT))  # the scripts that draw are not installed
+from tests.conftest import ROOT
 
 SMALL = {
     "fig4a": ("k={ start = 0.0, stop = 0.98, num = 50 }", "lambda_over_R={ start = 0.1, stop = 0.8, num = 29 }"),
@@ -43,5 +38,4 @@ def _computed(name: str, overrides: tuple[str, ...]) -> xarray.Dataset:
 
 @pytest.fixture
 def computed() -> Callable[..., xarray.Dataset]:
-    """A study of configs/ on short axes, with parameters overridden."""
     return lambda name, *overrides: _computed(name, overrides)

@@ -6,6 +6,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 import xarray
@@ -16,12 +17,13 @@ from figures.__main__ import PICTURES, draw, figure_of, main
 from figures.extras import threshold_of
 from figures.fig3 import corners_of
 from figures.style import styled
+from tests.conftest import ROOT
 
 pytestmark = pytest.mark.slow
 
 Compute = Callable[..., xarray.Dataset]
-ROOT = Path(__file__).parents[2]
 STUDIES = {path.stem for pattern in ("fig*", "extra_*") for path in (ROOT / "configs").glob(f"{pattern}.toml")}
+SAID = {"fig8": "", "fig3a x.nc": "not a dataset that fig3a is drawn from (", "fig3a none.nc": "no such file"}
 
 
 def study_of(picture: str) -> str:
@@ -48,9 +50,8 @@ def test_every_study_has_a_picture_and_every_picture_a_study() -> None:
     assert {study_of(name) for name in PICTURES} == STUDIES != set()
 
 
-def test_a_picture_is_drawn_in_every_form_twice_the_same_in_the_resolution_that_is_named(
-    computed: Compute, tmp_path: Path
-) -> None:
+def test_a_picture_has_every_form_and_the_resolution_that_is_named(computed: Compute, tmp_path: Path) -> None:
+    """And is twice the same."""
     files = [tmp_path / "a.png", tmp_path / "b.pdf", tmp_path / "c.png"]
     for dpi, pixels in ((None, (1005, 780)), (120, (402, 312))):
         draw("fig8", computed("fig8"), files, dpi=dpi)
@@ -73,22 +74,15 @@ def test_make_draws_every_picture_from_its_study_and_the_page_shows_it() -> None
     assert {path.stem for path in (ROOT / "docs" / "figures" / "paper").glob("*.png")} == set(PICTURES)
 
 
-@pytest.mark.parametrize(
-    ("name", "file", "words"),
-    [
-        ("fig8", "x.nc", ""),
-        ("fig3a", "x.nc", "not a dataset that fig3a is drawn from ("),
-        ("fig3a", "none.nc", "no such file"),
-    ],
-)
+@pytest.mark.parametrize("arguments", SAID)
 def test_the_command_line_draws_or_refuses_in_one_sentence(
-    name: str, file: str, words: str, computed: Compute, tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
-) -> None:  # fmt: skip
+    arguments: str, computed: Compute, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
+) -> None:
+    name, _, file = arguments.partition(" ")
     computed("fig8").to_netcdf(tmp_path / "x.nc")
     picture = tmp_path / "new" / "x.svg"
-    monkeypatch.setattr(sys, "argv", ["figures", name, str(tmp_path / file), str(picture)])
-    if not words:
+    monkeypatch.setattr(sys, "argv", ["figures", name, str(tmp_path / (file or "x.nc")), str(picture)])
+    if not file:
         main()
         assert b"<svg" in picture.read_bytes()
         return
@@ -96,7 +90,7 @@ def test_the_command_line_draws_or_refuses_in_one_sentence(
         main()
     told = capsys.readouterr().err
     assert (ended.value.code, told.count("\n")) == (2, 1)
-    assert words in told
+    assert SAID[arguments] in told
     assert "write it with `gradhesion run configs/fig3.toml`" in told
     assert not picture.exists()
 

@@ -20,10 +20,10 @@ from gradhesion.core.answers.flags import LINEAR_DEVIATION_OFF
 from gradhesion.core.equations import effective, envelopes, jkr
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.status import LOADING_NOT_ONE_DISC, PULL_OFF_AT_RIM
+from tests.conftest import ROOT
 
 Compute = Callable[..., xarray.Dataset]
 Values = NDArray[np.float64]
-ROOT = Path(__file__).parents[2]
 CONFIGS = [path for pattern in ("fig*", "extra_*") for path in sorted((ROOT / "configs").glob(f"{pattern}.toml"))]
 FORCE = 1.5 * math.pi
 """The unit of loads, in R dgamma."""
@@ -148,9 +148,8 @@ def test_fig6_two_waves_are_not_bounded_by_their_envelopes(computed: Compute) ->
 
 
 @pytest.mark.parametrize("name", ["fig6", "fig7"])
-def test_the_effective_path_turns_at_the_greatest_depth_along_a_line_from_envelope_to_envelope(
-    name: str, computed: Compute
-) -> None:
+def test_the_effective_path_turns_at_the_greatest_depth_along_a_line(name: str, computed: Compute) -> None:
+    """From envelope to envelope."""
     dataset = computed(name)
     path, turn = effective_path(dataset)
     k, M, length, A = dataset["k"].item(), material(dataset), dataset["lambda_over_R"].item(), dataset["A"].item()
@@ -167,13 +166,11 @@ def test_fig7_both_paths_turn_and_end_close_to_each_other(computed: Compute) -> 
     dataset = computed("fig7")
     path, turn = effective_path(dataset)
     radius, depth, load = values(dataset, *(f"path_{part}" for part in ("contact_radius", "indentation", "load")))
-    assert 0.4 < abs(turn - radius.max()) / dataset["lambda_over_R"].item() < 1.0, (
-        "less than a wave apart, and seen to be"
-    )
+    apart = abs(turn - radius.max()) / dataset["lambda_over_R"].item()
+    assert 0.4 < apart < 1.0, "less than a wave apart, and seen to be"
     assert abs(path["indentation"][-1] - depth.min()) < 2e-4
-    assert area(depth, load) == pytest.approx(
-        float(solve(scene(dataset), ["dissipated_energy"])["dissipated_energy"]), rel=CHORDS
-    )
+    expected = float(solve(scene(dataset), ["dissipated_energy"])["dissipated_energy"])
+    assert area(depth, load) == pytest.approx(expected, rel=CHORDS)
     assert 0.6 < area(depth, load) / area(path["indentation"], path["load"]) < 1.0
 
 
@@ -181,10 +178,8 @@ def test_fig8_the_two_parts_are_those_of_the_closed_form(computed: Compute) -> N
     dataset = computed("fig8")
     numbers = (dataset["k"].item(), material(dataset), dataset["lambda_over_R"].item(), dataset["A"].item())
     first, second = parts_of(dataset)
-    assert area(*first) == pytest.approx(float(effective.first_part(*numbers)), rel=CHORDS)
-    assert area(*second) == pytest.approx(
-        float(effective.second_part(*numbers, dataset["a_max_over_R"].item())), rel=CHORDS
-    )
+    expected = effective.first_part(*numbers), effective.second_part(*numbers, dataset["a_max_over_R"].item())
+    assert [area(*first), area(*second)] == pytest.approx([float(part) for part in expected], rel=CHORDS)
 
 
 @pytest.mark.parametrize("name", ["extra_energy_amplitude", "extra_energy_wavelength", "extra_energy_map", "fig9", "extra_energy_exponent"])  # fmt: skip
@@ -266,10 +261,8 @@ def test_a_front_ends_in_the_best_of_each(computed: Compute) -> None:
     fixed = {name: front[name].item() for name in ("nu", "modulus", "c0_over_R", "a_max_over_R")}
     for k in front["k"].values:
         one = front.sel(k=k)
-        grid = solve(
-            fixed | {"k": k, "lambda_over_R": np.geomspace(0.05, 1.0, 150)[:, None], "A": np.linspace(0.005, 0.02, 40)},
-            ["pull_off_force", "dissipated_energy"],
-        )
+        own = {"k": k, "lambda_over_R": np.geomspace(0.05, 1.0, 150)[:, None], "A": np.linspace(0.005, 0.02, 40)}
+        grid = solve(fixed | own, ["pull_off_force", "dissipated_energy"])
         force, energy = one["best_pull_off_force"].values, one["best_dissipated_energy"].values
         assert np.nanmax(force) >= grid["pull_off_force"].max()
         assert np.nanmax(energy) >= grid["dissipated_energy"].max() * (1.0 - 1e-9)

@@ -1,4 +1,16 @@
-"""Every command and every example of the README and of the manual runs, and prints what the page shows."""
+"""Every command and every example of the README and of the manual runs, and prints what the page shows.
+
+What a page holds, in order, in the folder where the pages before it were done:
+
+- ```` ```sh ````: commands, one a line (a `\\` at its end goes on), each ending with exit code 0.
+- ```` ```console ````: commands after `$ `, each with what it prints below; `...` stands for anything. A command that
+  ends with a comment `# exit code N` ends with N.
+- ```` ```python ````: run in the page's one namespace; a block ```` ```output ```` after it is what it prints.
+- ```` ```toml ````: a file, if `<!-- file: NAME -->` stands before it; else a part of a study, which is checked.
+
+`<!-- not run: REASON -->` before a block leaves it out, and `<!-- smaller: KEY=VALUE KEY=VALUE -->` sets keys of the studies
+that its `gradhesion run` compute, so that they take a moment.
+"""
 
 import contextlib
 import io
@@ -8,16 +20,96 @@ import shlex
 import subprocess
 import sys
 import tomllib
+from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
 
-from gradhesion.cli.main import cli
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.rules.asked import checked
+from tests.conftest import ROOT, command
 
-from .pages import PAGES, ROOT, Block, blocks_of, commands_of, made_smaller, same
+
+def _in_order() -> tuple[Path, ...]:
+    """List the README and the written pages of the manual, in the order of its table of contents."""
+    index = ROOT / "docs" / "index.md"
+    trees = re.findall(r"^```\{toctree\}(.*?)^```", index.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+    names = [line for tree in trees for line in tree.split() if (ROOT / "docs" / f"{line}.md").is_file()]
+    names = [name for name in names if not name.startswith("reference/")]  # generated, if they are there at all
+    return (ROOT / "README.md", index, *(ROOT / "docs" / f"{name}.md" for name in names))
+
+
+PAGES = _in_order()
+
+_BLOCK = re.compile(r"((?:^<!--[^\n]*-->\n)*)^```([a-z{}_-]*)[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_MARK = re.compile(r"<!-- (file|not run|smaller): (.*?) -->")
+
+
+@dataclass(frozen=True)
+class Block:
+    """A fenced block of a page, with the marks that stand before it."""
+
+    page: Path
+    line: int
+    language: str
+    text: str
+    marks: dict[str, str]
+
+    @property
+    def place(self) -> str:
+        return f"{self.page.relative_to(ROOT)}:{self.line}"
+
+
+@dataclass(frozen=True)
+class Command:
+    line: str
+    printed: str = ""
+    code: int = 0
+
+
+def blocks_of(page: Path) -> list[Block]:
+    text = page.read_text(encoding="utf-8")
+    return [
+        Block(page, text[: found.start(3)].count("\n"), found[2], found[3], dict(_MARK.findall(found[1])))
+        for found in _BLOCK.finditer(text)
+    ]
+
+
+def commands_of(block: Block) -> Iterator[Command]:
+    text = block.text.replace("\\\n", " ")
+    if block.language == "sh":
+        lines = [line.partition("  #")[0].strip() for line in text.splitlines()]
+        yield from (Command(line) for line in lines if line and not line.startswith("#"))
+        return
+    for part in re.split(r"^\$ ", text, flags=re.MULTILINE)[1:]:
+        line, _, printed = part.partition("\n")
+        line, _, comment = line.partition("  # ")
+        code = re.search(r"exit code (\d+)", comment)
+        yield Command(line.strip(), printed, int(code[1]) if code else 0)
+
+
+def made_smaller(line: str, block: Block) -> str:
+    """Give the studies that a command computes the keys that make them small."""
+    sets = [f"--set {shlex.quote(pair)}" for pair in shlex.split(block.marks.get("smaller", ""))]
+    return re.sub(r"gradhesion run(?= |$)", " ".join(["gradhesion run", *sets]), line)
+
+
+def same(shown: str, printed: str) -> bool:
+    """
+    Compare what a page shows with what is printed, where `...` stands for anything.
+
+    >>> same("a ... of 3 s\\n...", "a map of 3 s\\nand more\\n"), same("a", "b")
+    (True, False)
+    """
+    pattern = ".*?".join(re.escape(part) for part in _tidy(shown).split("..."))
+    return re.fullmatch(pattern, _tidy(printed), flags=re.DOTALL) is not None
+
+
+def _tidy(text: str) -> str:
+    """Leave out what cannot be seen."""
+    return "\n".join(line.rstrip() for line in text.strip().splitlines())
+
 
 pytestmark = pytest.mark.slow
 
@@ -25,7 +117,6 @@ BLOCKS = [block for page in PAGES for block in blocks_of(page)]
 SHOWN = ("", "json", "mermaid", "output", "pycon", "text", "{eval-rst}", "{toctree}")
 """Languages of blocks that are looked at only."""
 RUN = ("bash", "console", "python", "sh", "toml")
-
 NOT_RUN = {
     "README.md": {"sets up an environment of its own"},
     "docs/first_steps.md": {"installs"},
@@ -33,39 +124,31 @@ NOT_RUN = {
     "docs/large.md": {"needs several machines", "tests/repository/test_cluster.py runs the scripts"},
 }
 """Every page with blocks that are not run, and why: these are all."""
-
 IN_A_SHELL = ROOT / "README.md"
 """What is read first: its every command is that of the shell; a second each, so that the pages are spared it."""
-
 WHOLE = tomllib.loads(next(block.text for block in BLOCKS if block.language == "toml"))
 """The study of the README, which the parts of studies are added to."""
 
 
 def _run_commands(block: Block, folder: Path) -> None:
-    for command in commands_of(block):
-        line = made_smaller(command.line, block)
+    for one in commands_of(block):
+        line = made_smaller(one.line, block)
         plain = line.startswith("gradhesion ") and not re.search(r"[|&;<>$`~]", line)
-        code, printed = _in_process(line) if plain and block.page != IN_A_SHELL else _in_a_shell(line, folder)
-        assert code == command.code, f"{block.place}: {line}\n{printed}"
-        if command.printed.strip():
-            assert same(command.printed, printed), f"{block.place}: {line}\n{printed}"
+        if plain and block.page != IN_A_SHELL:
+            code, printed = (done := command(*shlex.split(line)[1:])).exit_code, done.output
+        else:
+            code, printed = _in_a_shell(line, folder)
+        assert code == one.code, f"{block.place}: {line}\n{printed}"
+        if one.printed.strip():
+            assert same(one.printed, printed), f"{block.place}: {line}\n{printed}"
 
 
 def _in_a_shell(line: str, folder: Path) -> tuple[int, str]:
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])  # the installed command first
     own, bash = os.environ | {"PATH": path, "MPLBACKEND": "agg"}, ["bash", "-euo", "pipefail", "-c", line]
-    none, both = subprocess.DEVNULL, subprocess.STDOUT
-    done = subprocess.run(
-        bash, cwd=folder, env=own, stdin=none, stdout=subprocess.PIPE, stderr=both, text=True, timeout=600, check=False
-    )
+    ends = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+    done = subprocess.run(bash, cwd=folder, env=own, text=True, timeout=600, check=False, **ends)
     return done.returncode, done.stdout
-
-
-def _in_process(line: str) -> tuple[int, str]:
-    result = CliRunner().invoke(cli, shlex.split(line)[1:])
-    if result.exception is not None and not isinstance(result.exception, SystemExit):
-        raise result.exception
-    return result.exit_code, result.output
 
 
 def _run_python(block: Block, namespace: dict[str, object]) -> str:

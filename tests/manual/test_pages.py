@@ -8,20 +8,17 @@ from pathlib import Path
 import click
 import pytest
 
-ROOT = Path(__file__).parents[2]
-if str(ROOT) not in sys.path:
-    sys.path.append(str(ROOT))  # the scripts of the manual are not installed
-
-import gradhesion as gr  # noqa: E402
-from docs.generated import PAGES  # noqa: E402
-from gradhesion.cli import errors, main  # noqa: E402
-from gradhesion.cli.names.curves import CURVES  # noqa: E402
-from gradhesion.cli.names.fits import FIT, FIT_POINTS  # noqa: E402
-from gradhesion.cli.names.outputs import OUTPUTS  # noqa: E402
-from gradhesion.cli.study.rules.form import Form  # noqa: E402
-from gradhesion.cli.study.rules.mistakes import tables_of  # noqa: E402
-from gradhesion.core import FLAGS  # noqa: E402
-from gradhesion.core.problem.inputs import INPUTS  # noqa: E402
+import gradhesion as gr
+from docs.generated import PAGES
+from gradhesion.cli import errors, main
+from gradhesion.cli.names.curves import CURVES
+from gradhesion.cli.names.fits import FIT, FIT_POINTS
+from gradhesion.cli.names.outputs import OUTPUTS
+from gradhesion.cli.study.rules.form import Form
+from gradhesion.cli.study.rules.mistakes import tables_of
+from gradhesion.core import FLAGS
+from gradhesion.core.problem.inputs import INPUTS
+from tests.conftest import ROOT
 
 
 def test_every_command_and_option_stands_in_the_manual() -> None:

@@ -3,15 +3,14 @@
 import json
 import math
 import tomllib
-from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray
 
 import gradhesion as gr
+from tests.conftest import ROOT
 
-ROOT = Path(__file__).parents[2]
 CONFIGS = ROOT / "configs"
 REFERENCE = ROOT / "tests" / "reference"
 WAVES = {"parameters.A": 0.0}
@@ -45,10 +44,8 @@ OTHERS = {"cone", "curve", "fit", "fit_spring", "optimum", "profile", "specimens
 
 
 def run(name: str, set_to: dict[str, object] | None = None, **parameters: object) -> xarray.Dataset:
-    """Compute a study of configs/ in memory, with keys of its own."""
-    return gr.run(
-        CONFIGS / f"{name}.toml", set=(set_to or {}) | {f"parameters.{key}": v for key, v in parameters.items()}
-    )
+    own = {f"parameters.{key}": value for key, value in parameters.items()}
+    return gr.run(CONFIGS / f"{name}.toml", set=(set_to or {}) | own)
 
 
 def test_every_study_is_known_here() -> None:
@@ -67,10 +64,9 @@ def test_a_smooth_paraboloid_has_its_force_without_gain_by_every_solver(name: st
         energy = found["dissipated_energy"]
         np.testing.assert_allclose(energy, energy.isel(solver=0).broadcast_like(energy), rtol=1e-11)
     if "R" in found.coords:
+        own = found["pull_off_force_si"]
         newtons = 1.5 * math.pi * found["R"] * found["work_of_adhesion"] * found["pull_off_force"]
-        np.testing.assert_allclose(
-            found["pull_off_force_si"], newtons.transpose(*found["pull_off_force_si"].dims), rtol=1e-12
-        )
+        np.testing.assert_allclose(own, newtons.transpose(*own.dims), rtol=1e-12)
 
 
 @pytest.mark.parametrize("name", sorted({*SMOOTH, "cone", "profile", "specimens"} - {"map", "maps", "smoke", "points"}))

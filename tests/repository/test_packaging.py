@@ -16,9 +16,10 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
+from tests.conftest import ROOT
+
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).parents[2]
 CONFIGURATION = tomllib.loads((ROOT / "pyproject.toml").read_text())
 PROJECT = CONFIGURATION["project"]
 FOLDERS = CONFIGURATION["tool"]["setuptools"]["package-dir"]
@@ -57,7 +58,6 @@ def build(kind: str, tree: Path, folder: Path) -> None:
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The wheel and the source distribution."""
     folder = tmp_path_factory.mktemp("built")
     for kind in ("sdist", "wheel"):
         build(kind, folder / "tree", folder)
@@ -119,12 +119,9 @@ def test_the_installed_program_works_away_from_the_repository(wheel: Path, tmp_p
         cache = str(tmp_path / "cache")
         return call(*arguments, cwd=elsewhere, PYTHONPATH=str(installed), XDG_CACHE_HOME=cache)
 
-    where = there(
-        "-c",
-        "import gradhesion, gradhesion.cli, gradhesion.core, gradhesion.scenes as scenes; "
-        "print(*(one.__file__ for one in (gradhesion, gradhesion.cli, gradhesion.core, scenes)))",
-    )
-    assert where.count(str(installed)) == 4
+    code = "import gradhesion, gradhesion.cli, gradhesion.core, gradhesion.scenes as scenes; "
+    code += "print(*(one.__file__ for one in (gradhesion, gradhesion.cli, gradhesion.core, scenes)))"
+    assert there("-c", code).count(str(installed)) == 4
     for program in (["-m", "gradhesion.cli"], ["-m", "gradhesion"], [str(installed / "bin" / "gradhesion")]):
         assert "run" in there(*program, "--help")
     there("-m", "gradhesion.cli", "init", "smoke")
@@ -151,6 +148,6 @@ def test_an_editable_installation_has_the_same_package_and_sees_new_modules(tmp_
         "print(gradhesion.__file__, gradhesion.added.__file__, gradhesion.core.problem.status.__file__, "
         "gradhesion.cli.study.study.__file__, gradhesion.configs.__file__, gradhesion.load.__module__)"
     )
-    *files, module = call("-S", "-c", code, cwd=elsewhere).split()
+    *files, module = call("-S", "-c", code, cwd=elsewhere, PYTHONPATH="").split()
     assert [Path(file).relative_to(tree).parts[0] for file in files] == ["api", "api", "core", "cli", "configs"]
     assert module == "gradhesion.studies"

@@ -9,16 +9,13 @@ import subprocess
 import sys
 import sysconfig
 import tomllib
-from collections.abc import Callable
 from dataclasses import replace
 from importlib.machinery import PathFinder
 from pathlib import Path
-from typing import Any
 
 import click
 import numpy as np
 import pytest
-from click.testing import Result
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
@@ -28,37 +25,30 @@ import gradhesion.core
 import gradhesion.twin
 from gradhesion.cli.main import cli
 from gradhesion.core.problem.inputs import INPUTS
+from tests.conftest import ROOT, command
 
-ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text()
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
-MODULES = sorted(
-    {
-        "gradhesion",
-        *(
-            module.name
-            for package in (gradhesion, gradhesion.cli, gradhesion.core, gradhesion.twin)
-            for module in pkgutil.walk_packages(package.__path__, package.__name__ + ".")
-            if not module.name.endswith("__main__")
-        ),
-    }
-)
+PACKAGES = (gradhesion, gradhesion.cli, gradhesion.core, gradhesion.twin)
+MODULES = {one.name for root in PACKAGES for one in pkgutil.walk_packages(root.__path__, root.__name__ + ".")}
+MODULES = {"gradhesion", *(name for name in MODULES if not name.endswith("__main__"))}
 HEAVY = ("bokeh", "jinja2", "numpy", "numba", "scipy", "xarray", "netCDF4", "matplotlib", "pandas", "pint", "pydantic", "rich",
          "gradhesion.core", "gradhesion.twin", "flint")  # fmt: skip
+SHIPPED_BEYOND = {"fig4a": "unbounded", "cone": "cone"}
+"""The studies that leave small slopes, and the word of their comment that says so."""
+EXTRAS = PROJECT["project"]["optional-dependencies"]
+CLAIMS = [*PROJECT["project"]["dependencies"], *(name for extra in EXTRAS.values() for name in extra)]
 
 
-def loaded(arguments: list[str], names: tuple[str, ...]) -> str:
-    """What a command, in a process of its own, imports of some modules."""
-    code = (
-        "import sys; from gradhesion.cli.main import cli; "
-        f"cli.main({arguments!r}, standalone_mode=False); "
-        f"print([name for name in {names!r} if name in sys.modules])"
-    )
+def loaded(names: tuple[str, ...], *commands: list[str]) -> str:
+    """What some commands, in a process of their own, import of some modules."""
+    code = f"import sys; from gradhesion.cli.main import cli\nfor words in {commands!r}:\n  "
+    code += f"cli.main(words, standalone_mode=False)\nprint([name for name in {names!r} if name in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     return done.stdout.splitlines()[-1]
 
 
-@pytest.mark.parametrize("name", MODULES)
+@pytest.mark.parametrize("name", sorted(MODULES))
 def test_every_module_says_what_it_is_for_and_its_examples_run(name: str) -> None:
     module = importlib.import_module(name)
     assert module.__doc__
@@ -66,31 +56,23 @@ def test_every_module_says_what_it_is_for_and_its_examples_run(name: str) -> Non
 
 
 @pytest.mark.parametrize("name", sorted(cli.commands))
-def test_every_command_and_every_option_has_help(name: str, gradhesion: Callable[..., Result]) -> None:
-    result = gradhesion(name, "--help")
-    assert result.exit_code == 0
+def test_every_command_and_every_option_has_help(name: str) -> None:
+    command(name, "--help", code=0)
     assert cli.commands[name].help
-    for option in cli.commands[name].params:
-        if isinstance(option, click.Option):
-            assert option.help, option.name
+    assert [one.name for one in cli.commands[name].params if isinstance(one, click.Option) and not one.help] == []
 
 
-@pytest.mark.parametrize("arguments", [["run", "--help"], ["--version"]])
-def test_help_imports_nothing_heavy(arguments: list[str]) -> None:
-    assert loaded(arguments, HEAVY) == "[]"
+def test_help_imports_nothing_heavy() -> None:
+    assert loaded(HEAVY, ["run", "--help"], ["--version"]) == "[]"
 
 
 @pytest.mark.slow
 def test_commands_import_only_what_they_need(tmp_path: Path) -> None:
     study, file = str(ROOT / "configs" / "smoke.toml"), str(tmp_path / "x.nc")
     compilers, extras = ("numba", "llvmlite", "flint"), ("afmformats", "cryptography", "distributed")
-    for arguments, names in (
-        (["run", study, "-o", file, "--quiet"], ("xarray", "pandas", "matplotlib", "pint")),
-        (["validate", study], compilers),
-        (["info", file], (*compilers, "dask", "pint", "scipy")),
-        (["plot", file], compilers),
-    ):
-        assert loaded(arguments, (*names, *extras)) == "[]", arguments
+    assert loaded(("xarray", "pandas", "matplotlib", "pint", *extras), ["run", study, "-o", file, "--quiet"]) == "[]"
+    assert loaded((*compilers, "dask", "pint", "scipy", *extras), ["info", file]) == "[]"
+    assert loaded((*compilers, *extras), ["validate", study], ["plot", file]) == "[]"
 
 
 def test_the_picture_of_the_readme_compares_like_with_like() -> None:
@@ -113,10 +95,6 @@ def test_the_picture_of_the_readme_compares_like_with_like() -> None:
     assert unbounded[:, 0].min() > 0.3
 
 
-SHIPPED_BEYOND = {"fig4a": "unbounded", "cone": "cone"}
-"""The studies that leave small slopes, and the word of their comment that says so."""
-
-
 def test_shipped_studies_stay_where_slopes_are_small_or_say_why_not() -> None:
     from gradhesion.cli.study.fit.study import FitStudy
     from gradhesion.cli.study.reading import load_any
@@ -131,24 +109,15 @@ def test_shipped_studies_stay_where_slopes_are_small_or_say_why_not() -> None:
             assert study.watches_slope or study.is_cone
             assert SHIPPED_BEYOND[path.stem] in path.read_text()
         elif study.watches_slope:
-            few = {
-                name: values if isinstance(values, float) else values[np.unique([0, values.size // 2, values.size - 1])]
-                for name, values in study.parameters.items()
-            }
+            few = dict(study.parameters)
+            for name, values in few.items():
+                if not isinstance(values, float):
+                    few[name] = values[np.unique([0, values.size // 2, values.size - 1])]
             given = replace(study, parameters=few)
             scenes = scenes_from(given.parameters_of(given.apart(tuple(slice(0, size) for size in given.shape))[1]))
-            own: dict[str, Any] = {
-                "profile": study.profile,
-                "loading": study.loading,
-                "toughness": study.toughness,
-                "rate": study.rate,
-            }
+            own = {name: getattr(study, name) for name in ("profile", "loading", "toughness", "rate")}
             asked = [*(name for name in study.outputs if name not in VALIDITY), "contact_slope"]
             assert np.nanmax(solve(scenes, asked, **own)["contact_slope"]) <= 1.0
-
-
-EXTRAS = PROJECT["project"]["optional-dependencies"]
-CLAIMS = [*PROJECT["project"]["dependencies"], *(name for extra in EXTRAS.values() for name in extra)]
 
 
 def test_every_dependency_is_claimed_once_by_its_lowest_version_and_pinned_to_one_that_serves() -> None:
@@ -170,12 +139,9 @@ def test_make_alone_prints_the_targets() -> None:
         assert f"make {target}" in README
 
 
-def test_the_public_names_are_all_that_is_listed() -> None:
+def test_the_public_names_are_all_that_is_listed_and_every_parameter_is_a_keyword() -> None:
     assert dir(gradhesion) == sorted(gradhesion.__all__)
     assert not {"Any", "Final", "importlib", "sys"} & {*dir(gradhesion)}
-
-
-def test_every_parameter_is_a_keyword_that_editors_complete() -> None:
     for call in (gradhesion.solve, gradhesion.curves):
         assert INPUTS.keys() <= inspect.signature(call).parameters.keys()
 

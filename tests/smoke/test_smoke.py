@@ -12,7 +12,7 @@ import pytest
 import xarray
 
 import gradhesion as gr
-from tests.conformance.theory import stiffness, stretch
+from tests.conformance.theory import jump_density, stiffness, stretch
 
 
 @pytest.fixture(scope="module")
@@ -24,12 +24,8 @@ def dataset() -> xarray.Dataset:
 def smooth_energy(k: float, nu: float, modulus: float, c0: float) -> float:
     """Give the energy of the smooth cycle, H/(R^2 dgamma), with R = dgamma = 1."""
     s = float(stretch(k, stiffness(k, nu, modulus, c0)))
-
-    def part(q: float) -> float:
-        density = 16 * q**2 / ((1 + k) * (3 + k) * (5 + k)) - 8 * q / ((1 + k) * (3 + k)) + 2 / (1 + k) - 1
-        return density * (q * (1 + k) * s) ** (4 / (3 + k))
-
-    return pi * (part((1 - k) / 4) - part(1.0))
+    out, into = (jump_density(k, q) * (q * (1 + k) * s) ** (4 / (3 + k)) for q in ((1 - k) / 4, 1.0))
+    return float(pi * (out - into))
 
 
 def test_it_is_complete(dataset: xarray.Dataset) -> None:

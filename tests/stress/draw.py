@@ -17,7 +17,6 @@ POOL: Final = 40
 
 
 def log_uniform(rng: np.random.Generator, low: float, high: float, size: int) -> NDArray[np.float64]:
-    """Draw numbers whose logarithm is uniform."""
     values: NDArray[np.float64] = 10.0 ** rng.uniform(math.log10(low), math.log10(high), size)
     return values
 
@@ -57,9 +56,7 @@ def hostile(seed: int, size: int, most_waves: float = math.inf) -> Scenes:
     rng = np.random.default_rng([seed, 1])
     scenes = _materials(rng, size) | {
         "lambda_over_R": log_uniform(rng, 1e-12, 1e6, size),
-        "A": np.where(
-            rng.uniform(size=size) < 0.5, log_uniform(rng, 1e-300, 1e3, size), log_uniform(rng, 1e-9, 1e3, size)
-        ),
+        "A": np.where(rng.uniform(size=size) < 0.5, *(log_uniform(rng, low, 1e3, size) for low in (1e-300, 1e-9))),
         "a_max_over_R": log_uniform(rng, 1e-12, 1e9, size),
     }
     scenes["A"][rng.uniform(size=size) < 0.1] = 0.0
@@ -81,7 +78,6 @@ def eventful(seed: int, size: int, most_waves: float = math.inf) -> Scenes:
 
 
 def limited(scenes: Scenes, most_waves: float) -> Scenes:
-    """Keep the scenes with no more waves than that."""
     with np.errstate(all="ignore"):
         waves = np.minimum(scenes["a_max_over_R"] / scenes["lambda_over_R"], groups(scenes)["waves"])
     return {name: scenes[name][~(waves > most_waves)] for name in PARAMETERS}

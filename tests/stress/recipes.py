@@ -12,14 +12,14 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
+from tests.conftest import ROOT
+
 ROOMS = ("cli", "configs", "core", "twin")
 
 RADIUS = "    out[at.PULL_OFF_RADIUS, i] = lowest.y * reduced[at.LENGTH, i]\n"
 AREA = '    Output("pull_off_area", "contact area at pull-off (in R^2)", "area at pull-off", "cycle", "m^2", "pull-off"),\n'
-SPRING = (
-    "    elif punch.control == OWN_SPRING:\n        reduced[at.BY_LOAD, i] = load / depth / scenes[at.MODULUS, i]\n"
-)
+SPRING = "    elif punch.control == OWN_SPRING:\n"
+SPRING += "        reduced[at.BY_LOAD, i] = load / depth / scenes[at.MODULUS, i]\n"
 Edits = list[tuple[str, str, str]]
 OUTPUT: Edits = [  # file, old, new
     ("core/scenes/rows.py", "SATURATION, STATUS = range(7, 17)", "SATURATION, AREA, STATUS = range(7, 18)"),

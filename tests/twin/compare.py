@@ -41,7 +41,6 @@ class Comparison:
 
     @property
     def worst(self) -> float:
-        """The greatest share."""
         return max(share for rows in self.shares.values() for share, _ in rows)
 
 
@@ -110,7 +109,6 @@ def compare(
 
 
 def main() -> int:
-    """Compare the draws and print what came out."""
     parser = argparse.ArgumentParser(description="The solver against the twin.")
     parser.add_argument("--scenes", type=int, default=5000, help="scenes of each draw")
     parser.add_argument("--seed", type=int, default=2013)

@@ -1,4 +1,4 @@
-"""The twin against closed forms, a second quadrature, other programs, loop integrals and its own stored values."""
+"""The twin against closed forms, a second quadrature, other programs, loop integrals, its own stored values; and the solver of the core."""
 
 import json
 import math
@@ -19,9 +19,11 @@ from gradhesion.twin.scene import PARAMETERS, solve, waves_to_follow
 from gradhesion.twin.series import Series
 from gradhesion.twin.shape import PLAIN, Shape
 from gradhesion.twin.special import s0_series, s1_series, struve_expansion
-from tests.core.scene import scene_of
+from tests.conformance.theory import jump_density
+from tests.core.scene import Waves, scene_of
+from tests.stress.draw import eventful, hostile
 
-from .compare import general_scene
+from .compare import Case, compare, general_scene, of_any_kind, of_one_cosine
 from .generate import row
 
 HERE = Path(__file__).parent
@@ -29,10 +31,14 @@ REFERENCE = {name: json.loads((HERE.parent / f"reference/{name}.json").read_text
 CASES = [*(REFERENCE["scenes"]["scenes"][i] for i in (3, 8, 30, 33, 34, 44, 47)), *REFERENCE["general"]["scenes"]]
 """Seven of one cosine, with k = 0.247, 0.109, 1, 0.999, 1e-6, 0.5, 1e-6, and 24 of any profile and control."""
 ULP = 2.0**-52
+DRAWS = {
+    "hostile": (of_one_cosine(hostile(5, 120)), 30),
+    "eventful": (of_one_cosine(eventful(5, 120)), 30),
+    "of any kind": (of_any_kind(7, 10), 4),
+}
 
 
 def stored() -> list[dict[str, object]]:
-    """The rows of scenes.json under their column names."""
     file = json.loads((HERE / "scenes.json").read_text(encoding="utf-8"))
     return [dict(zip(file["columns"], row, strict=True)) for row in file["scenes"]]
 
@@ -154,10 +160,7 @@ def test_smooth_punch_of_any_wavelength(k: float, nu: float) -> None:
         s, x = curve.adhesion, arb(k)
         q, first = (1 - x) / 4, ((1 + x) * curve.adhesion) ** (2 / (3 + x))
         if rim > first:
-            part = [
-                16 * p * p / ((1 + x) * (3 + x) * (5 + x)) - 8 * p / ((1 + x) * (3 + x)) + 2 / (1 + x) - 1
-                for p in (q, 1)
-            ]
+            part = [jump_density(x, p) for p in (q, 1)]
             last = (q * (1 + x) * s) ** (2 / (3 + x)) if k < 1 else arb(0)
             energy = arb.pi() * (part[0] * last * last - part[1] * first * first)
             assert abs(solution.dissipated_energy / energy - 1) < arb("1e-35")
@@ -172,24 +175,20 @@ def test_slopes_of_kappa_are_those_of_differences(of: str) -> None:
     lengths = {"toughness_wavelength_over_R": 0.13, "toughness_amplitude": 0.9}
     pattern = Pattern(lengths, Shape(pattern=((1, 0.2, -0.1), (3, 0.05, 0.1)), pattern_of=of))
     a, step = arb(0.37), arb(2) ** -40
-    (low, below, _), (kappa, first, second), (high, above, _) = (
-        pattern.at(a * (1 + sign * step)) for sign in (-1, 0, 1)
-    )
+    around = [pattern.at(a * (1 + sign * step)) for sign in (-1, 0, 1)]
+    (low, below, _), (kappa, first, second), (high, above, _) = around
     assert float((high - low) / (2 * step)) == pytest.approx(float(first), rel=1e-10)
     assert float((above - below) / (2 * step)) == pytest.approx(float(second), rel=1e-10)
     assert abs(float(kappa)) <= pattern.greatest
 
 
 @pytest.mark.parametrize(("m", "waves"), [(1.0, ((2, 3.0, 0.0), (5, 0.0, 2.0))), (1.3, ((1, 4.0, 0.0),))])
-def test_the_last_phase_is_one_beyond_which_nothing_pulls(
-    m: float, waves: tuple[tuple[int, float, float], ...]
-) -> None:
+def test_the_last_phase_is_one_beyond_which_nothing_pulls(m: float, waves: Waves) -> None:
     """And it is not far beyond: of strong waves on a blunt tip, whose folds may have no end."""
     curve = Curve(scene_of(0.2, 0.3, 500.0, 0.1, 0.1, 0.1, math.inf), Shape(m, waves))
     end = bounds.last(curve, curve.trough)
-    far, near = (
-        [curve.force(arb(z)) for z in np.linspace(*ends, 200).tolist()] for ends in ((end, 3 * end), (0.8 * end, end))
-    )
+    places = (np.linspace(*ends, 200).tolist() for ends in ((end, 3 * end), (0.8 * end, end)))
+    far, near = ([curve.force(arb(z)) for z in own] for own in places)
     assert all(force > 0 for force in far)
     assert any(force < 0 for force in near)
 
@@ -221,3 +220,12 @@ def test_what_is_out_of_reach_is_told() -> None:
     assert not stated.within_reach(endless, energy, "exact", cone)
     assert stated.within_reach(endless, ["pull_off_force"], "exact", cone)
     assert stated.expected(endless, ["pull_off_force"], "exact", cone)["pull_off_force"].value > 0
+
+
+@pytest.mark.parametrize(("cases", "fewest"), DRAWS.values(), ids=DRAWS)
+def test_stated_errors_are_kept(cases: list[Case], fewest: int) -> None:
+    made = compare(cases, (0.0, 20.0))
+    assert made.scenes >= fewest
+    assert made.unsure == 0
+    assert made.near <= 4
+    assert made.worst <= 1.0

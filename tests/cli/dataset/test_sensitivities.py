@@ -19,6 +19,13 @@ from tests.cli.conftest import Call, Made, Patch, Run
 FORCE, ENERGY = SENSITIVITIES
 SPECTRUM = {"spectrum": {"hurst": 0.8, "first": 1, "last": 3, "realisations": 2, "seed": 1}}
 SLOPES = {"outputs": ["pull_off_force", *SENSITIVITIES]}
+QUANTITIES: dict[str, Any] = {"k": 0.2, "nu": 0.3, "A": 0.03, "R": 1e-6, "E_star": 1e9, "work_of_adhesion": 0.05, "c0": 1e-7, "wavelength": 1e-7, "indentation_max": 2e-8}  # fmt: skip
+MACHINE = QUANTITIES | {"control": "machine", "spring_constant": 1000.0}
+INPUTS: dict[str, Any] = {"modulus": "5 %", "A": 0.001, "nu": {"low": 0.25, "high": 0.29}, "lambda_over_R": "1 %"}
+IN_UNITS = [
+    (QUANTITIES, ["pull_off_force", "dissipated_energy"], ["R", "E_star", "work_of_adhesion", "c0", "wavelength", "indentation_max"]),
+    (MACHINE, ["dissipated_energy"], ["spring_constant", "E_star", "R"]),
+]  # fmt: skip
 
 
 def test_the_parameter_is_the_last_dimension(data: dict[str, Any]) -> None:
@@ -34,30 +41,16 @@ def test_the_parameter_is_the_last_dimension(data: dict[str, Any]) -> None:
     assert np.all(np.isfinite(rough[ENERGY].isel(A=1).sel(parameter="A")))
 
 
-@pytest.mark.parametrize(
-    ("loading", "more"), [({}, []), ({"control": "machine", "machine_stiffness": 2.0}, ["machine_stiffness"])]
-)
-def test_turn_and_machine_are_a_parameter_more(loading: dict[str, Any], more: list[str], data: dict[str, Any]) -> None:
+@pytest.mark.parametrize("spring", [{}, {"machine_stiffness": 2.0}])
+def test_turn_and_machine_are_a_parameter_more(spring: dict[str, float], data: dict[str, Any]) -> None:
     parameters = data["parameters"] | {"A": 0.023, "indentation_max_over_R": [0.01, 0.05]}
-    dataset = compute(
-        study_from(data | SLOPES | {"parameters": parameters, "loading": loading or {"control": "displacement"}})
-    )
-    assert dataset["parameter"].values.tolist() == [*gr.PARAMETERS, *more, "indentation_max_over_R"]
-    assert all(np.isfinite(dataset[ENERGY].sel(parameter=name)).all() for name in more)
+    loading = {"control": "machine" if spring else "displacement"} | spring
+    dataset = compute(study_from(data | SLOPES | {"parameters": parameters, "loading": loading}))
+    assert dataset["parameter"].values.tolist() == [*gr.PARAMETERS, *spring, "indentation_max_over_R"]
+    assert all(np.isfinite(dataset[ENERGY].sel(parameter=name)).all() for name in spring)
 
 
-QUANTITIES: dict[str, Any] = {"k": 0.2, "nu": 0.3, "A": 0.03, "R": 1e-6, "E_star": 1e9, "work_of_adhesion": 0.05, "c0": 1e-7, "wavelength": 1e-7, "indentation_max": 2e-8}  # fmt: skip
-MACHINE = QUANTITIES | {"control": "machine", "spring_constant": 1000.0}
-
-
-@pytest.mark.parametrize(
-    ("scene", "outputs", "names"),
-    [
-        (QUANTITIES, ["pull_off_force", "dissipated_energy"], ["R", "E_star", "work_of_adhesion", "c0", "wavelength", "indentation_max"]),
-        (MACHINE, ["dissipated_energy"], ["spring_constant", "E_star", "R"]),
-    ],
-    ids=["displacement", "machine"],
-)  # fmt: skip
+@pytest.mark.parametrize(("scene", "outputs", "names"), IN_UNITS, ids=["displacement", "machine"])
 def test_with_units_they_are_those_in_si(scene: dict[str, Any], outputs: list[str], names: list[str]) -> None:
     """By differences of fourth order; the stiffness of a machine is its own quantity."""
     found = gr.solve(**scene, outputs=[f"{name}_sensitivity" for name in outputs])
@@ -102,12 +95,8 @@ def test_info_names_the_strongest_which_is_no_difference_of_k_or_nu(gradhesion: 
     assert strongest(none, ["k", "A", "modulus"]).tolist() == [1, -1, 2]
 
 
-INPUTS: dict[str, Any] = {"modulus": "5 %", "A": 0.001, "nu": {"low": 0.25, "high": 0.29}, "lambda_over_R": "1 %"}
-
-
 @pytest.fixture
 def uncertain(data: dict[str, Any]) -> dict[str, Any]:
-    """The small study with uncertain inputs."""
     parameters = data["parameters"] | {"A": [0.011, 0.023]}
     return data | {"parameters": parameters, "uncertainty": INPUTS}
 
@@ -121,9 +110,8 @@ def test_linear_deviations_are_sums_of_squares(uncertain: dict[str, Any]) -> Non
     squares = sum((slopes.sel(parameter=name) * share) ** 2 for name, share in shares.items())
     expected = dataset["pull_off_force"] * np.sqrt(squares)
     # eps of some ten terms, and the truncation of the amplitude at 0, 11 deviations away
-    np.testing.assert_allclose(
-        dataset["pull_off_force_std"], expected.transpose(*dataset["pull_off_force_std"].dims), rtol=1e-13
-    )
+    found = dataset["pull_off_force_std"]
+    np.testing.assert_allclose(found, expected.transpose(*found.dims), rtol=1e-13)
     assert dataset["status"].dtype == np.int16
     known = [name for name in gr.FLAGS if name != "too_many_waves"]  # of patterns and speeds alone
     assert dataset["status"].attrs["flag_meanings"].split() == known
@@ -148,11 +136,8 @@ def test_samples_against_scenes_that_are_drawn_here(uncertain: dict[str, Any]) -
     parameters = uncertain["parameters"] | {"k": 0.31, "A": 0.02, "lambda_over_R": 0.3, "a_max_over_R": 1.7}
     inputs = {"A": 0.015, "modulus": "20 %"}
     outputs = ["pull_off_force", "pull_off_radius"]
-    found = compute(
-        study_from(
-            uncertain | {"outputs": outputs, "parameters": parameters, "uncertainty": inputs | {"samples": 4096}}
-        )
-    )
+    own = {"outputs": outputs, "parameters": parameters, "uncertainty": inputs | {"samples": 4096}}
+    found = compute(study_from(uncertain | own))
     rng, count = np.random.default_rng(2), 20_000
     amplitude = rng.normal(0.02, 0.015, count)
     amplitude = amplitude[amplitude > 0.0]

@@ -17,7 +17,6 @@ from tests.cli.conftest import Call, Made
 
 @pytest.fixture
 def file(made: Made) -> Path:
-    """All outputs."""
     return made(outputs=[*OUTPUTS])
 
 
@@ -30,13 +29,11 @@ def verified(path: Path) -> tuple[int, Any]:
 
 
 def change(path: Path, name: str, place: Any, value: Any) -> None:
-    """Change values of a variable."""
     with netCDF4.Dataset(path, "a") as file:
         file[name][place] = value(file[name][place]) if callable(value) else value
 
 
 def off(by: float) -> Callable[[Any], Any]:
-    """Move values by a share."""
     return lambda value: value * (1.0 + by)
 
 
@@ -63,8 +60,7 @@ def test_a_good_dataset_stands_up_and_a_changed_value_is_named_first(gradhesion:
         exceeding, found = verified(file)
         named = {one.output: dict(one.scene) for one in found.deviations[:exceeding]}
         assert named[output] == pytest.approx(place)
-    result = gradhesion("verify", file, "--sample", "100")
-    assert (result.exit_code, result.stderr.count("\n")) == (3, 1)
+    assert gradhesion("verify", file, "--sample", "100", code=3).stderr.count("\n") == 1
     assert exceeding == 3
 
 
@@ -106,8 +102,7 @@ def test_a_study_of_another_dataset_is_told(old: str, new: str, code: int, gradh
     edit_study(file, old, new, seal=False)
     assert gradhesion("verify", file).exit_code == 2
     edit_study(file, new, new, seal=True)
-    result = gradhesion("verify", file, "--sample=8", "--seed=2")
-    assert result.exit_code == code
+    result = gradhesion("verify", file, "--sample=8", "--seed=2", code=code)
     if code == 2:
         assert result.stderr.startswith(f"{file}: ")
         assert result.stderr.count("\n") == 1
@@ -181,18 +176,3 @@ def test_a_status_excuses_counts_near_a_jump_and_values_that_failed(file: Path) 
                                    ("dissipated_energy", off(1e-11), 1), ("status", 32, 0)):  # fmt: skip
         change(file, name, cell, value)
         assert verified(file)[0] == exceeding, name
-
-
-PROFILES = {
-    "two waves": {"exponent": 1.4, "harmonics": [{"n": 1, "cos": 1.0}, {"n": 3, "cos": 0.2, "sin": -0.1}]},
-    "a sine": {"exponent": 3.0, "harmonics": [{"n": 2, "sin": 0.4}]},
-}
-
-
-@pytest.mark.parametrize("control", ["displacement", "load", "machine"])
-@pytest.mark.parametrize("profile", PROFILES)
-def test_all_outputs_of_any_profile_and_control_are_recomputed(profile: str, control: str, made: Made) -> None:
-    loading = {"control": control} | ({"machine_stiffness": [0.02, 5.0]} if control == "machine" else {})
-    parameters = {"lambda_over_R": 0.3, "A": [0.0, 0.05], "a_max_over_R": [0.2, 0.7]}
-    path = made(outputs=[*OUTPUTS], profile=PROFILES[profile], loading=loading, parameters=parameters)
-    assert verified(path)[0] == 0

@@ -16,7 +16,7 @@ import gradhesion as gr
 from gradhesion.cli.dataset.read.model_range import LIMITS
 from gradhesion.core import DOUBTFUL, FLAGS
 from gradhesion.core.answers.flags import FLAG_WORDS
-from tests.cli.picture.seen import legend
+from tests.cli.conftest import legend
 
 LOADING, TOLERANCE, GONE = (FLAGS[name] for name in ("loading_contact_not_one_disc", "tolerance_not_met", "no_value"))
 HATCH = "////"
@@ -25,6 +25,10 @@ PUNCH: dict[str, Any] = {"k": 0.2, "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.
 WAVES = {"start": 0.1, "stop": 0.5, "num": 12}
 SEVEN = {"k": {"start": 0.0, "stop": 0.9, "num": 7}}
 WORDS = {bit: FLAG_WORDS[name] for name, bit in FLAGS.items()}
+WRONG = [
+    ("loading_jumps", {"band": "std"}), ("pull_off_force_std", {"band": "std"}), ("pull_off_force", {"band": "std", "kind": "map"}),
+    ("pull_off_force", {"band": "stdd"}), ("pull_off_force", {"band": "std", "over": {"k": "max"}}), ("pull_off_force", {"band": "quantiles"}),
+]  # fmt: skip
 
 
 def open_marks(axes: Axes, bit: int) -> list[Any]:
@@ -39,7 +43,6 @@ def hatched(axes: Axes, hatch: str | None) -> list[Path]:
 
 
 def inside(paths: list[Path], dataset: xarray.Dataset, y: str) -> np.ndarray:
-    """Report which scenes are within outlines."""
     return np.array([[any(path.contains_point((u, v)) for path in paths) for u in dataset["lambda_over_R"].values] for v in dataset[y].values])  # fmt: skip
 
 
@@ -145,7 +148,6 @@ def test_an_optimum_at_a_bound_is_marked_where_its_flag_is() -> None:
 
 @pytest.fixture(scope="module")
 def sampled() -> xarray.Dataset:
-    """A force with standard deviations and quantiles."""
     uncertainty = {"modulus": "5 %", "A": "10 %", "samples": 16}
     parameters = PUNCH | {"k": [0.0, 0.4], "A": 0.01, "a_max_over_R": 0.5, "lambda_over_R": WAVES | {"num": 24}}
     study = {"outputs": ["pull_off_force", "loading_jumps"], "parameters": parameters, "uncertainty": uncertainty}
@@ -176,13 +178,10 @@ def test_a_band_goes_from_edge_to_edge(sampled: xarray.Dataset) -> None:
     linear = sampled.drop_vars([name for name in sampled if str(name)[-4:] in ("_p05", "_p95")])
     assert len(edges(gr.plot(linear, "pull_off_force")[0])) == 2, "without samples it is what there is"
     assert len(edges(gr.plot(sampled, "pull_off_force_p50")[0])) == 2
-    for name, choices in (
-        ("pull_off_force", {"band": "none"}),
-        ("pull_off_force_std", {}),
-        ("loading_jumps", {}),
-        ("pull_off_force", {"over": {"k": "max"}}),
-    ):
-        assert not edges(gr.plot(sampled, name, **choices)[0])
+    for name in ("pull_off_force_std", "loading_jumps"):
+        assert not edges(gr.plot(sampled, name)[0])
+    for choices in ({"band": "none"}, {"over": {"k": "max"}}):
+        assert not edges(gr.plot(sampled, "pull_off_force", **choices)[0])
 
 
 def test_few_values_have_bars(sampled: xarray.Dataset) -> None:
@@ -191,17 +190,10 @@ def test_few_values_have_bars(sampled: xarray.Dataset) -> None:
     bars = [one for one in axes.collections if isinstance(one, LineCollection)]
     ends = np.array([path.vertices[:, 1] for path in bars[1].get_paths()]).T
     np.testing.assert_allclose(ends, [few[f"pull_off_force_{end}"].values[1] for end in ("p05", "p95")], rtol=1e-15)
-    points = (
-        few.isel(k=0).rename(lambda_over_R="scene").assign_coords(lambda_over_R=("scene", few["lambda_over_R"].values))
-    )
-    (axes,) = gr.plot(points.drop_vars("scene"), "pull_off_force")
+    points = few.isel(k=0).rename(lambda_over_R="scene").drop_vars("scene")
+    points = points.assign_coords(lambda_over_R=("scene", few["lambda_over_R"].values))
+    (axes,) = gr.plot(points, "pull_off_force")
     assert [len(one.get_paths()) for one in axes.collections if isinstance(one, LineCollection)] == [6]
-
-
-WRONG = [
-    ("loading_jumps", {"band": "std"}), ("pull_off_force_std", {"band": "std"}), ("pull_off_force", {"band": "std", "kind": "map"}),
-    ("pull_off_force", {"band": "stdd"}), ("pull_off_force", {"band": "std", "over": {"k": "max"}}), ("pull_off_force", {"band": "quantiles"}),
-]  # fmt: skip
 
 
 def test_a_band_that_is_not_there_is_refused(sampled: xarray.Dataset) -> None:

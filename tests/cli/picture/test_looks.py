@@ -7,11 +7,14 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 import xarray
+from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 
 import gradhesion as gr
-from tests.cli.conftest import Call
-from tests.cli.picture.seen import contours
+from tests.cli.conftest import Call, contours
+from tests.conftest import mistakes
+
+LIMITS = {"0.1 um:400 nm": (1e-7, 4e-7), "1e-7:4e-7": (1e-7, 4e-7), (1e-7, None): (1e-7, 1e-6), ":400nm": (5e-8, 4e-7)}
 
 
 @pytest.fixture(scope="module")
@@ -39,11 +42,15 @@ def test_sides_are_those_of_the_figure(width: Any, inches: float, grid: xarray.D
     assert (first.x0 == second.x0) == (inches < 4.8), "variables stand below each other in a column"
 
 
+def drawn_levels(axes: Axes) -> dict[float, Any]:
+    lines = contours(axes)
+    return {level: path for level, path in zip(lines.levels, lines.get_paths(), strict=True) if path.vertices.size}
+
+
 @pytest.mark.parametrize(("levels", "expected"), [("1.5,2.0", [1.5, 2.0]), ([1.25], [1.25]), ([1.3, 9.0], [1.3])])
 def test_levels_are_those_listed(levels: Any, expected: list[float], grid: xarray.Dataset) -> None:
     axes, bar = gr.plot(grid, "pull_off_force", levels=levels).figure.axes
-    lines = contours(axes)
-    shown = {level: path for level, path in zip(lines.levels, lines.get_paths(), strict=True) if path.vertices.size}
+    shown = drawn_levels(axes)
     assert [*shown] == expected
     for level, path in shown.items():  # the saddle: 1 + k + wavelength/um
         np.testing.assert_allclose(1.0 + path.vertices @ [1e6, 1.0], level, rtol=0, atol=1e-12)
@@ -52,18 +59,13 @@ def test_levels_are_those_listed(levels: Any, expected: list[float], grid: xarra
     filled = axes.collections[0]
     mesh = next(one for one in bar.collections if one.get_array() is not None)
     colours = mesh.to_rgba(np.asarray(mesh.get_array()).ravel())
-    np.testing.assert_allclose(
-        colours, filled.to_rgba(filled.get_array()), err_msg="the bar has the colours of the map"
-    )
+    np.testing.assert_allclose(colours, filled.to_rgba(filled.get_array()), err_msg="bar and map have the same colours")
 
 
 @pytest.mark.parametrize("levels", ["150 nN, 0.2 uN", "150 nN 2e-7", ["150 nN", 2e-7]])
 def test_levels_are_in_si_or_have_units(levels: Any, grid: xarray.Dataset) -> None:
-    lines = contours(gr.plot(grid, "pull_off_force_si", levels=levels)[0])
-    assert [level for level, path in zip(lines.levels, lines.get_paths(), strict=True) if path.vertices.size] == [
-        1.5e-7,
-        2e-7,
-    ]
+    shown = drawn_levels(gr.plot(grid, "pull_off_force_si", levels=levels)[0])
+    assert [*shown] == [1.5e-7, 2e-7]
     for wrong in ("150 nm", "150 nN, 1 J"):
         with pytest.raises(gr.DatasetError, match="pull_off_force_si, which is in N"):
             gr.plot(grid, "pull_off_force_si", levels=wrong)
@@ -85,16 +87,8 @@ def test_words_are_left_out_or_replaced(grid: xarray.Dataset) -> None:
     assert r"$\nu$" in caption[0]
     assert contours(whole[0]).labelTexts
     assert gr.plot(grid, "pull_off_force", title=False, caption=False).figure.get_suptitle() == ""
-    bare = gr.plot(
-        grid,
-        "pull_off_force",
-        title="My $k$",
-        caption=False,
-        labels=False,
-        xlabel="waves",
-        ylabel="depth",
-        clabel="pull",
-    )
+    own = {"title": "My $k$", "xlabel": "waves", "ylabel": "depth", "clabel": "pull"}
+    bare = gr.plot(grid, "pull_off_force", caption=False, labels=False, **own)
     assert bare.figure.get_suptitle() == "My $k$"
     assert (bare[0].get_xlabel(), bare[0].get_ylabel()) == ("waves", "depth")
     assert bare.figure.axes[-1].get_ylabel() == "pull"
@@ -126,19 +120,14 @@ def test_numbers_stand_clear_of_each_other_and_of_other_contours(grid: xarray.Da
     lines, inch = contours(axes), axes.figure.dpi
     places = {float(text.get_text()): np.array(text.get_position()) for text in lines.labelTexts}
     assert len(places) >= 3
-    others = {
-        number: axes.transData.transform([place for one, place in places.items() if one != number]) for number in places
-    }
     for level, path in zip(lines.levels, lines.get_paths(), strict=True):
         for number, place in places.items():
             own = axes.transData.transform(place)
-            assert np.hypot(*(others[number] - own).T).min() > 0.35 * inch
+            others = axes.transData.transform([place for one, place in places.items() if one != number])
+            assert np.hypot(*(others - own).T).min() > 0.35 * inch
             line = axes.transData.transform(np.reshape(path.vertices, (-1, 2)))
             apart = np.hypot(*(line - own).T).min(initial=np.inf)
             assert number == pytest.approx(level, rel=0.01) or apart > 0.08 * inch
-
-
-LIMITS = {"0.1 um:400 nm": (1e-7, 4e-7), "1e-7:4e-7": (1e-7, 4e-7), (1e-7, None): (1e-7, 1e-6), ":400nm": (5e-8, 4e-7)}
 
 
 @pytest.mark.parametrize("xlim", LIMITS)
@@ -186,9 +175,7 @@ def test_what_does_not_exist_is_said(grid: xarray.Dataset) -> None:
     even = grid
     for key, choices in WRONG:
         grid = even if key != "logarithmic" else even.assign_coords(wavelength=np.geomspace(5e-8, 1e-6, 40))
-        with pytest.raises(gr.DatasetError) as refused:
-            gr.plot(grid, **({"variables": "pull_off_force"} | choices))
-        (sentence,) = refused.value.mistakes
+        (sentence,) = mistakes(gr.plot, grid, **({"variables": "pull_off_force"} | choices))
         assert key in sentence
         assert "--" not in sentence, "keywords of Python"
 
@@ -197,8 +184,7 @@ def test_a_mistake_leaves_what_is_there(grid: xarray.Dataset, tmp_path: Path, gr
     path, picture = tmp_path / "x.nc", tmp_path / "x.png"
     grid.to_netcdf(path)
     for options in (["--xlim", "1 um:50 nm"], ["--variable", "energy"], ["-o", tmp_path / "x.bmp"], ["--levels", "?"]):
-        result = gradhesion("plot", path, *options)
-        assert result.exit_code == 2, options
+        result = gradhesion("plot", path, *options, code=2)
         assert str(options[1]) in result.stderr
         assert not picture.exists()
     picture.write_text("precious")
@@ -207,9 +193,7 @@ def test_a_mistake_leaves_what_is_there(grid: xarray.Dataset, tmp_path: Path, gr
 
 
 @pytest.mark.parametrize(("form", "start"), [("svg", b"<?xml"), ("PDF", b"%PDF"), ("png", b"\x89PNG")])
-def test_the_name_gives_the_form(
-    form: str, start: bytes, grid: xarray.Dataset, tmp_path: Path, gradhesion: Call
-) -> None:
+def test_a_name_gives_the_form(form: str, start: bytes, grid: xarray.Dataset, tmp_path: Path, gradhesion: Call) -> None:
     grid.to_netcdf(tmp_path / "x.nc")
     own = tmp_path / "own.mplstyle"
     own.write_text("savefig.dpi: 50\n")

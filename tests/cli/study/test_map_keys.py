@@ -28,12 +28,15 @@ FOLLOW = {
     "jump-in": {"a_max_over_R": "k lambda_over_R A a_max_over_a2"},
 }
 """What follows, and from what."""
+CONTROLS = ("displacement", "load", "machine")
+SHAPE = {"exponent": 1.7, "harmonics": [{"n": 1, "cos": 1.0}, {"n": 3, "sin": -0.2}]}
+PROFILE = Profile(exponent=1.7, harmonics=(Harmonic(n=1), Harmonic(n=3, cos=0.0, sin=-0.2)))
+SEVERAL = ["envelope", "exact", "asymptotic"]
+SPECTRUM = {"hurst": 0.8, "first": 1, "last": 9, "realisations": 4, "seed": 3}
 
 
 @pytest.fixture
 def reduced(data: dict[str, Any]) -> Study:
-    """The small study in such variables."""
-
     def study(kind: str = "jump-in", **parameters: Any) -> dict[str, Any]:
         table = {name: value for name, value in data["parameters"].items() if name not in FOLLOW[kind]}
         return data | {"parameters": table | REDUCED[kind] | parameters}
@@ -88,15 +91,8 @@ def test_where_there_is_no_jump_in_radius_there_is_no_value(reduced: Study, ran:
     assert (((dataset["status"] & FAILED) != 0) == strong).all()
 
 
-CONTROLS = ("displacement", "load", "machine")
-SHAPE = {"exponent": 1.7, "harmonics": [{"n": 1, "cos": 1.0}, {"n": 3, "sin": -0.2}]}
-PROFILE = Profile(exponent=1.7, harmonics=(Harmonic(n=1), Harmonic(n=3, cos=0.0, sin=-0.2)))
-
-
 @pytest.fixture
 def shaped(data: dict[str, Any]) -> Study:
-    """A small study of a shape, under a control; a machine has several stiffnesses."""
-
     def study(control: str = "machine", **changes: Any) -> dict[str, Any]:
         parameters = data["parameters"] | {"lambda_over_R": 0.3, "a_max_over_R": [0.6, 0.8]}
         stiffness = {"machine_stiffness": [0.1, 3.0, 70.0]} if control == "machine" else {}
@@ -133,9 +129,6 @@ def test_curves_of_any_shape_and_control_are_drawn(shaped: Study, control: str) 
             np.testing.assert_array_equal(dataset[name][i].values[: found[name].size], found[name])
 
 
-SEVERAL = ["envelope", "exact", "asymptotic"]
-
-
 @pytest.mark.parametrize("shape", [{}, {"profile": SHAPE | {"exponent": 3.0}}])
 def test_each_solver_gives_what_it_gives_alone(shape: dict[str, Any], data: dict[str, Any]) -> None:
     together = compute(study_from(data | shape | {"method": {"solver": SEVERAL}}))
@@ -150,9 +143,6 @@ def test_each_solver_gives_what_it_gives_alone(shape: dict[str, Any], data: dict
             np.testing.assert_allclose(found, values, rtol=8 * 2.0**-52)  # rims that share a trace share roots
     exact, envelope = (together["pull_off_force"].sel(solver=one, A=0.023) for one in ("exact", "envelope"))
     assert (exact != envelope).any(), "the solvers differ"
-
-
-def test_a_list_of_one_solver_stays_a_dimension(data: dict[str, Any]) -> None:
     assert compute(study_from(data | {"method": {"solver": ["envelope"]}})).sizes["solver"] == 1
     assert "solver" not in compute(study_from(data | {"method": {"solver": "envelope"}})).variables
 
@@ -172,12 +162,8 @@ def test_the_contact_is_checked_unless_the_study_says_no(data: dict[str, Any]) -
     xarray.testing.assert_equal(checked["dissipated_energy"], unchecked["dissipated_energy"])
 
 
-SPECTRUM = {"hurst": 0.8, "first": 1, "last": 9, "realisations": 4, "seed": 3}
-
-
 @pytest.fixture
 def rough() -> dict[str, Any]:
-    """A small study of random roughness."""
     parameters = {"k": [0.0, 0.31], "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.013, "lambda_over_R": 0.31}
     parameters |= {"A": [0.002, 0.007], "a_max_over_R": [0.4, 0.7]}
     outputs = ["pull_off_force", "dissipated_energy", "loading_jumps", "wave_slope"]

@@ -13,16 +13,21 @@ from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.picture.shown import BEYOND
 from gradhesion.cli.study import study_from
 from gradhesion.core import VALIDITY, validity
-from tests.cli.conftest import Call, Patch, Run
-from tests.cli.picture.seen import legend
+from tests.cli.conftest import Call, Patch, Run, legend
 
 PARAMETERS = {"nu": 0.3, "modulus": 30.0, "c0_over_R": 0.1, "lambda_over_R": [0.05, 0.1, 0.2, 0.4, 0.8], "A": 0.05}
 STUDY: dict[str, Any] = {"outputs": ["dissipated_energy"], "parameters": {"k": [0.0, 0.1, 0.2, 0.3]} | PARAMETERS}
 WORDS = BEYOND["contact_slope"].words
+NUMBERS = {"A": [0.0, 1e-5, 0.05, 0.2], "adhesion_range_over_R": [1e-5, 0.01]}
+COUNTED: list[tuple[dict[str, Any], dict[str, int]]] = [
+    ({}, {"wave_slope": 2}),
+    ({"profile": {"harmonics": [{"n": 1, "cos": 0.0, "sin": 0.2}]}}, {}),
+    ({"outputs": ["pull_off_force", "wave_slope"]}, {"wave_slope": 2}),
+    ({"outputs": [*VALIDITY], "parameters": NUMBERS}, {"tabor_parameter": 4, "wave_tabor_parameter": 1, "wave_slope": 2, "johnson_alpha": 2}),
+]  # fmt: skip
 
 
 def asked(**parameters: Any) -> dict[str, Any]:
-    """The study with other parameters."""
     return STUDY | {"parameters": STUDY["parameters"] | parameters}
 
 
@@ -167,7 +172,6 @@ def test_a_cycle_that_turns_before_contact_is_flagged(gradhesion: Call, ran: Run
 
 @pytest.fixture
 def numbered(data: dict[str, Any]) -> dict[str, Any]:
-    """A study that asks for all of them, beside a force."""
     parameters = data["parameters"] | {"adhesion_range_over_R": [1e-5, 1e-3]}
     return data | {"outputs": ["pull_off_force", *VALIDITY], "parameters": parameters}
 
@@ -194,31 +198,14 @@ def test_numbers_with_any_solver(solver: Any, numbered: dict[str, Any]) -> None:
 
 
 def test_a_scene_without_value_has_none_of_them() -> None:
-    found = gr.solve(
-        k=0.0, nu=0.3, modulus=5000.0, A=0.1, lambda_over_R=0.1, a_max_over_a2=1.0, outputs=list(VALIDITY[2:])
-    )
+    punch = {"k": 0.0, "nu": 0.3, "modulus": 5000.0, "A": 0.1, "lambda_over_R": 0.1, "a_max_over_a2": 1.0}
+    found = gr.solve(punch, list(VALIDITY[2:]))
     assert found["status"].item() == 64
     assert all(np.isnan(found[name].item()) for name in VALIDITY[2:])
 
 
-@pytest.mark.parametrize(
-    ("more", "beyond"),
-    [
-        ({}, {"wave_slope": 2}),
-        ({"profile": {"harmonics": [{"n": 1, "cos": 0.0, "sin": 0.2}]}}, {}),
-        ({"outputs": ["pull_off_force", "wave_slope"]}, {"wave_slope": 2}),
-        (
-            {
-                "outputs": [*VALIDITY],
-                "parameters": {"A": [0.0, 1e-5, 0.05, 0.2], "adhesion_range_over_R": [1e-5, 0.01]},
-            },
-            {"tabor_parameter": 4, "wave_tabor_parameter": 1, "wave_slope": 2, "johnson_alpha": 2},
-        ),
-    ],
-)
-def test_scenes_beyond_the_model_are_counted(
-    more: dict[str, Any], beyond: dict[str, int], gradhesion: Call, ran: Run
-) -> None:
+@pytest.mark.parametrize(("more", "beyond"), COUNTED)
+def test_scenes_beyond_the_model_are_counted(more: Any, beyond: dict[str, int], gradhesion: Call, ran: Run) -> None:
     """Two of four amplitudes have 2 pi A above 0.5, and there chi is above 1/2 and loading not one disc."""
     numbers = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1, "a_max_over_R": 1.0}
     numbers |= {"A": [0.01, 0.05, 0.1, 0.2]} | more.get("parameters", {})

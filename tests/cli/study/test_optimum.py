@@ -11,10 +11,10 @@ import xarray
 
 import gradhesion as gr
 from gradhesion.cli.dataset.writer import write
-from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study import study_from
 from gradhesion.core import solve
 from tests.cli.conftest import Call, Run
+from tests.conftest import mistakes
 
 WAVES = {"start": 0.05, "stop": 1.0, "spacing": "log"}
 PUNCH: dict[str, Any] = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "A": 0.02, "a_max_over_R": 1.0}
@@ -22,18 +22,8 @@ PUNCH: dict[str, Any] = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.0
 
 @pytest.fixture
 def study() -> dict[str, Any]:
-    """The best wavelength for three exponents."""
-    return {
-        "kind": "optimum",
-        "optimum": {"maximise": "pull_off_force", "over": ["lambda_over_R"]},
-        "parameters": PUNCH | {"k": [0.0, 0.3, 0.7], "lambda_over_R": WAVES},
-    }
-
-
-def test_it_goes_to_other_processes(study: dict[str, Any]) -> None:
-    asked = study_from(study)
-    there = pickle.loads(pickle.dumps(asked))  # noqa: S301 (of our own)
-    assert (there.search, there.searched, there.text) == (asked.search, asked.searched, asked.text)
+    search = {"maximise": "pull_off_force", "over": ["lambda_over_R"]}
+    return {"kind": "optimum", "optimum": search, "parameters": PUNCH | {"k": [0.0, 0.3, 0.7], "lambda_over_R": WAVES}}
 
 
 @pytest.mark.parametrize("word", ["maximise", "minimise"])
@@ -65,7 +55,10 @@ def test_one_input_against_brute_force(goal: str, count: int, word: str) -> None
 
 def test_the_place_of_a_smooth_peak_has_all_digits(study: dict[str, Any]) -> None:
     """The sensitivity is 0 there; the value for k = 0.3 is that of the manual."""
-    found = gr.run(study)
+    asked = study_from(study)
+    there = pickle.loads(pickle.dumps(asked))  # noqa: S301 (of our own)
+    assert (there.search, there.searched, there.text) == (asked.search, asked.searched, asked.text)
+    found = gr.run(there)
     assert found["best_lambda_over_R"].sel(k=0.3).item() == pytest.approx(0.2552076039, abs=5e-11)
     slopes = found["best_pull_off_force_sensitivity"].sel(parameter="lambda_over_R")
     np.testing.assert_allclose(slopes, 0.0, atol=1e-13)
@@ -164,16 +157,14 @@ def test_a_front_of_two_outputs(study: dict[str, Any], ran: Run, gradhesion: Cal
 
 def test_a_peak_between_the_points_is_flagged(ran: Run) -> None:
     """Five points over many peaks: more show a higher one."""
-    asked = {
-        "kind": "optimum",
-        "optimum": {"maximise": "dissipated_energy", "over": ["lambda_over_R"], "resolution": 5},
-        "parameters": PUNCH | {"k": [0.3, 0.5], "A": 0.1, "lambda_over_R": {"start": 0.02, "stop": 1.0}},
-    }
-    said, found, _ = ran(asked)
+    search = {"maximise": "dissipated_energy", "over": ["lambda_over_R"], "resolution": 5}
+    wavy = PUNCH | {"k": [0.3, 0.5], "A": 0.1, "lambda_over_R": {"start": 0.02, "stop": 1.0}}
+    asked = {"kind": "optimum", "parameters": wavy}
+    said, found, _ = ran(asked | {"optimum": search})
     assert "2 of 2 scenes" in said
     assert found.gr.flagged("resolution_too_coarse").values.all()
     assert not found.gr.valid("best_dissipated_energy").values.any()
-    finer = gr.run(asked | {"optimum": asked["optimum"] | {"resolution": 200}})
+    finer = gr.run(asked | {"optimum": search | {"resolution": 200}})
     assert not finer.gr.flagged("resolution_too_coarse").any()
 
 
@@ -195,23 +186,14 @@ def test_what_of_optima_cannot_be_joined(study: dict[str, Any], gradhesion: Call
             file = tmp_path / f"{name}{k}.nc"
             write(study_from(own | {"parameters": study["parameters"] | {"k": k}}), file, history="")
     for names, word in ((("force0.0", "energy0.3"), "search"), (("front0.0", "front0.3"), "Pareto fronts")):
-        result = gradhesion("merge", *(tmp_path / f"{name}.nc" for name in names), "-o", tmp_path / "all.nc")
-        assert result.exit_code == 2
+        result = gradhesion("merge", *(tmp_path / f"{name}.nc" for name in names), "-o", tmp_path / "all.nc", code=2)
         assert word in result.stderr
 
 
 def test_the_resolution_that_is_named_is_the_finest_that_is_searched(study: dict[str, Any]) -> None:
-    parameters = study["parameters"] | {"A": {"start": 0.01, "stop": 0.1}}
-    finest = int(re.findall(r"at most (\d+)", refusal(study, parameters, 10**6))[0])
-    assert refusal(study, parameters, finest) == ""
-    assert str(finest) in refusal(study, parameters, finest + 1)
-
-
-def refusal(study: dict[str, Any], parameters: dict[str, Any], resolution: int) -> str:
-    """What is said against a search over two inputs."""
-    search = {"maximise": "pull_off_force", "over": ["lambda_over_R", "A"], "resolution": resolution}
-    try:
-        study_from(study | {"optimum": search, "parameters": parameters})
-    except StudyError as error:
-        return str(error)
-    return ""
+    study["parameters"] |= {"A": {"start": 0.01, "stop": 0.1}}
+    search: dict[str, Any] = {"maximise": "pull_off_force", "over": ["lambda_over_R", "A"]}
+    (sentence,) = mistakes(study_from, study | {"optimum": search | {"resolution": 10**6}})
+    finest = int(re.findall(r"at most (\d+)", sentence)[0])
+    study_from(study | {"optimum": search | {"resolution": finest}})
+    assert str(finest) in mistakes(study_from, study | {"optimum": search | {"resolution": finest + 1}})[0]

@@ -33,10 +33,26 @@ CASES: Final[dict[str, tuple[str, dict[str, str], dict[str, float]]]] = {
     "a machine": ("machine", RIM | {"spring_constant": "7.82 nN/nm"}, RIM_RATIO | {"machine_stiffness": 7.82 / (E_STAR * R)}),
 }  # fmt: skip
 """The control, the quantities by which a cycle ends, and their ratios."""
+BALL: dict[str, Any] = {"k": 0.0, "nu": 0.3, "A": 0.0}
+PIECES = st.sampled_from(["m", "k", "Pa", "inf", "e5", "deg", "**", "-2", *"1/*^ ()'\\é²\n_.,"])
+QUANTITIES = [
+    ("1 um", "R", 1e-6), ("1 µm", "R", 1e-6), ("1 μm", "R", 1e-6), ("0.3mm", "R", 0.3e-3), ("3 * angstrom", "R", 3e-10),
+    (" 7e2 nm ", "c0", 7e-7), (".5 inch", "wavelength", 0.0127), ("50 kPa", "E_star", 5e4), ("1.7 MPa", "E_star", 1.7e6),
+    ("2 N/mm^2", "E_star", 2e6), ("5e10 dyn/cm^2", "E_star", 5e9), ("20 mJ/m^2", "work_of_adhesion", 0.02),
+    ("20 mJ/m²", "work_of_adhesion", 0.02), ("20 mJ m-2", "work_of_adhesion", 0.02), ("20 mJ m**-2", "work_of_adhesion", 0.02),
+    ("20 mN/m", "work_of_adhesion", 0.02), ("50 erg/cm^2", "work_of_adhesion", 0.05), ("0 nm", "amplitude", 0.0),
+    ("-0 nm", "amplitude", 0.0), ("inf", "a_max", float("inf")), ("inf mm", "a_max", float("inf")),
+    (float("inf"), "a_max", float("inf")),
+]  # fmt: skip
+NO_QUANTITIES = [
+    ("1", "without a unit"), (0.001, "without a unit"), (3, "without a unit"), (True, "not a number"), (["1 m"], "not a number"),
+    ("mm", "not a number"), ("", "not a number"), ("1 2 mm", '"2 mm"'), ("1 foo", '"foo"'), ("1 m**m", '"m**m"'), ("1 m*", '"m*"'),
+    ("1 __import__('os')", "not a known unit"), ("1 degC", '"degC"'), ("1 %", '"%"'), ("1 m^99999999", '"m^99999999"'),
+    ("1" * 70 + " m", "not a number"), ("300,5 nm", "comma"), ("1,000 nm", "comma"),
+]  # fmt: skip
 
 
 def made(parameters: dict[str, Any], outputs: Any = tuple(VALUES), **tables: Any) -> xarray.Dataset:
-    """Compute a study of some parameters."""
     return compute(study_from({"outputs": [*outputs], "parameters": parameters, **tables}))
 
 
@@ -92,9 +108,6 @@ def test_curves_have_units_too() -> None:
     assert "path_branch_si" not in dataset
 
 
-BALL: dict[str, Any] = {"k": 0.0, "nu": 0.3, "A": 0.0}
-
-
 def test_a_smooth_homogeneous_ball_needs_four_numbers() -> None:
     """Johnson, Kendall & Roberts (1971): F = 1.5 pi R dgamma and H = 7.0922 (dgamma^5 R^4/E*^2)^(1/3)."""
     plain = made(BALL | {"modulus": 500.0})
@@ -127,31 +140,12 @@ def test_youngs_modulus_gives_the_reduced_one() -> None:
     assert alone["modulus"].dims == ("E",)
 
 
-@pytest.mark.parametrize(
-    ("text", "name", "value"),
-    [
-        ("1 um", "R", 1e-6), ("1 µm", "R", 1e-6), ("1 μm", "R", 1e-6), ("0.3mm", "R", 0.3e-3), ("3 * angstrom", "R", 3e-10),
-        (" 7e2 nm ", "c0", 7e-7), (".5 inch", "wavelength", 0.0127), ("50 kPa", "E_star", 5e4), ("1.7 MPa", "E_star", 1.7e6),
-        ("2 N/mm^2", "E_star", 2e6), ("5e10 dyn/cm^2", "E_star", 5e9), ("20 mJ/m^2", "work_of_adhesion", 0.02),
-        ("20 mJ/m²", "work_of_adhesion", 0.02), ("20 mJ m-2", "work_of_adhesion", 0.02), ("20 mJ m**-2", "work_of_adhesion", 0.02),
-        ("20 mN/m", "work_of_adhesion", 0.02), ("50 erg/cm^2", "work_of_adhesion", 0.05), ("0 nm", "amplitude", 0.0),
-        ("-0 nm", "amplitude", 0.0), ("inf", "a_max", float("inf")), ("inf mm", "a_max", float("inf")),
-        (float("inf"), "a_max", float("inf")),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("text", "name", "value"), QUANTITIES)
 def test_a_quantity_is_the_double_next_to_it(text: str, name: str, value: float) -> None:
     assert si_value(text, name) == value
 
 
-@pytest.mark.parametrize(
-    ("value", "words"),
-    [
-        ("1", "without a unit"), (0.001, "without a unit"), (3, "without a unit"), (True, "not a number"), (["1 m"], "not a number"),
-        ("mm", "not a number"), ("", "not a number"), ("1 2 mm", '"2 mm"'), ("1 foo", '"foo"'), ("1 m**m", '"m**m"'), ("1 m*", '"m*"'),
-        ("1 __import__('os')", "not a known unit"), ("1 degC", '"degC"'), ("1 %", '"%"'), ("1 m^99999999", '"m^99999999"'),
-        ("1" * 70 + " m", "not a number"), ("300,5 nm", "comma"), ("1,000 nm", "comma"),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("value", "words"), NO_QUANTITIES)
 def test_what_is_no_quantity_is_told_with_what_is_expected(value: object, words: str) -> None:
     for name, key in PHYSICAL.items():
         with pytest.raises(ValueError, match=r"^[^\n]+$") as caught:
@@ -183,9 +177,6 @@ def test_the_shortest_text_of_a_double_is_scaled_and_rounded_once(number: float,
         assert number * 10.0**exponent in (0.0, float("inf"))
     else:
         assert found == float(f"{digits}e{int(power) + exponent}")
-
-
-PIECES = st.sampled_from(["m", "k", "Pa", "inf", "e5", "deg", "**", "-2", *"1/*^ ()'\\é²\n_.,"])
 
 
 @given(text=st.one_of(st.lists(PIECES, max_size=12).map("".join), st.text(max_size=12)))

@@ -12,7 +12,7 @@ import xarray
 import gradhesion as gr
 from gradhesion.cli.dataset import compute
 from gradhesion.cli.study import load_study, study_from
-from tests.cli.conftest import Call, Patch, mistakes_of
+from tests.cli.conftest import Call, Patch, Told, mistakes_of
 
 STUDY = """\
 outputs = ["pull_off_force"]
@@ -35,7 +35,6 @@ PLAIN = {"k": 0.0, "nu": 0.3, "E_star": 50e6, "work_of_adhesion": 0.05, "a_max":
 
 
 def table(noise: float = 0.0) -> str:
-    """One cosine, over one flank."""
     r = np.linspace(0.0, 1.6e-6, 600)
     h = r**2 / (2 * RADIUS) + AMPLITUDE * (1 - np.cos(2 * np.pi * r / WAVELENGTH))
     h += noise * np.random.default_rng(1).standard_normal(r.size)
@@ -44,14 +43,12 @@ def table(noise: float = 0.0) -> str:
 
 
 def force(**changes: float) -> float:
-    """The force of the solver of one cosine."""
     waves = {"R": RADIUS, "wavelength": WAVELENGTH, "amplitude": AMPLITUDE}
     return float(gr.solve(PLAIN | waves | changes, "pull_off_force")["pull_off_force_si"].item())
 
 
 @pytest.fixture
 def study(tmp_path: Path) -> Path:
-    """A study with its file."""
     (tmp_path / "tip.csv").write_text(table())
     path = tmp_path / "probe.toml"
     path.write_text(STUDY)
@@ -81,24 +78,20 @@ def test_the_dataset_has_file_fingerprint_and_residual(study: Path, gradhesion: 
     assert "# measured" in stored
     assert "tip.csv" in gradhesion("info", output).stdout
     assert gradhesion("verify", output, "--sample", "1").exit_code == 0
+    study.write_text(stored)
+    assert study_from(tomllib.loads(stored), folder=tmp_path).measured.sha256 == sha256
+    (tmp_path / "tip.csv").write_text(table(noise=1e-12))
+    (sentence,) = mistakes_of(study)
+    assert sentence.startswith(f"{study}:13: profile.file = "), "it is another file"
     (tmp_path / "tip.csv").unlink()
     assert gradhesion("verify", output, "--sample", "1").exit_code == 0, "the dataset has the fit"
 
 
-def test_another_file_is_refused(study: Path, tmp_path: Path) -> None:
-    study.write_text(load_study(study).text)
-    assert study_from(tomllib.loads(study.read_text()), folder=tmp_path).measured.sha256
-    (tmp_path / "tip.csv").write_text(table(noise=1e-12))
-    (sentence,) = mistakes_of(study)
-    assert sentence.startswith(f"{study}:13: profile.file = ")
-
-
 def test_without_units_the_ratios_come_from_the_fit(study: Path) -> None:
-    study.write_text(
-        'outputs = ["pull_off_force"]\n[parameters]\nk = 0.0\nnu = 0.3\nmodulus = 5000.0\na_max_over_R = 0.3\n'
-        '[profile]\nfile = "tip.csv"\nterms = 1\nup_to = "1.5 um"\n'
-    )
-    found = load_study(study)
+    parameters = {"k": 0.0, "nu": 0.3, "modulus": 5000.0, "a_max_over_R": 0.3}
+    profile = {"file": "tip.csv", "terms": 1, "up_to": "1.5 um"}
+    keys = {"outputs": ["pull_off_force"], "parameters": parameters, "profile": profile}
+    found = study_from(keys, folder=study.parent)
     assert found.parameters["lambda_over_R"] == pytest.approx(WAVELENGTH / RADIUS, rel=1e-10)
     assert found.parameters["A"] == pytest.approx(AMPLITUDE / WAVELENGTH, rel=1e-8)
     assert "pull_off_force_si" not in found.variables
@@ -133,21 +126,16 @@ def test_every_mistake_of_a_study_is_told_at_its_key(change: tuple[str, str], st
 
 def test_what_else_is_missing_is_told_beside_a_file_that_cannot_be_read(study: Path) -> None:
     study.write_text(STUDY.replace("tip.csv", "tap.csv").replace("nu = 0.3\n", "").replace('E_star = "50 MPa"\n', ""))
-    assert [line.split(": ")[1].split(" = ")[0] for line in mistakes_of(study)] == [
-        "parameters.nu",
-        "physical.E_star",
-        "profile.file",
-    ]
+    told = [line.split(": ")[1].split(" = ")[0] for line in mistakes_of(study)]
+    assert told == ["parameters.nu", "physical.E_star", "profile.file"]
 
 
 @pytest.mark.parametrize("text", ["x [um],height [nm]\n1,2\n", "r [um],hight [nm]\n1,2\n", "r [um],height [nm]\n1,2\n"])
-def test_a_table_of_other_columns_or_too_few_rows_is_refused(text: str, study: Path, gradhesion: Call) -> None:
+def test_a_table_of_other_columns_or_too_few_rows_is_refused(text: str, study: Path, refusal: Told) -> None:
     table = study.with_name("tip.csv")
     table.write_text(text)
     assert len(mistakes_of(study)) == 1
-    result = gradhesion("profile", table)
-    assert (result.exit_code, result.stderr.count("\n")) == (2, 1)
-    assert result.stderr.startswith(f"{table}: ")
+    assert refusal("profile", table).startswith(f"{table}: ")
     assert not table.with_suffix(".png").exists()
 
 
@@ -169,9 +157,7 @@ def test_profile_prints_a_table_that_gives_the_same_punch(study: Path, gradhesio
 
 @pytest.mark.parametrize("words", ["--up-to 2", "--exponent two", "--exponent 1", "--terms 0", "-o tip.bmp"])
 def test_options_that_do_not_do(words: str, study: Path, gradhesion: Call) -> None:
-    result = gradhesion("profile", study.with_name("tip.csv"), *words.split())
-    assert result.exit_code == 2
-    assert words.split()[1] in result.stderr
+    assert words.split()[1] in gradhesion("profile", study.with_name("tip.csv"), *words.split(), code=2).stderr
 
 
 def test_init_writes_study_and_data_that_are_fitted(gradhesion: Call, tmp_path: Path, monkeypatch: Patch) -> None:

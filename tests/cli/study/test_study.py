@@ -1,4 +1,4 @@
-"""A study is read as it is written: numbers, lists, ranges, overrides, and its text."""
+"""A study is read as it is written: numbers, lists, ranges, overrides, its text, and keys that not every scene has."""
 
 import hashlib
 import math
@@ -11,17 +11,23 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+import gradhesion as gr
+from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.study.rules.asked import expanded
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.text.written import lines_of
 from gradhesion.cli.study.tiling import Tiling, size_of
-from tests.cli.conftest import Made
+from gradhesion.core import solve
+from gradhesion.core.problem.toughness import Rate, Toughness, ToughnessHarmonic
+from tests.cli.conftest import Call, Made, Run
+
+SHAPES = st.lists(st.integers(1, 40), min_size=0, max_size=5).map(tuple).filter(lambda one: math.prod(one) <= 100_000)
+SOUGHT = [("closing_ratio", "dissipated_energy"), ("speed_over_reference", "pull_off_force")]
 
 
 def same(one: Study, other: Study) -> bool:
-    """Whether two studies ask for the same."""
     parameters = all(np.array_equal(one.parameters[name], other.parameters[name]) for name in one.parameters)
     rest = ("title", "kind", "layout", "outputs", "method", "sizes")
     return parameters and all(getattr(one, name) == getattr(other, name) for name in rest)
@@ -34,6 +40,8 @@ def test_the_text_and_its_fingerprint(study_file: Path, data: dict[str, Any]) ->
     assert study.text == text
     assert study.sha256 == hashlib.sha256(text.encode()).hexdigest()
     assert same(study, study_from(data, name="study"))
+    study_file.write_bytes(b"\xef\xbb\xbf" + study_file.read_bytes().replace(b"\n", b"\r\n"))  # of Windows
+    assert same(load_study(study_file), study)
 
 
 def test_the_text_of_an_overridden_study_gives_the_same_study(study_file: Path, write_study: Made) -> None:
@@ -61,12 +69,6 @@ def test_an_axis_rises_or_falls(data: dict[str, Any]) -> None:
     assert study.parameters["a_max_over_R"].tolist() == [1.0, 2.0, float("inf")]
 
 
-def test_windows_text_is_text(study_file: Path) -> None:
-    plain = load_study(study_file)
-    study_file.write_bytes(b"\xef\xbb\xbf" + study_file.read_bytes().replace(b"\n", b"\r\n"))
-    assert same(load_study(study_file), plain)
-
-
 def test_what_python_gives_and_what_is_left_out(data: dict[str, Any]) -> None:
     del data["title"]
     data["outputs"] = ["delta_max", "pull_off_force"]
@@ -90,12 +92,7 @@ def test_points_broadcast_what_is_fixed(data: dict[str, Any]) -> None:
     assert study_from(data).sizes == {"scene": 1}
 
 
-@given(
-    start=st.floats(1e-12, 1e12),
-    stop=st.floats(1e-12, 1e12),
-    num=st.integers(2, 50),
-    spacing=st.sampled_from(["linear", "log"]),
-)
+@given(st.floats(1e-12, 1e12), st.floats(1e-12, 1e12), st.integers(2, 50), st.sampled_from(["linear", "log"]))
 def test_a_range_begins_and_ends_exactly(start: float, stop: float, num: int, spacing: str) -> None:
     values = expanded(Range.model_validate({"start": start, "stop": stop, "num": num, "spacing": spacing}))
     assert isinstance(values, np.ndarray)
@@ -104,9 +101,7 @@ def test_a_range_begins_and_ends_exactly(start: float, stop: float, num: int, sp
     assert values.max() == max(start, stop)
 
 
-@given(
-    first=st.integers(-50, 50), step=st.integers(1, 40), num=st.integers(2, 300), digits=st.sampled_from([1, 2, 3, 5])
-)
+@given(st.integers(-50, 50), st.integers(1, 40), st.integers(2, 300), st.sampled_from([1, 2, 3, 5]))
 def test_an_even_range_has_the_decimals_that_one_would_write(first: int, step: int, num: int, digits: int) -> None:
     written = [float(f"{first + i * step}e-{digits}") for i in range(num)]
     values = expanded(Range(start=written[0], stop=written[-1], num=num))
@@ -124,25 +119,18 @@ def test_a_log_range_has_the_powers_of_ten(digit: int, decades: int, first: int,
     assert values[::each].tolist() == written
 
 
-def test_values_that_no_short_decimal_is_near_stay() -> None:
+def test_values_that_no_short_decimal_is_near_stay_and_no_zero_is_negative() -> None:
     values = expanded(Range(start=0.02, stop=1.0, num=200, spacing="log"))
     np.testing.assert_array_equal(values[1:-1], np.geomspace(0.02, 1.0, 200)[1:-1])
     assert np.unique(expanded(Range(start=1.0, stop=1.0 + 2e-15, num=4))).size == 4
 
-
-def test_no_negative_zero_reaches_the_core() -> None:
     assert np.signbit(expanded(-0.0)) == np.False_
     assert not np.signbit(expanded([-0.0, 1.0])).any()
     assert not np.signbit(expanded(Range(start=-0.0, stop=1.0))).any(), "the ends of a search"
 
 
-shapes = st.lists(st.integers(1, 40), min_size=0, max_size=5).map(tuple)
-
-
 @pytest.mark.slow
-@given(
-    shape=shapes.filter(lambda shape: math.prod(shape) <= 100_000), chunk=st.integers(1, 3000), many=st.integers(1, 9)
-)
+@given(shape=SHAPES, chunk=st.integers(1, 3000), many=st.integers(1, 9))
 def test_blocks_cover_every_cell_once_in_whole_chunks(shape: tuple[int, ...], chunk: int, many: int) -> None:
     tiling = Tiling(shape, chunk, many)
     count = np.zeros(shape, dtype=int)
@@ -158,12 +146,130 @@ def test_blocks_cover_every_cell_once_in_whole_chunks(shape: tuple[int, ...], ch
 
 def test_lines_are_those_of_the_text() -> None:
     text = 'a = """\nx = 1\n]\n"""\n"b.c" = [ # [\n 1, # ]\n 2 ]\n\n[d]\n  [ d . e ]\nf.g = {h = 1, i = {j = 2}}\n[[k]]\nl=1\n'
-    assert lines_of(text) == {
-        ("a",): 1,
-        ("d",): 9,
-        ("d", "e"): 10,
-        ("d", "e", "f"): 11,
-        ("d", "e", "f", "g"): 11,
-        ("k",): 12,
-        ("k", "l"): 13,
-    }
+    found = {".".join(key): line for key, line in lines_of(text).items()}
+    assert found == {"a": 1, "d": 9, "d.e": 10, "d.e.f": 11, "d.e.f.g": 11, "k": 12, "k.l": 13}
+
+
+SCENE: dict[str, Any] = {"k": 0.1, "nu": 0.3, "modulus": 1000.0, "c0_over_R": 0.01, "lambda_over_R": 0.2, "A": 0.01}
+PHYSICAL = {"R": "1 mm", "E_star": "50 kPa", "work_of_adhesion": "50 mJ/m^2", "c0": "10 um", "wavelength": "0.2 mm"}
+WAVES = {"toughness": {"harmonics": [{"n": 1, "cos": 0.3}, {"n": 2, "sin": 0.1}]}}
+PATTERN = {"toughness": Toughness((ToughnessHarmonic(n=1, cos=0.3), ToughnessHarmonic(n=2, sin=0.1)))}
+LAW = {"rate": {"exponent": 0.6}}
+OUTPUTS = ["pull_off_force", "dissipated_energy", "turning_radius"]
+UNIT = 1.5 * np.pi * 1e-3 * 0.05
+
+KEYS: dict[str, tuple[list[float], dict[str, Any], dict[str, Any]]] = {
+    "indentation_max_over_R": ([-0.01, 0.02, 0.2], {}, {}),
+    "load_max": ([0.5, 5.0, 50.0], {}, {}),
+    "closing_ratio": ([0.0, 0.5, 1.0], {}, {}),
+    "toughness_wavelength_over_R": ([0.1, 0.2], WAVES, PATTERN),
+    "toughness_amplitude": ([0.0, 0.5, 1.0], WAVES | {"parameters": {"toughness_wavelength_over_R": 0.2}}, PATTERN),
+    "speed_over_reference": ([0.0, 0.1], LAW, {"rate": Rate(exponent=0.6)}),
+}
+"""Values of each key, what else the study has, and what the solver is given for that."""
+QUANTITIES: dict[str, tuple[list[str], str, list[float], dict[str, Any]]] = {
+    "indentation_max": (["-1 um", "20 um", "0.06 mm"], "indentation_max_over_R", [-1e-3, 0.02, 0.06], {}),
+    "preload": (["100 uN", "1 mN"], "load_max", [1e-4 / UNIT, 1e-3 / UNIT], {}),
+    "work_of_adhesion_closing": (["0 J/m^2", "5 mJ/m^2", "0.05 N/m"], "closing_ratio", [0.0, 0.1, 1.0], {}),
+    "toughness_wavelength": (["0.1 mm", "200 um"], "toughness_wavelength_over_R", [0.1, 0.2], WAVES),
+    "speed": (["0 um/s", "1 um/s", "0.01 mm/s"], "speed_over_reference", [0.0, 1e-3, 1e-2], LAW),
+}
+"""Quantities, the ratio that each gives, its values, and what else the study has."""
+
+
+@pytest.mark.parametrize("key", KEYS)
+def test_it_is_an_axis_behind_the_radius_with_the_values_of_the_solver(key: str) -> None:
+    values, more, law = KEYS[key]
+    more, known = {**more}, SCENE | more.get("parameters", {})
+    data = more | {"outputs": OUTPUTS, "parameters": known | {"a_max_over_R": [0.3, 0.5], key: values}}
+    dataset = compute(study_from(data))
+    assert dataset["pull_off_force"].dims == ("a_max_over_R", key)
+    found = solve(known | {"a_max_over_R": np.array([[0.3], [0.5]]), key: np.array(values)}, OUTPUTS, **law)
+    for name in (*OUTPUTS, "status"):
+        np.testing.assert_array_equal(dataset[name], found[name])
+    assert dataset["status"].dtype == (np.int8 if key in ("load_max", "closing_ratio") else np.int16)
+
+
+def test_a_speed_has_no_independent_twin(gradhesion: Call, ran: Run) -> None:
+    data = LAW | {"outputs": OUTPUTS, "parameters": SCENE | {"a_max_over_R": 0.5, "speed_over_reference": [0.05, 0.1]}}
+    _, _, path = ran(data)
+    assert "0.6" in gradhesion("info", path).stdout.partition("rate: ")[2]
+    assert gradhesion("verify", path).exit_code == 2
+    assert gradhesion("plot", path).exit_code == 0
+
+
+@pytest.mark.parametrize("key", [key for key in KEYS if key != "speed_over_reference"])
+def test_sensitivities_name_it_last_where_the_study_has_it_alone(key: str) -> None:
+    values, more, _ = KEYS[key]
+    known = SCENE | more.get("parameters", {}) | {"a_max_over_R": 0.5}
+    own: dict[str, Any] = {"outputs": ["dissipated_energy_sensitivity"]}
+    dataset = compute(study_from(more | own | {"parameters": known | {key: values[1]}}))
+    assert dataset["parameter"].values[-1] == key
+    plain = compute(study_from(own | {"parameters": SCENE | {"a_max_over_R": 0.5}}))
+    assert key not in plain.coords
+    assert key not in plain["parameter"].values
+
+
+@pytest.mark.parametrize("key", QUANTITIES)
+def test_a_quantity_gives_its_ratio(key: str) -> None:
+    written, ratio, values, more = QUANTITIES[key]
+    rest = {"k": 0.1, "nu": 0.3, "A": 0.01}
+    units = PHYSICAL | {"a_max": "0.5 mm", key: written} | ({"reference_speed": "1 mm/s"} if key == "speed" else {})
+    made = compute(study_from(more | {"outputs": OUTPUTS, "parameters": rest, "physical": units}))
+    assert made[ratio].dims == (key,)
+    np.testing.assert_allclose(made[ratio], values, rtol=1e-14)
+    plain = compute(study_from(more | {"outputs": OUTPUTS, "parameters": SCENE | {"a_max_over_R": 0.5, ratio: values}}))
+    for name in OUTPUTS:
+        np.testing.assert_allclose(made[name], plain[name], rtol=1e-11, atol=1e-14)
+    np.testing.assert_allclose(made["turning_radius_si"], 1e-3 * made["turning_radius"], rtol=1e-15)
+    np.testing.assert_allclose(made["dissipated_energy_si"], 1e-6 * 0.05 * made["dissipated_energy"], rtol=1e-15)
+    assert made["turning_radius_si"].attrs["units"] == "m"
+
+
+def test_curves_turn_where_the_cycle_does() -> None:
+    data = {"kind": "curve", "parameters": SCENE | {"indentation_max_over_R": [-0.01, 0.05]}}
+    dataset = compute(study_from(data | {"outputs": ["path", "jumps", "equilibrium", "surface"]}))
+    radius = float(solve(SCENE | {"a_max_over_R": math.inf, "indentation_max_over_R": 0.05}, OUTPUTS)["turning_radius"])
+    none, turned = (dataset.isel(indentation_max_over_R=i) for i in range(2))
+    assert float(turned["path_contact_radius"].max()) == pytest.approx(radius, rel=4e-16)
+    assert float(turned["path_indentation"].max()) == pytest.approx(0.05, rel=1e-12)
+    assert float(none["path_contact_radius"].max()) == 0.0
+    assert dataset["jump_count"].values[0] == 0 < dataset["jump_count"].values[1]
+    assert not dataset["jump_at_rim"].values.any()
+    assert np.isfinite(turned["surface_gap"].sel(state="turning_point")).any()
+    assert np.isnan(none["surface_gap"].sel(state="turning_point")).all()
+
+
+def test_the_envelope_radius_of_loading_is_that_of_closing() -> None:
+    changes = ({"closing_ratio": 0.4}, {"modulus": 2500.0})
+    one, other = (gr.solve(SCENE | change, "pull_off_force", a_max_over_a2=1.5)["a_max_over_R"] for change in changes)
+    np.testing.assert_allclose(one, other, rtol=1e-15)
+
+
+def test_samples_of_the_work_of_closing_stay_below_that_of_opening() -> None:
+    units = PHYSICAL | {"a_max": "0.5 mm", "work_of_adhesion_closing": "49.9 mJ/m^2"}
+    study = {"outputs": ["dissipated_energy"], "parameters": {"k": 0.1, "nu": 0.3, "A": 0.02}, "physical": units}
+    uncertain = {"work_of_adhesion_closing": "5 %", "work_of_adhesion": "5 %", "samples": 1024}
+    dataset = compute(study_from(study | {"uncertainty": uncertain}))
+    assert np.isfinite(dataset["dissipated_energy_p95"])
+    assert dataset["dissipated_energy_p95"] > dataset["dissipated_energy_p05"]
+
+
+@pytest.mark.parametrize(("key", "goal"), SOUGHT)
+def test_an_optimum_is_sought_over_it(key: str, goal: str) -> None:
+    known, (_, more, law) = SCENE | {"a_max_over_R": 0.5}, KEYS[key]
+    optimum = {"maximise": goal, "over": [key], "resolution": 50}
+    data = more | {"kind": "optimum", "optimum": optimum, "parameters": known | {key: {"start": 0.05, "stop": 1.0}}}
+    grid = solve(known | {key: np.linspace(0.05, 1.0, 501)}, [goal], **law)[goal]
+    assert float(compute(study_from(data))[f"best_{goal}"]) >= grid.max() * (1.0 - 1e-12)
+
+
+def test_python_takes_keys_and_laws_as_it_takes_every_parameter() -> None:
+    scene = SCENE | {"a_max_over_R": 0.5, "toughness_wavelength_over_R": 0.1}
+    ways = (WAVES["toughness"], PATTERN["toughness"])
+    one, other = (gr.solve(scene, "pull_off_force", toughness=way)["pull_off_force"] for way in ways)
+    assert float(one) == float(other)
+    found = gr.solve(SCENE, ["dissipated_energy", "front_energy"], a_max_over_R=0.5, closing_ratio=[0.3, 0.6])
+    assert found["dissipated_energy"].dims == ("closing_ratio",)
+    drawn = gr.curves(SCENE | {"a_max_over_R": 0.5, "closing_ratio": 0.3}, ["path", "closing_equilibrium"])
+    assert drawn["closing_load"].dims == ("closing_point",)

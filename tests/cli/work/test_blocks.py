@@ -21,9 +21,8 @@ pytestmark = pytest.mark.usefixtures("small_blocks")
 
 
 def planned(gradhesion: Call, *arguments: str | Path) -> dict[str, Any]:
-    """Read a plan."""
-    result = gradhesion("plan", *arguments, "--json")
-    assert (result.exit_code, result.stderr) == (0, "")
+    result = gradhesion("plan", *arguments, "--json", code=0)
+    assert result.stderr == ""
     plan: dict[str, Any] = json.loads(result.stdout)
     return plan
 
@@ -34,8 +33,9 @@ def dated(output: Path) -> list[tuple[str, int]]:
     return sorted((path.name, path.stat().st_mtime_ns) for path in kept)
 
 
-def test_nothing_is_written_and_what_is_kept_is_told(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
-    output = tmp_path / "new" / "out.nc"
+def test_a_plan_writes_nothing_and_tells_what_is_kept(
+    run: Call, gradhesion: Call, study_file: Path, root: Path, tmp_path: Path, output: Path
+) -> None:
     plan = planned(gradhesion, study_file, "-o", output)
     assert os.listdir(tmp_path) == ["study.toml"]
     assert (plan["scenes"], plan["blocks"], plan["blocks_kept"], plan["refusal"]) == (24, 6, 0, "")
@@ -43,7 +43,7 @@ def test_nothing_is_written_and_what_is_kept_is_told(gradhesion: Call, study_fil
     assert min(plan["seconds"], plan["bytes_free"]) > 0
     assert 0 < 6 * plan["seconds_of_block"] < 2 * plan["seconds"] * (os.cpu_count() or 1)
     for shard, kept in (("1/2", 3), ("2/2", 6)):
-        assert gradhesion("run", study_file, "-o", output, "--shard", shard).exit_code == 0
+        assert run("--shard", shard).exit_code == 0
         before = dated(output)
         plan = planned(gradhesion, study_file, "-o", output)
         assert (plan["blocks_kept"], plan["seconds"] is None) == (kept, kept == 6)
@@ -51,12 +51,10 @@ def test_nothing_is_written_and_what_is_kept_is_told(gradhesion: Call, study_fil
         assert (other["blocks_kept"], "--fresh" in other["refusal"]) == (0, True)
         assert dated(output) == before
     assert gradhesion("plan", study_file, "-o", output).exit_code == 0
-
-
-def test_curves_and_fits_have_no_estimate(gradhesion: Call, root: Path, tmp_path: Path) -> None:
-    plan = planned(gradhesion, root / "configs" / "curve.toml", "-o", tmp_path / "out.nc")
+    curve = root / "configs" / "curve.toml"  # which has no estimate
+    plan = planned(gradhesion, curve, "-o", tmp_path / "out.nc")
     assert (plan["kind"], plan["blocks"], plan["seconds"]) == ("curve", 0, None)
-    assert gradhesion("plan", root / "configs" / "curve.toml").exit_code == 0
+    assert gradhesion("plan", curve).exit_code == 0
 
 
 def test_the_time_is_that_of_the_scenes(data: dict[str, Any], monkeypatch: Patch) -> None:
@@ -81,8 +79,7 @@ def test_the_time_is_that_of_the_scenes(data: dict[str, Any], monkeypatch: Patch
     assert seconds / scenes == pytest.approx(exact, rel=0.2)
 
 
-def test_running_stopped_and_complete(gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: Patch) -> None:
-    output = tmp_path / "out.nc"
+def test_running_stopped_and_complete(run: Call, gradhesion: Call, monkeypatch: Patch, output: Path) -> None:
     seen: list[dict[str, Any]] = []
     calls = 0
 
@@ -103,13 +100,13 @@ def test_running_stopped_and_complete(gradhesion: Call, study_file: Path, tmp_pa
 
     with monkeypatch.context() as patch:
         patch.setattr("gradhesion.cli.work.solve.scenes.solve", spying)
-        assert gradhesion("run", study_file, "-o", output).exit_code == 1
+        assert run().exit_code == 1
     (running,) = seen
     assert running.items() >= {"state": "running", "blocks": 6, "scenes": 24}.items()
     assert running["kept"] in {3, 4}
     assert running["seconds_left"] == pytest.approx(100.0 / running["kept"] * (6 - running["kept"]))
     assert status().items() >= {"state": "stopped", "seconds_left": None}.items()
-    assert gradhesion("run", study_file, "-o", output, "--quiet").exit_code == 0
+    assert run("--quiet").exit_code == 0
     assert status()["state"] == "complete"
     for content in (output.read_bytes()[:-1000], b"", b"title = 1"):
         output.write_bytes(content)
@@ -119,81 +116,62 @@ def test_running_stopped_and_complete(gradhesion: Call, study_file: Path, tmp_pa
 
 
 @pytest.mark.parametrize("content", ["{", "[]", "null", "{}"])
-def test_a_damaged_mark_is_no_error(content: str, gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
-    output = tmp_path / "out.nc"
-    assert gradhesion("run", study_file, "-o", output, "--shard", "1/2").exit_code == 0
+def test_a_damaged_mark_is_no_error(run: Call, content: str, gradhesion: Call, output: Path) -> None:
+    assert run("--shard", "1/2").exit_code == 0
     (folder_of(output) / "study.json").write_text(content)
     assert gradhesion("status", output).exit_code == 2
-    assert gradhesion("run", study_file, "-o", output).exit_code == 4, "nobody knows whose blocks these are"
-    assert gradhesion("run", study_file, "-o", output, "--fresh").exit_code == 0
+    assert run().exit_code == 4, "nobody knows whose blocks these are"
+    assert run("--fresh").exit_code == 0
 
 
-def test_shards_in_any_order_make_the_dataset(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
-    whole, output = tmp_path / "whole.nc", tmp_path / "data" / "out.nc"
-    assert gradhesion("run", study_file, "-o", whole, "--quiet").exit_code == 0
+def test_shards_in_any_order_make_the_dataset(run: Call, gradhesion: Call, tmp_path: Path, output: Path) -> None:
+    whole = tmp_path / "whole.nc"
+    run("-o", whole, "--quiet", code=0)
     for shard, computed in (("4/4", 1), ("1/4", 2), ("3/4", 1)):
-        result = gradhesion("run", study_file, "-o", output, "--shard", shard)
-        assert result.exit_code == 0
+        result = run("--shard", shard, code=0)
         assert f"reused 0 blocks, computed {computed}; `gradhesion merge {output}`" in result.stderr
-    early = gradhesion("merge", output)
-    assert early.exit_code == 2
-    assert f"{output}: 2 of 6 blocks are missing or damaged (2, 6)" in early.stderr
-    assert gradhesion("run", study_file, "-o", output, "--shard", "2/4", "--quiet").exit_code == 0
-    assert "reused 2 blocks, computed 0" in gradhesion("run", study_file, "-o", output, "--shard", "2/4").stderr
+    assert f"{output}: 2 of 6 blocks are missing or damaged (2, 6)" in gradhesion("merge", output, code=2).stderr
+    assert run("--shard", "2/4", "--quiet").exit_code == 0
+    assert "reused 2 blocks, computed 0" in run("--shard", "2/4").stderr
     assert "`gradhesion merge`" in gradhesion("status", output).stdout, "it tells what to do"
     assert not output.exists()
-    result = gradhesion("merge", output)
-    assert result.exit_code == 0
-    assert "reused 6 blocks, computed 0" in result.stderr
+    assert "reused 6 blocks, computed 0" in gradhesion("merge", output, code=0).stderr
     assert os.listdir(output.parent) == ["out.nc"]
     assert values_of(output) == values_of(whole)
     with netCDF4.Dataset(output) as one, netCDF4.Dataset(whole) as other:
         assert (one.study, one.title) == (other.study, other.title)
 
 
-def test_run_computes_what_the_shards_have_left(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
-    output = tmp_path / "out.nc"
-    assert gradhesion("run", study_file, "-o", output, "--shard", "1/2").exit_code == 0
-    assert "reused 3 blocks, computed 3" in gradhesion("run", study_file, "-o", output).stderr
-
-
-def test_a_damaged_part_is_not_merged(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
-    output = tmp_path / "out.nc"
-    assert gradhesion("run", study_file, "-o", output, "--shard", "1/1").exit_code == 0
+def test_a_damaged_part_is_not_merged(run: Call, gradhesion: Call, output: Path) -> None:
+    assert run("--shard", "1/1").exit_code == 0
     part = folder_of(output) / "000004.npz"
     part.write_bytes(part.read_bytes()[:-8])
-    result = gradhesion("merge", output)
-    assert result.exit_code == 2
-    assert f"{output}: 1 of 6 blocks are missing or damaged (5)" in result.stderr
+    assert f"{output}: 1 of 6 blocks are missing or damaged (5)" in gradhesion("merge", output, code=2).stderr
     assert not output.exists()
-    assert gradhesion("run", study_file, "-o", output, "--shard", "5/6").exit_code == 0
+    assert run("--shard", "5/6").exit_code == 0
     assert gradhesion("merge", output).exit_code == 0
+    assert run("--shard", "1/2", "--overwrite").exit_code == 0
+    assert "reused 3 blocks, computed 3" in run("--overwrite").stderr
 
 
 @pytest.mark.slow
-def test_shards_work_at_once_but_not_beside_a_run(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
-    output = tmp_path / "out.nc"
+def test_shards_work_at_once_but_not_beside_a_run(run: Call, output: Path) -> None:
+    output.parent.mkdir()
     with claimed(output, "-1-of-2"):
-        assert gradhesion("run", study_file, "-o", output, "--shard", "2/2").exit_code == 0
-        for command in (["run", study_file, "-o", output], ["run", study_file, "-o", output, "--shard", "1/2"]):
-            result = gradhesion(*command)
-            assert result.exit_code == 4
-            assert "another run is writing it" in result.stderr
-        assert gradhesion("run", study_file, "-o", output, "--shard", "1/2", "--set=parameters.nu=0.3").exit_code == 4
+        assert run("--shard", "2/2").exit_code == 0
+        for shard in ([], ["--shard", "1/2"]):
+            told = run(*shard, code=4).stderr
+            assert "another run is writing it" in told
+        assert run("--shard", "1/2", "--set=parameters.nu=0.3").exit_code == 4
     with claimed(output):
-        assert gradhesion("run", study_file, "-o", output, "--shard", "2/2").exit_code == 4
+        assert run("--shard", "2/2").exit_code == 4
 
 
-def test_wrong_shards_are_refused(gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: Patch) -> None:
-    output = tmp_path / "out.nc"
+def test_wrong_shards_are_told(run: Call, gradhesion: Call, tmp_path: Path, monkeypatch: Patch, output: Path) -> None:
     for shard in ("0/2", "3/2", "1", "a/b", "1/0"):
-        result = gradhesion("run", study_file, "-o", output, "--shard", shard)
-        assert result.exit_code == 2
-        assert "--shard 3/8" in result.stderr
-    assert gradhesion("run", study_file, "-o", output, "--shard", "1/2", "--fresh").exit_code == 2
-    none = gradhesion("merge", output)
-    assert none.exit_code == 2
-    assert "has no blocks to join" in none.stderr
+        assert "--shard 3/8" in run("--shard", shard, code=2).stderr
+    assert run("--shard", "1/2", "--fresh").exit_code == 2
+    assert "has no blocks to join" in gradhesion("merge", output, code=2).stderr
     monkeypatch.setenv("GRADHESION_CHUNK", "100")
-    assert "run it without --shard" in gradhesion("run", study_file, "-o", output, "--shard", "1/2").stderr
+    assert "run it without --shard" in run("--shard", "1/2").stderr
     assert os.listdir(tmp_path) == ["study.toml"]

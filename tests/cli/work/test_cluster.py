@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from pathlib import Path
 
 import dask
@@ -18,6 +19,7 @@ from tests.cli.conftest import Call, Patch
 from tests.faults.trials import values_of
 
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("small_blocks")]
+Cluster = Callable[[], str]
 
 PRELOAD = """
 import os, signal, time
@@ -45,60 +47,49 @@ if (order / "other_version").exists():
 
 
 @pytest.fixture
-def cluster(tmp_path: Path) -> Iterator[Callable[..., LocalCluster]]:
-    """Start two workers that obey."""
-    made = []
+def cluster(tmp_path: Path) -> Iterator[Cluster]:
+    """Start two workers that obey, and give the address of their scheduler."""
     preload = tmp_path / "preload.py"
     preload.write_text(PRELOAD.format(folder=str(tmp_path)))
-
-    def start() -> LocalCluster:
-        made.append(
-            LocalCluster(n_workers=2, threads_per_worker=1, memory_limit=None, dashboard_address=None, silence_logs=60)
-        )
-        return made[0]
-
-    with dask.config.set({"distributed.worker.preload": [str(preload)], "distributed.scheduler.allowed-failures": 1}):
-        yield start
-        for one in made:
-            one.close()
+    how = {"n_workers": 2, "threads_per_worker": 1, "memory_limit": None, "dashboard_address": None, "silence_logs": 60}
+    own = {"distributed.worker.preload": [str(preload)], "distributed.scheduler.allowed-failures": 1}
+    with dask.config.set(own), ExitStack() as made:
+        yield lambda: made.enter_context(LocalCluster(**how)).scheduler_address
 
 
 def test_workers_give_the_bytes_of_threads_and_what_dies_is_replaced(
-    gradhesion: Call, study_file: Path, whole: dict[str, bytes], tmp_path: Path, cluster: Callable[..., LocalCluster]
+    gradhesion: Call, study_file: Path, whole: dict[str, bytes], tmp_path: Path, cluster: Cluster
 ) -> None:
     """By address, by the file of a scheduler, on what another engine has left, and with a worker that is killed."""
     output, file = tmp_path / "data" / "out.nc", tmp_path / "scheduler.json"
-    address = cluster().scheduler_address
+    address = cluster()
     file.write_text(json.dumps({"address": address}))
     assert gradhesion("run", study_file, "-o", output, "--shard", "1/3").exit_code == 0
     (tmp_path / "die").touch()
-    result = gradhesion("run", study_file, "-o", output, "--engine", "dask", "--scheduler", address)
-    assert result.exit_code == 0, result.stderr
+    result = gradhesion("run", study_file, "-o", output, "--engine", "dask", "--scheduler", address, code=0)
     assert "reused 2 blocks, computed 4" in result.stderr
     assert not (tmp_path / "die").exists()
     assert values_of(output) == whole
-    quiet = gradhesion("run", study_file, "-o", output, "--overwrite", "--engine=dask", "--scheduler", file, "--quiet")
-    assert (quiet.exit_code, quiet.stderr) == (0, "")
+    again = ("--overwrite", "--engine=dask", "--scheduler", file, "--quiet")
+    assert gradhesion("run", study_file, "-o", output, *again, code=0).stderr == ""
     assert values_of(output) == whole
     assert os.listdir(output.parent) == ["out.nc"]
 
 
 @pytest.mark.parametrize(("what", "code"), [("always_die", 4), ("other_version", 2)])
-def test_workers_that_cannot_do_it_end_the_run_in_a_sentence(
-    what: str, code: int, gradhesion: Call, study_file: Path, tmp_path: Path, cluster: Callable[..., LocalCluster]
+def test_workers_that_cannot_do_it_end_the_run(
+    what: str, code: int, gradhesion: Call, study_file: Path, tmp_path: Path, cluster: Cluster
 ) -> None:
     (tmp_path / what).touch()
-    address = cluster().scheduler_address
-    output = tmp_path / "data" / "out.nc"
+    address, output = cluster(), tmp_path / "data" / "out.nc"
     assert gradhesion("run", study_file, "-o", output, "--shard", "1/3").exit_code == 0
-    result = gradhesion("run", study_file, "-o", output, "--engine", "dask", "--scheduler", address)
-    assert result.exit_code == code, result.stderr
+    result = gradhesion("run", study_file, "-o", output, "--engine", "dask", "--scheduler", address, code=code)
     assert result.stderr.startswith("--engine dask: ")
     assert len(parts_in(folder_of(output))) == 2, "what was there stays"
 
 
 @pytest.mark.parametrize("scheduler", ["tcp://127.0.0.1:9", "none.json", "/dev/null", "no dask"])
-def test_where_no_scheduler_answers_or_dask_is_missing_it_is_said(
+def test_no_scheduler_or_no_dask_is_said(
     scheduler: str, gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: Patch
 ) -> None:
     command = ["run", study_file, "-o", tmp_path / "data" / "out.nc", "--engine=dask"]
@@ -107,12 +98,10 @@ def test_where_no_scheduler_answers_or_dask_is_missing_it_is_said(
     else:
         command += ["--scheduler", scheduler]
     with dask.config.set({"distributed.comm.timeouts.connect": "1s"}):
-        result = gradhesion(*command)
-    assert result.exit_code == 2, result.stderr
+        result = gradhesion(*command, code=2)
     assert ("pip install dask" if scheduler == "no dask" else scheduler) in result.stderr
     monkeypatch.setenv("GRADHESION_CHUNK", "100")
-    one_block = gradhesion(*command)
-    assert one_block.exit_code == (2 if scheduler == "no dask" else 0), "which needs no cluster"
+    gradhesion(*command, code=2 if scheduler == "no dask" else 0)  # one block needs no cluster
 
 
 def test_an_interrupt_ends_the_workers_of_this_machine_and_keeps_blocks(study_file: Path, tmp_path: Path) -> None:

@@ -7,7 +7,6 @@ from collections.abc import Callable
 from itertools import count
 from pathlib import Path
 from typing import Any
-from unittest.mock import Mock
 
 import netCDF4
 import pytest
@@ -15,47 +14,48 @@ from click.testing import Result
 
 from gradhesion.cli.work.folder import Parts, claimed, folder_of
 from gradhesion.cli.work.solve.scenes import solve as real_solve
-from tests.cli.conftest import Call, Patch
+from tests.cli.conftest import Call, Patch, Told
 from tests.faults.trials import values_of
 
 pytestmark = pytest.mark.usefixtures("small_blocks")
 
 SOLVE = "gradhesion.cli.work.solve.scenes.solve"
 BLOCKS = 6
+Begun = Callable[..., int]
+Values = dict[str, bytes]
+CHANGES = ["parameters.nu=0.3", "parameters.k=[0.1, 0.31]", "method.check_contact=false", "SOURCES", "FORMAT"]
+DAMAGES: dict[str, Callable[[bytes], bytes]] = {
+    "empty": lambda _: b"",
+    "cut short": lambda content: content[:-1],
+    "one bit of a value": lambda content: content[:1000] + bytes([content[1000] ^ 1]) + content[1001:],
+    "something else": lambda _: b"precious" * 100,
+}
 
 
 @pytest.fixture
-def output(tmp_path: Path) -> Path:
-    """Where the dataset goes."""
-    return tmp_path / "data" / "out.nc"
-
-
-@pytest.fixture
-def begun(gradhesion: Call, study_file: Path, output: Path, monkeypatch: Patch) -> Callable[..., int]:
+def begun(run: Call, output: Path, monkeypatch: Patch) -> Begun:
     """Interrupt a run after some blocks; tells how many are kept."""
 
     def begin(number: int, *options: str) -> int:
-        really = Mock(side_effect=real_solve)
+        calls = count()
         with monkeypatch.context() as patch:
-            patch.setattr(SOLVE, lambda *a, **b: really(*a, **b) if really.call_count < number else interrupted())
-            assert gradhesion("run", study_file, "-o", output, *options).exit_code == 1, "click's, without main()"
+            patch.setattr(SOLVE, lambda *a, **b: real_solve(*a, **b) if next(calls) < number else interrupted())
+            assert run(*options).exit_code == 1, "click's, without main()"
         return len(list(output.parent.glob("out.nc.parts/*.npz")))
 
     return begin
 
 
 def interrupted() -> dict[str, Any]:
-    """Press Ctrl-C."""
     raise KeyboardInterrupt
 
 
 @pytest.fixture
-def resumed(gradhesion: Call, study_file: Path, output: Path, whole: dict[str, bytes]) -> Call:
+def resumed(run: Call, output: Path, whole: Values) -> Call:
     """Give the same command again, to its end."""
 
     def resume(kept: int, *options: str) -> Result:
-        result = gradhesion("run", study_file, "-o", output, *options)
-        assert result.exit_code == 0, result.stderr
+        result = run(*options, code=0)
         assert ("reused" in result.stderr) == (kept > 0)
         assert not kept or f"reused {kept} block{'s' * (kept > 1)}, computed {BLOCKS - kept}" in result.stderr
         assert values_of(output) == whole
@@ -66,19 +66,19 @@ def resumed(gradhesion: Call, study_file: Path, output: Path, whole: dict[str, b
 
 
 @pytest.mark.parametrize("number", [1, 5])
-def test_a_run_goes_on_where_it_was_interrupted(number: int, begun: Callable[..., int], resumed: Call) -> None:
+def test_a_run_goes_on_where_it_was_interrupted(number: int, begun: Begun, resumed: Call) -> None:
     kept = begun(number)
     assert kept in {number - 1, number}, "the last one may have been on its way to the disk"
     resumed(kept)
 
 
 def test_an_old_output_stays_until_the_new_one_is_whole_and_another_title_goes_on(
-    begun: Callable[..., int], resumed: Call, gradhesion: Call, study_file: Path, output: Path
+    run: Call, begun: Begun, resumed: Call, study_file: Path, output: Path
 ) -> None:
     output.parent.mkdir()
     output.write_text("precious")
     kept = begun(3, "--overwrite")
-    assert gradhesion("run", study_file, "-o", output).exit_code == 4, "it exists"
+    assert run().exit_code == 4, "it exists"
     assert output.read_text() == "precious"
     study_file.write_text("# another way to write it\n" + study_file.read_text())
     resumed(kept, "--overwrite", "--set=title='Another'")
@@ -86,80 +86,58 @@ def test_an_old_output_stays_until_the_new_one_is_whole_and_another_title_goes_o
         assert file.title == "Another"
 
 
-CHANGES = ["parameters.nu=0.3", "parameters.k=[0.1, 0.31]", "method.check_contact=false", "SOURCES", "FORMAT"]
-
-
 @pytest.mark.parametrize("change", CHANGES)
 def test_blocks_of_another_study_or_version_are_refused_and_kept_until_they_are_dropped(
-    change: str, begun: Callable[..., int], gradhesion: Call, study_file: Path, output: Path, monkeypatch: Patch
+    run: Call, change: str, begun: Begun, output: Path, monkeypatch: Patch
 ) -> None:
     kept = begun(4)
-    command = ["run", study_file, "-o", output]
-    if "=" in change:
-        command += ["--set", change]
-    else:
+    command = ["--set", change] if "=" in change else []
+    if not command:
         monkeypatch.setattr(f"gradhesion.cli.work.folder.{change}", "another")
-    refused = gradhesion(*command)
-    assert refused.exit_code == 4
-    assert "--fresh" in refused.stderr
+    assert "--fresh" in run(*command, code=4).stderr
     assert len(list(output.parent.glob("out.nc.parts/*.npz"))) == kept
-    assert "reused" not in gradhesion(*command, "--fresh").stderr
+    assert "reused" not in run(*command, "--fresh").stderr
     assert os.listdir(output.parent) == ["out.nc"]
 
 
-DAMAGES: dict[str, Callable[[bytes], bytes]] = {
-    "empty": lambda _: b"",
-    "cut short": lambda content: content[:-1],
-    "one bit of a value": lambda content: content[:1000] + bytes([content[1000] ^ 1]) + content[1001:],
-    "something else": lambda _: b"precious" * 100,
-}
-
-
 @pytest.mark.parametrize("damage", [*DAMAGES, "another block"])
-def test_a_damaged_block_is_computed_again(damage: str, begun: Callable[..., int], resumed: Call, output: Path) -> None:
+def test_a_damaged_block_is_computed_again(damage: str, begun: Begun, resumed: Call, output: Path) -> None:
     kept = begun(5)
     first, part, *_ = sorted(folder_of(output).glob("*.npz"))
     part.write_bytes(DAMAGES[damage](part.read_bytes()) if damage in DAMAGES else first.read_bytes())
     resumed(kept - 1)
 
 
-def test_one_block_is_not_kept_and_a_second_run_refused(
-    gradhesion: Call, study_file: Path, output: Path, monkeypatch: Patch
-) -> None:
+def test_one_block_is_not_kept(run: Call, output: Path, monkeypatch: Patch) -> None:
+    """And a second run is refused."""
     output.parent.mkdir()
     with claimed(output):
-        assert gradhesion("run", study_file, "-o", output).exit_code == 4
+        assert run().exit_code == 4
     assert os.listdir(output.parent) == []
     monkeypatch.setenv("GRADHESION_CHUNK", "100")
     monkeypatch.setattr(Parts, "write", lambda *_: pytest.fail("there is none"))
-    assert gradhesion("run", study_file, "-o", output).exit_code == 0
+    assert run().exit_code == 0
 
 
-def test_files_of_users_are_left(begun: Callable[..., int], gradhesion: Call, study_file: Path, output: Path) -> None:
+def test_files_of_users_are_left(run: Call, begun: Begun, gradhesion: Call, output: Path) -> None:
     """A folder that no run has made is refused; what is put beside blocks stays."""
     folder = folder_of(output)
     folder.mkdir(parents=True)
     (folder / "thesis.npz").write_text("mine")
     for options in ([], ["--fresh"], ["--overwrite"], ["--shard", "1/2"]):
-        assert gradhesion("run", study_file, "-o", output, *options).exit_code == 4
+        assert run(*options).exit_code == 4
     assert gradhesion("status", output).exit_code == gradhesion("merge", output).exit_code == 2
     assert [path.name for path in folder.iterdir()] == ["thesis.npz"]
     (folder / "thesis.npz").unlink()
     begun(3)
     (folder / "notes.txt").write_text("mine")
-    assert gradhesion("run", study_file, "-o", output).exit_code == 0
+    assert run().exit_code == 0
     assert os.listdir(folder) == ["notes.txt"]
 
 
 @pytest.mark.parametrize(("cells", "event"), [("2", "gone"), ("2", "appears"), ("100", "appears")])
 def test_what_happens_to_the_folder_during_a_run_loses_nothing(
-    cells: str,
-    event: str,
-    gradhesion: Call,
-    study_file: Path,
-    output: Path,
-    whole: dict[str, bytes],
-    monkeypatch: Patch,
+    cells: str, event: str, refusal: Told, study_file: Path, output: Path, whole: Values, monkeypatch: Patch
 ) -> None:
     """The folder of its blocks may be removed; a file may appear in the place of the output."""
 
@@ -173,11 +151,10 @@ def test_what_happens_to_the_folder_during_a_run_loses_nothing(
 
     monkeypatch.setenv("GRADHESION_CHUNK", cells)
     monkeypatch.setattr(SOLVE, happening)
-    result = gradhesion("run", study_file, "-o", output, "--quiet")
-    assert (result.exit_code, result.stderr.count("\n")) == (4, 1)
-    assert result.stderr.startswith(f"{output}: ")
+    told = refusal("run", study_file, "-o", output, "--quiet", code=4)
+    assert told.startswith(f"{output}: ")
     if event == "appears":
-        assert str(output.with_name("out-2.nc")) in result.stderr
+        assert str(output.with_name("out-2.nc")) in told
         assert output.read_text() == "precious"
         assert values_of(output.with_name("out-2.nc")) == whole
 
@@ -197,21 +174,21 @@ def failing(really: Callable[..., Any], number: int, code: int) -> Callable[...,
 @pytest.mark.parametrize("code", [errno.EROFS, errno.ENOSPC])
 @pytest.mark.parametrize("name", ["replace", "hardlink_to", "mkdir"])
 def test_a_change_of_a_name_that_fails_loses_nothing(
-    name: str, code: int, gradhesion: Call, study_file: Path, whole: dict[str, bytes], output: Path
+    run: Call, name: str, code: int, whole: Values, output: Path
 ) -> None:
     """Whichever it is, the run ends in a sentence or goes on without, and the same command makes the dataset."""
     ended = []
     for number in range(1, 40):
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(Path, name, failing(getattr(Path, name), number, code))
-            result = gradhesion("run", study_file, "-o", output, "--quiet")
+            result = run("--quiet")
         ended.append(result.exit_code)
         if result.exit_code:
             assert result.exit_code == 4
             assert result.stderr.count("\n") == 1
             assert os.strerror(code) in result.stderr
             assert not output.exists()
-        again = gradhesion("run", study_file, "-o", output, "--quiet", *(["--overwrite"] if output.exists() else []))
+        again = run("--quiet", *(["--overwrite"] if output.exists() else []))
         assert again.exit_code == 0, again.stderr
         assert values_of(output) == whole
         assert os.listdir(output.parent) == ["out.nc"]
@@ -221,29 +198,25 @@ def test_a_change_of_a_name_that_fails_loses_nothing(
     assert name == "hardlink_to" or 4 in ended
 
 
-def test_a_run_killed_before_it_could_tidy_up_is_complete(
-    gradhesion: Call, study_file: Path, output: Path, whole: dict[str, bytes], monkeypatch: Patch
+def test_a_run_killed_before_it_tidied_up_is_complete(
+    run: Call, output: Path, whole: Values, monkeypatch: Patch
 ) -> None:
     with monkeypatch.context() as patch:
         patch.setattr("gradhesion.cli.work.folder._remove", lambda _: None)
-        assert gradhesion("run", study_file, "-o", output).exit_code == 0
+        assert run().exit_code == 0
     assert folder_of(output).exists()
     monkeypatch.setattr(SOLVE, lambda *_, **__: pytest.fail("nothing is left to do"))
-    result = gradhesion("run", study_file, "-o", output)
-    assert result.exit_code == 0
-    assert "complete already" in result.stderr
+    assert "complete already" in run(code=0).stderr
     assert os.listdir(output.parent) == ["out.nc"]
     assert values_of(output) == whole
 
 
-def test_blocks_of_version_0_3_are_refused_until_dropped(gradhesion: Call, study_file: Path, output: Path) -> None:
+def test_blocks_of_version_0_3_are_refused_until_dropped(run: Call, output: Path) -> None:
     folder = folder_of(output)
     folder.mkdir(parents=True)
     for name in ("000000.part", "study.json", "state.json", "lock"):
         (folder / name).write_text("{}")
-    refused = gradhesion("run", study_file, "-o", output)
-    assert refused.exit_code == 4
-    assert "--fresh" in refused.stderr
+    assert "--fresh" in run(code=4).stderr
     assert (folder / "000000.part").exists()
-    assert gradhesion("run", study_file, "-o", output, "--fresh").exit_code == 0
+    assert run("--fresh").exit_code == 0
     assert os.listdir(output.parent) == ["out.nc"]

@@ -1,9 +1,9 @@
-"""`gradhesion run` writes the dataset that the study asks for, and leaves with the right code."""
+"""`gradhesion run` writes the dataset that the study asks for, with the right code; the first run of a version says once that it compiles."""
 
 import os
 import re
 import stat
-from collections.abc import Callable
+import threading
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,20 +12,20 @@ import netCDF4
 import numpy as np
 import pytest
 import xarray
+from filelock import FileLock
 
+import gradhesion as gr
 from gradhesion.cli.dataset import compute
 from gradhesion.cli.study import load_study, study_from
+from gradhesion.cli.work import compiling
 from gradhesion.cli.work.solve.scenes import solve as real_solve
 from gradhesion.core import FAILED, PARAMETERS
+from gradhesion.core.jit import Place
 from gradhesion.core.problem.status import OF_EVERY_MAP
-from tests.cli.conftest import Call, Made, Patch
+from tests.cli.conftest import Call, Called, Made, Patch
 
 SOLVE = "gradhesion.cli.work.solve.scenes.solve"
-
-
-@pytest.fixture
-def _nothing_is_computed(monkeypatch: Patch) -> None:
-    monkeypatch.setattr(SOLVE, lambda *_, **__: pytest.fail("nothing is computed"))
+Printed = pytest.CaptureFixture[str]
 
 
 def test_the_dataset_keeps_its_contract(dataset_file: Path, study_file: Path) -> None:
@@ -75,9 +75,8 @@ def test_values_do_not_depend_on_blocks_or_threads(layout: str, data: dict[str, 
     """A block of 128 exponents or more has interpolated tables, a smaller one those of its own."""
     scenes = np.random.default_rng(7).uniform(0.05, 0.45, (4, 150))
     lists = dict(zip(("k", "lambda_over_R", "A", "a_max_over_R"), scenes.tolist(), strict=True))
-    study = study_from(
-        data | ({"layout": layout, "parameters": data["parameters"] | lists} if layout == "points" else {})
-    )
+    points = {"layout": layout, "parameters": data["parameters"] | lists} if layout == "points" else {}
+    study = study_from(data | points)
     whole = compute(study, threads=1)
     xarray.testing.assert_identical(compute(study, threads=2), whole)
     # terms of a value and of the tables that it is made of: some hundred eps
@@ -100,8 +99,8 @@ def test_dimensions_are_those_of_axes_and_points_have_one(made: Made) -> None:
 
 def test_the_default_output_and_message(gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: Patch) -> None:
     monkeypatch.chdir(tmp_path)
-    result = gradhesion("run", study_file)
-    assert (result.exit_code, result.stdout) == (0, "")
+    result = gradhesion("run", study_file, code=0)
+    assert result.stdout == ""
     assert re.search(r"outputs/study.nc: 24 scenes in [\d.]+ s \([\d,]+ per s\), [\d.]+ kB\n$", result.stderr)
     assert os.listdir("outputs") == ["study.nc"]
     mask = os.umask(0)
@@ -111,23 +110,20 @@ def test_the_default_output_and_message(gradhesion: Call, study_file: Path, tmp_
     assert (quiet.stdout, quiet.stderr) == ("", "")
 
 
-@pytest.mark.usefixtures("_nothing_is_computed")
-@pytest.mark.parametrize("output", ["old.nc", "folder", "file/out.nc", "/proc/out.nc", "/dev/null", "x" * 300 + ".nc"])
-def test_an_output_that_cannot_be_is_refused(output: str, gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
+def test_an_output_that_cannot_be_is_refused(run: Call, tmp_path: Path, monkeypatch: Patch) -> None:
+    monkeypatch.setattr(SOLVE, lambda *_, **__: pytest.fail("nothing is computed"))
     (tmp_path / "folder").mkdir()
     (tmp_path / "file").touch()
     (tmp_path / "old.nc").write_text("precious")
-    overwrite = [] if output == "old.nc" else ["--overwrite"]
-    result = gradhesion("run", study_file, "-o", tmp_path / output, *overwrite)
-    assert result.exit_code == 4
-    assert result.stderr.startswith(str(tmp_path / output))
-    assert "-o" in result.stderr, "it tells what to do"
-    assert (tmp_path / "old.nc").read_text() == "precious"
+    for output in ("old.nc", "folder", "file/out.nc", "/proc/out.nc", "/dev/null", "x" * 300 + ".nc"):
+        overwrite = [] if output == "old.nc" else ["--overwrite"]
+        result = run("-o", tmp_path / output, *overwrite, code=4)
+        assert result.stderr.startswith(str(tmp_path / output))
+        assert "-o" in result.stderr, "it tells what to do"
+        assert (tmp_path / "old.nc").read_text() == "precious"
 
 
-def test_an_output_is_replaced_if_asked_and_links_are_followed(
-    gradhesion: Call, study_file: Path, tmp_path: Path
-) -> None:
+def test_an_output_is_replaced_if_asked_and_a_link_followed(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
     link, real = tmp_path / "link.nc", tmp_path / "real" / "real.nc"
     real.parent.mkdir()
     link.symlink_to(real)
@@ -147,17 +143,14 @@ def test_failed_scenes_are_written(gradhesion: Call, study_file: Path, tmp_path:
         return values
 
     monkeypatch.setattr(SOLVE, failing)
-    result = gradhesion("run", study_file, "-o", tmp_path / "out.nc", "--quiet")
-    assert result.exit_code == 3
+    result = gradhesion("run", study_file, "-o", tmp_path / "out.nc", "--quiet", code=3)
     assert f"1 of 24 scenes failed; `gradhesion info {tmp_path}/out.nc` reports why" in result.stderr
     with xarray.open_dataset(tmp_path / "out.nc") as dataset:
         assert int(dataset["pull_off_force"].isnull().sum()) == 1
 
 
 @pytest.mark.parametrize("limit", [300, 3_000, 20_000, 60_000])
-def test_a_failed_write_loses_nothing(
-    limit: int, study_file: Path, tmp_path: Path, on_a_full_disk: Callable[..., Any]
-) -> None:
+def test_a_failed_write_loses_nothing(limit: int, study_file: Path, tmp_path: Path, on_a_full_disk: Called) -> None:
     folder = tmp_path / "data"
     folder.mkdir()
     old = folder / "out.nc"
@@ -169,3 +162,82 @@ def test_a_failed_write_loses_nothing(
     assert "Traceback" not in done.stderr
     assert old.read_text() == "precious"
     assert os.listdir(folder) == ["out.nc"]
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: Patch) -> Path:
+    """A folder for compiled code, in which no process has compiled yet."""
+    folder = tmp_path / "kernels"
+    folder.mkdir()
+    monkeypatch.setattr(compiling, "place", lambda: Place(folder, ""))
+    return folder
+
+
+@pytest.mark.usefixtures("folder")
+def test_the_first_run_alone_says_that_it_compiles(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
+    run = ("run", study_file, "--quiet")
+    assert len(gradhesion(*run, "-o", tmp_path / "first.nc").stderr.splitlines()) == 1, "also where it is quiet"
+    assert gradhesion(*run, "-o", tmp_path / "second.nc").stderr == ""
+    assert gradhesion("plan", study_file).stderr == ""
+
+
+def test_a_plan_and_python_say_it_as_well_and_another_process_does_not_say_it_again(
+    folder: Path, gradhesion: Call, study_file: Path, data: dict[str, Any], monkeypatch: Patch, capsys: Printed
+) -> None:
+    assert len(gradhesion("plan", study_file, "--json").stderr.splitlines()) == 1
+    (folder / "another").mkdir()
+    monkeypatch.setattr(compiling, "place", lambda: Place(folder / "another", ""))
+    scene = dict.fromkeys(data["parameters"], 0.3) | {"A": 0.01}
+    for said in (1, 0):
+        for call in (lambda: gr.solve(scene, "pull_off_force"), lambda: gr.curves(scene, "path")):
+            call()  # each compiles something else
+            assert len(capsys.readouterr().err.splitlines()) == said
+        monkeypatch.setattr(compiling, "_begun", set())
+    compute(study_from(data | {"outputs": ["pull_off_force"]}))
+    assert capsys.readouterr().err == ""
+    compute(study_from(data | {"outputs": ["dissipated_energy"]}))
+    assert len(capsys.readouterr().err.splitlines()) == 1
+
+
+def test_why_nothing_is_kept_is_said_once(data: dict[str, Any], monkeypatch: Patch, capsys: Printed) -> None:
+    monkeypatch.setattr(compiling, "place", lambda: Place(None, "a folder is not used, and why"))
+    monkeypatch.setattr(compiling, "_begun", set())
+    for is_first in (True, False):
+        compute(study_from(data))
+        assert ("a folder is not used, and why" in capsys.readouterr().err) == is_first
+
+
+def test_what_starts_while_another_process_compiles_waits_for_it(folder: Path) -> None:
+    """The other process is this one: it holds the lock."""
+    waiting = threading.Thread(target=compiling.prepare)
+    with FileLock(folder / "lock"):
+        waiting.start()
+        waiting.join(0.3)
+        assert waiting.is_alive()
+    waiting.join(60)
+    assert not waiting.is_alive()
+
+
+@pytest.mark.usefixtures("folder")
+def test_a_map_compiles_what_it_needs_before_it_is_solved(data: dict[str, Any], monkeypatch: Patch) -> None:
+    """A scene at either end of its axes is solved; blocks that raise are left to the run."""
+    solved: list[Any] = []
+
+    def solve_block(_study: Any, block: Any, _threads: Any) -> None:
+        solved.append(block)
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(compiling, "solve_block", solve_block)
+    study = study_from(data)
+    compiling.prepare(study)
+    ends = [tuple((part.start, part.stop) for part in block) for block in solved]
+    assert ends == [tuple((0, 1) for _ in study.shape), tuple((size - 1, size) for size in study.shape)]
+
+
+@pytest.mark.usefixtures("folder")
+def test_a_warmup_takes_the_options_of_earlier_versions(gradhesion: Call, monkeypatch: Patch) -> None:
+    asked: list[bool] = []
+    monkeypatch.setattr("gradhesion.core.warm_up", lambda _report, *, everything: asked.append(everything))
+    for arguments in ([], ["--all"], ["--all", "--workers", "2", "--quiet"]):
+        assert ("--quiet" in arguments) == (gradhesion("warmup", *arguments, code=0).stderr == "")
+    assert asked == [False, True, True]

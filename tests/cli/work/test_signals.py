@@ -94,9 +94,7 @@ def test_an_interrupt_that_a_library_swallows_is_heard(study_file: Path, tmp_pat
     assert os.listdir(tmp_path / "out") == []
 
 
-def test_an_interrupt_that_a_cluster_swallows_ends_the_run_after_a_block(
-    study_file: Path, tmp_path: Path, monkeypatch: Patch
-) -> None:
+def test_an_interrupt_a_cluster_swallows_is_heard(study_file: Path, tmp_path: Path, monkeypatch: Patch) -> None:
     def engine(study: Study, numbers: Sequence[int]) -> Iterator[tuple[int, Arrays]]:
         for number in numbers:
             monkeypatch.setattr(interrupts, "_heard", [0.0])
@@ -110,7 +108,6 @@ def test_an_interrupt_that_a_cluster_swallows_ends_the_run_after_a_block(
 
 @pytest.fixture
 def unread() -> Iterator[int]:
-    """A pipe whose reader has gone."""
     reader, pipe = os.pipe()
     os.close(reader)
     yield pipe
@@ -215,9 +212,7 @@ def make(target: Path, meanwhile: Callable[[], object], *, overwrite: bool) -> N
 
 
 @pytest.mark.parametrize("links", [True, False])
-def test_a_file_that_appears_meanwhile_stays_beside_the_new_one(
-    links: bool, tmp_path: Path, monkeypatch: Patch
-) -> None:
+def test_a_file_that_appears_meanwhile_stays_beside_the_new(links: bool, tmp_path: Path, monkeypatch: Patch) -> None:
     if not links:
         monkeypatch.setattr(Path, "hardlink_to", without_links)
     target = tmp_path / "out.nc"

@@ -21,9 +21,7 @@ def heights(rho: Any, wavelength: float = 0.193) -> Any:
     return total
 
 
-def drawn(
-    noise: float = 0.0, seed: int = 1, *, both: bool = True, points: int = 1500, **more: float
-) -> tuple[Any, Any]:
+def drawn(noise: float = 0.0, seed: int = 1, *, both: bool = True, points: int = 1500, **more: float) -> Any:
     """A measured line: over both flanks with its centre at 0.031, or over one from the axis on."""
     r = np.linspace(-1.15, 1.1, points) if both else np.linspace(0.0, 1.1, points)
     errors = np.random.default_rng(seed).standard_normal(r.size)
@@ -53,7 +51,6 @@ def test_an_exact_profile_comes_back(both: bool, exponent: float | None) -> None
 
 
 def pulls(found: FittedProfile, both: bool) -> list[float]:
-    """What was found less what is, over the errors."""
     true = {"exponent": 2.37, "radius": 1.7, "wavelength": 0.193, "height": 5.2} | ({"centre": 0.031} if both else {})
     own = [(getattr(found, name) - value) / found.errors[name] for name, value in true.items() if found.errors[name]]
     for name, values in (("cosines", COSINES), ("sines", SINES)):

@@ -1,24 +1,78 @@
-"""Distributions of inputs against SciPy's, statistics against numpy's, and what differs."""
+"""Random profiles and uncertain inputs: their laws and distributions, statistics against numpy's, and what follows from the seed."""
+
+import math
 
 import numpy as np
 import pytest
 from scipy.stats import truncnorm
 
+from gradhesion.core import Profile
+from gradhesion.core.answers.spectrum import Spectrum, random_profile
 from gradhesion.core.answers.uncertainty import QUANTILES, Spread, differ, drawn_shares, linear_deviation, statistics_of
 
-SHARES = np.array([1e-12, 0.003, 0.31, 0.5, 0.77, 0.9999])
 EPS = float(np.finfo(float).eps)
+ROUGH = {"hurst": 0.7, "first": 2, "last": 41, "realisations": 400, "seed": 11}
+WRONG = ({"hurst": -0.1}, {"hurst": 1.1}, {"first": 0}, {"last": 1}, {"last": 66}, {"last": 10_001, "first": 10_000})
 
 
-@pytest.mark.parametrize(
-    ("centre", "spread"),
-    [
-        (0.02, Spread(deviation=0.013, low=0.0)),
-        (0.31, Spread(deviation=0.27, low=-1.0, high=0.5)),
-        (0.97, Spread(deviation=0.05, relative=True, low=0.0, high=1.0)),
-        (430.0, Spread(deviation=0.07, relative=True, low=0.0)),
-    ],
-)
+def waves(profile: Profile) -> tuple[np.ndarray, ...]:
+    return tuple(np.array([getattr(wave, name) for wave in profile.harmonics]) for name in ("n", "cos", "sin"))
+
+
+def test_amplitudes_follow_the_power_law_and_make_the_rms_height_one() -> None:
+    spectrum = Spectrum(**ROUGH)
+    n, cos, sin = waves(random_profile(spectrum, 3))
+    assert n.tolist() == list(range(2, 42))
+    sizes = np.hypot(cos, sin)
+    np.testing.assert_allclose(sizes / sizes[0], (n / 2.0) ** -1.2, rtol=8 * EPS)
+    phase = 2 * np.pi * np.multiply.outer(np.arange(4096) / 4096, n)
+    assert np.std((1 - np.cos(phase)) @ cos + np.sin(phase) @ sin) == pytest.approx(1.0, rel=64 * EPS)
+    slope = 2 * np.pi * (np.sin(phase) @ (n * cos) + np.cos(phase) @ (n * sin))
+    assert np.sqrt(np.mean(slope**2)) == pytest.approx(spectrum.rms_slope, rel=64 * EPS)
+
+
+def test_a_realisation_follows_from_seed_and_number_alone() -> None:
+    """A dataset can be made again by another version of NumPy: the raw stream of PCG64 is fixed."""
+    one, other = Spectrum(**ROUGH), Spectrum(**(ROUGH | {"realisations": 3}))
+    assert random_profile(one, 2) == random_profile(other, 2)
+    assert random_profile(one, 2) != random_profile(one, 1)
+    assert random_profile(one, 2) != random_profile(Spectrum(**(ROUGH | {"seed": 12})), 2)
+    assert random_profile(one, 0, 1.5).exponent == 1.5
+    _, cos, sin = waves(random_profile(Spectrum(hurst=0.5, first=1, last=3, realisations=1, seed=1), 0))
+    bits = np.random.PCG64(np.random.SeedSequence(1, spawn_key=(0,)))
+    phases = 2 * np.pi * np.random.Generator(bits).random(3)
+    np.testing.assert_allclose(np.arctan2(sin, cos) % (2 * np.pi), phases, rtol=8 * EPS)
+
+
+def test_phases_are_uniform_and_independent() -> None:
+    spectrum, turns = Spectrum(**ROUGH), []
+    for number in range(400):
+        _, cos, sin = waves(random_profile(spectrum, number))
+        turns.append(np.arctan2(sin, cos))
+    phases = np.array(turns)
+    neighbours = (phases[:, 1:] - phases[:, :-1], phases[1:] - phases[:-1])
+    for sample in (phases, 2 * phases, *neighbours):
+        assert abs(np.mean(np.exp(1j * sample))) < 4.0 / math.sqrt(sample.size)
+
+
+@pytest.mark.parametrize("change", [*WRONG, {"realisations": 0}, {"seed": -1}], ids=str)
+def test_what_cannot_be_drawn_is_refused(change: dict[str, float]) -> None:
+    with pytest.raises(ValueError, match=next(iter(change))):
+        Spectrum(**(ROUGH | change))
+
+
+SHARES = np.array([1e-12, 0.003, 0.31, 0.5, 0.77, 0.9999])
+
+
+SPREADS = {
+    0.02: Spread(deviation=0.013, low=0.0),
+    0.31: Spread(deviation=0.27, low=-1.0, high=0.5),
+    0.97: Spread(deviation=0.05, relative=True, low=0.0, high=1.0),
+    430.0: Spread(deviation=0.07, relative=True, low=0.0),
+}
+
+
+@pytest.mark.parametrize(("centre", "spread"), SPREADS.items())
 def test_a_truncated_normal_distribution(centre: float, spread: Spread) -> None:
     deviation = spread.deviation * (centre if spread.relative else 1.0)
     exact = truncnorm((spread.low - centre) / deviation, (spread.high - centre) / deviation, centre, deviation)
@@ -65,8 +119,5 @@ def test_statistics_leave_out_what_has_no_value() -> None:
         assert np.isnan(found[name][2, 2])
     infinite = statistics_of(np.array([1.0, 2.0, np.inf, np.inf]))
     assert [float(infinite[name]) for name in ("p05", "p50", "p95", "mean")] == [1.15, np.inf, np.inf, np.inf]
-
-
-def test_what_differs() -> None:
     assert differ([1.0, 1.0, 1.0], [0.91, 0.89, np.nan]).tolist() == [False, True, True]
     assert differ([1.0, 1.0], [0.99, 0.97], 0.02).tolist() == [False, True]

@@ -9,8 +9,7 @@ import pytest
 from gradhesion.core import Profile, draw_curves, solve
 from gradhesion.core.equations import envelopes, short_waves
 from gradhesion.core.problem.status import NO_VALUE
-from tests.core.draw.printed import chord_error, curve_of
-from tests.core.scene import ENDLESS, material_of, profile_of, strengths_of
+from tests.core.scene import ENDLESS, chord_error, curve_of, material_of, profile_of, strengths_of
 
 TWO = profile_of(3.0, (1, 1.0, 0.0), (3, 0.1, -0.2))
 ROUGH = profile_of(2.5, (1, 1.0, 0.0), (3, 0.2, -0.3))
@@ -29,7 +28,6 @@ def _of(drawn: dict[str, Any], prefix: str) -> list[Any]:
 
 
 def _height(scene: dict[str, float]) -> float:
-    """The mean height of a cosine."""
     return scene["A"] * scene["lambda_over_R"]
 
 

@@ -13,22 +13,20 @@ import pytest
 from gradhesion.core import CURVES, draw_curves, solve
 from gradhesion.core.draw.draw import INTEGERS
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
-from tests.core.draw.printed import chord_error, curve_of
-from tests.core.scene import ENDLESS, scene_of, strengths_of
+from tests.core.scene import ENDLESS, Scene, chord_error, curve_of, scene_of, strengths_of
 
 POINT = ("contact_radius", "indentation", "load")
 CONTRACT = 2e-4
 """How far a curve may be from the chords of its points, in spans."""
 Curves = dict[str, Any]
+CHANGES: list[dict[str, float]] = [{}, {"A": 0.2}, {"A": 0.0}, {"A": 1e-5}, {"lambda_over_R": 1.3}]
 
 
 def _path(curves: Curves) -> Curves:
     return {name.removeprefix("path_"): values for name, values in curves.items() if name.startswith("path_")}
 
 
-def test_every_curve_has_its_variables_of_one_length_and_ends_at_the_rim(
-    any_scene: dict[str, float], drawn: Curves
-) -> None:
+def test_every_curve_has_its_variables_of_one_length_and_ends_at_the_rim(any_scene: Scene, drawn: Curves) -> None:
     assert list(drawn) == [name for curve in CURVES.values() for name in curve]
     for names in CURVES.values():
         assert len({drawn[name].shape for name in names}) == 1
@@ -51,9 +49,7 @@ def test_a_curve_does_not_depend_on_what_else_is_drawn(scene: dict[str, float]) 
         assert all(np.array_equal(alone[name], together[name]) for name in names)
 
 
-def test_chords_are_within_the_contract_with_a_modest_number_of_points(
-    any_scene: dict[str, float], drawn: Curves
-) -> None:
+def test_chords_are_within_the_contract_with_a_modest_number_of_points(any_scene: Scene, drawn: Curves) -> None:
     """Smooth parts have some hundred; the width of a wave in the picture does the rest, eight points at least."""
     curve, path = curve_of(any_scene), _path(drawn)
     assert chord_error(curve, [drawn[name] for name in POINT]) <= CONTRACT
@@ -116,9 +112,7 @@ def test_jumps_are_those_of_the_path(drawn: Curves) -> None:
 
 
 @pytest.mark.parametrize(("wavelength", "amplitude", "whole"), [(0.002, 0.01, 4), (0.008, 0.02, 8), (0.008, 0.03, 16)])
-def test_whole_waves_without_folds_are_seen(
-    wavelength: float, amplitude: float, whole: int, scene: dict[str, float]
-) -> None:
+def test_whole_waves_without_folds_are_seen(wavelength: float, amplitude: float, whole: int, scene: Scene) -> None:
     """From the last extremum to a rim some whole waves further, middle and quarters are in one phase: on one line."""
     scene |= ENDLESS | {"lambda_over_R": wavelength, "A": amplitude}
     far, _ = draw_curves(scene, ["equilibrium"])
@@ -126,9 +120,6 @@ def test_whole_waves_without_folds_are_seen(
     scene["a_max_over_R"] = float(last + whole * wavelength)
     found, _ = draw_curves(scene, ["equilibrium"])
     assert chord_error(curve_of(scene), [found[name] for name in POINT]) <= CONTRACT
-
-
-CHANGES: list[dict[str, float]] = [{}, {"A": 0.2}, {"A": 0.0}, {"A": 1e-5}, {"lambda_over_R": 1.3}]
 
 
 @pytest.mark.parametrize("change", [*CHANGES, {"k": 1.0, "nu": 0.5}], ids=str)
@@ -211,9 +202,3 @@ def test_what_a_map_reports_of_the_cycle_is_told_with_the_path(scene: dict[str, 
     assert draw_curves(scene, ["jumps", "path"])[1] == CLOSE_TO_A_JUMP
     for own in (gains, gains | {"load_max": 1e4}, scene):
         assert draw_curves(own, ["equilibrium"])[1] == 0
-
-
-def test_mistakes_of_the_caller_are_named(scene: dict[str, float]) -> None:
-    for wrong, curve, told in ((scene, "hysteresis", "'hysteresis'"), ({"k": 0.3}, "smooth", "'nu'")):
-        with pytest.raises(ValueError, match=told):
-            draw_curves(wrong, [curve])

@@ -1,4 +1,4 @@
-"""Curves of any profile, control, pair of works and interface, where they differ from those of one cosine."""
+"""Curves of any profile, control, pair of works and interface, and states: where they differ from those of one cosine."""
 
 import math
 from dataclasses import replace
@@ -7,16 +7,30 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import Loading, draw_curves, solve
+from gradhesion.core import Loading, Profile, draw_curves, solve
+from gradhesion.core.draw import states
+from gradhesion.core.equations import general, quadrature
 from gradhesion.core.problem.status import NO_VALUE
-from tests.core.scene import ENDLESS, pattern_of, profile_of, scene_of
+from tests.core.scene import ENDLESS, EPS, material_of, pattern_of, profile_of, scene_of
 
-EPS = float(np.finfo(float).eps)
 SCENE = scene_of(0.3, 0.27, 430.0, 0.05, 0.1, 0.02, 0.8)
 ROUGH = profile_of(1.5, (1, 1.0, 0.3), (3, 0.2, -0.1))
 PATTERN = pattern_of("toughness", (1, 0.2, 0.1), (3, 0.0, 0.1))
 BY_LOAD, BY_MACHINE = Loading(control="load"), Loading(control="machine")
 SPRINGS: dict[str, dict[str, float]] = {"displacement": {}, "load": {}, "machine": {"machine_stiffness": 2.0}}
+WORKS = scene_of(0.1, 0.3, 500.0, 0.01, 0.1, 0.02, 0.5)
+LENGTH = {"toughness_wavelength_over_R": 0.1}
+REFUSED: list[tuple[dict[str, Any], str, dict[str, Any], str]] = [
+    *(({}, curve, {"loading": BY_LOAD}, curve) for curve in ("asymptotic", "envelope", "effective")),
+    ({}, "hysteresis", {}, "'hysteresis'"),
+    ({"nu": None}, "smooth", {}, "'nu'"),
+    ({}, "path", {"loading": BY_MACHINE}, "machine_stiffness"),
+    ({"machine_stiffness": 1.0}, "path", {}, "machine_stiffness"),
+    (LENGTH, "envelope", {"toughness": PATTERN}, "envelope"),
+    (LENGTH, "path", {}, "toughness_wavelength"),
+    ({"indentation_max_over_R": 0.1, "load_max": 1.0}, "path", {}, "turns at one of them"),
+]
+STATE = scene_of(0.1, 0.3, 500.0, 0.01, 0.2, 0.055, 0.45)
 
 
 @pytest.mark.parametrize("rim", [0.5, math.inf])
@@ -65,9 +79,6 @@ def test_under_a_load_the_punch_falls_where_it_lets_go() -> None:
     assert path["indentation"][-1] == path["indentation"][-2] == pytest.approx(out, rel=1e-12)
 
 
-WORKS = scene_of(0.1, 0.3, 500.0, 0.01, 0.1, 0.02, 0.5)
-
-
 def test_the_closing_curve_is_that_of_a_punch_of_that_work() -> None:
     found, _ = draw_curves(WORKS | {"closing_ratio": 0.25}, ["closing_equilibrium", "equilibrium"])
     closing, _ = draw_curves(WORKS | {"modulus": 2000.0}, ["equilibrium"])
@@ -93,17 +104,12 @@ def test_envelopes_and_the_effective_path_close_at_the_work_of_closing() -> None
     found, _ = draw_curves(WORKS | {"closing_ratio": 0.49}, ["envelope"])
     radii, loads = found["envelope_contact_radius"], found["loading_envelope_load"]
     allowed = 1e-3 * np.ptp(loads)
-    for factor, way in (
-        (0.49, on_the_way(500.0 / 0.49, unloading=False)),
-        (1.0, on_the_way(500.0, unloading=False, closing_ratio=0.49)),
-    ):
-        assert way[0].size > 10
-        np.testing.assert_allclose(factor * way[1], np.interp(way[0], radii, loads), atol=allowed)
+    alone, closing = on_the_way(500.0 / 0.49, unloading=False), on_the_way(500.0, unloading=False, closing_ratio=0.49)
+    for factor, (a, load) in ((0.49, alone), (1.0, closing)):
+        assert a.size > 10
+        np.testing.assert_allclose(factor * load, np.interp(a, radii, loads), atol=allowed)
     a, load = on_the_way(500.0, unloading=True, closing_ratio=0.49)
     np.testing.assert_allclose(load, np.interp(a, *on_the_way(500.0, unloading=True)), atol=allowed)
-
-
-LENGTH = {"toughness_wavelength_over_R": 0.1}
 
 
 def test_what_has_no_value() -> None:
@@ -118,17 +124,57 @@ def test_what_has_no_value() -> None:
         assert np.isnan(drawn["load"]).all()
 
 
-REFUSED: list[tuple[dict[str, float], str, dict[str, Any], str]] = [
-    *(({}, curve, {"loading": BY_LOAD}, curve) for curve in ("asymptotic", "envelope", "effective")),
-    ({}, "path", {"loading": BY_MACHINE}, "machine_stiffness"),
-    ({"machine_stiffness": 1.0}, "path", {}, "machine_stiffness"),
-    (LENGTH, "envelope", {"toughness": PATTERN}, "envelope"),
-    (LENGTH, "path", {}, "toughness_wavelength"),
-    ({"indentation_max_over_R": 0.1, "load_max": 1.0}, "path", {}, "turns at one of them"),
-]
-
-
 @pytest.mark.parametrize(("more", "curve", "how", "told"), REFUSED)
-def test_what_is_refused(more: dict[str, float], curve: str, how: dict[str, Any], told: str) -> None:
+def test_what_is_refused(more: dict[str, Any], curve: str, how: dict[str, Any], told: str) -> None:
     with pytest.raises(ValueError, match=told):
-        draw_curves(SCENE | more, [curve], **how)
+        draw_curves({name: value for name, value in (SCENE | more).items() if value is not None}, [curve], **how)
+
+
+def test_named_states_lie_on_the_path() -> None:
+    found, status = states.named_states(STATE)
+    path, _ = draw_curves(STATE, ["path"])
+    radius, depth, load = (path[f"path_{name}"] for name in ("contact_radius", "indentation", "load"))
+    turn = np.flatnonzero(path["path_unloading"] == 1)[0] - 1
+    last = int(np.flatnonzero(path["path_jump"] == 1)[-1]) - 1
+    for state, i in zip(found.T, (turn, int(np.argmin(load)), last), strict=True):
+        np.testing.assert_allclose(state, [radius[i], depth[i]], rtol=1e-9)
+    assert status == int(solve(STATE)["status"])
+
+
+def test_absent_states_are_nan() -> None:
+    unbounded, _ = states.named_states(STATE | ENDLESS)
+    assert np.isnan(unbounded[:, 0]).all()
+    assert np.isfinite(unbounded[:, 1:]).all()
+    linear = STATE | {"k": 1.0, "nu": 0.5, "A": 0.0}  # contact shrinks to a point
+    assert np.isnan(states.named_states(linear)[0][:, 2]).all()
+    given = states.equilibrium_states(STATE, [0.2, 0.46, 0.0, -1.0])
+    assert np.isnan(given[:, 1:]).all()
+    drawn = states.draw_states(STATE, given, states.STATE_CURVES)
+    assert all(np.isnan(values[1:]).all() and not np.isnan(values[0, 0]) for values in drawn.values())
+
+
+@pytest.mark.parametrize("profile", [Profile(), profile_of(1.7, (1, 1.0, 0.0), (3, 0.0, 0.2))])
+def test_the_pressure_is_that_of_the_equation_up_to_the_edge(profile: Profile) -> None:
+    given = states.equilibrium_states(STATE, [0.11, 0.31], profile)
+    found = states.draw_states(STATE, given, ["pressure"], profile)
+    M, wave = material_of(STATE), (0.2, *states.series_of(0.055, profile), profile.exponent)
+    for (a, depth), r, p in zip(given.T, found["pressure_radius"], found["pressure"], strict=True):
+        assert depth == pytest.approx(float(general.indentation(0.1, M, a, *wave)), rel=1e-12)
+        assert 0.0 <= r[0] < r[-1] < a
+        inside = r > 0.0
+        np.testing.assert_allclose(p[inside], quadrature.pressure(0.1, M, r[inside], a, depth, *wave), rtol=1e-9)
+
+
+def test_the_surface_lies_on_the_punch_and_opens_from_it() -> None:
+    chosen, _ = states.named_states(STATE)
+    found = states.draw_states(STATE, chosen, ["surface"])
+    columns = (found[f"surface_{name}"] for name in ("radius", "displacement", "gap"))
+    for (a, depth), r, u, gap in zip(chosen.T, *columns, strict=True):
+        height = 0.5 * r * r + 0.011 * (1 - np.cos(2 * math.pi * r / 0.2))
+        assert a in r
+        assert np.array_equal(np.isnan(gap), r > 0.45)
+        assert (gap[r <= a] == 0).all()
+        shown = ~np.isnan(gap)
+        np.testing.assert_allclose(u[shown], (depth - height + gap)[shown], atol=1e-15)
+        assert (gap[shown] >= 0).all()  # the scene is one disc
+        assert abs(u[-1]) < 0.5 * abs(depth - height[-1])  # far away the surface is at rest

@@ -16,7 +16,6 @@ ONE, SERIES = ([-0.023], []), ([-0.021, 0.004, 0.0], [0.003, 0.0, -0.002])
 
 
 def slope_of(s: Any, waves: tuple[list[float], list[float]], m: float, lib: Any) -> Any:
-    """f' with the functions of a library."""
     total = s ** (m - 1)
     for n, a_n, b_n in general.harmonics(*waves):
         y = 2 * lib.pi * n * s / WAVELENGTH
@@ -35,9 +34,8 @@ def test_integrals_are_struves_and_bessels_functions(k: float) -> None:
     n = (1 + mpmath.mpf(k)) / 2
     for i, one in enumerate(x):
         z = 2 * mpmath.pi * mpmath.mpf(float(one))
-        for value, (wave, j) in zip(
-            found[:, i], itertools.product((mpmath.struveh, mpmath.besselj), (0, 1)), strict=True
-        ):
+        kinds = itertools.product((mpmath.struveh, mpmath.besselj), (0, 1))
+        for value, (wave, j) in zip(found[:, i], kinds, strict=True):
             size = mpmath.sqrt(mpmath.pi) / 2 * mpmath.gamma(n + j) * (z / 2) ** (mpmath.mpf(0.5) - n - j)
             assert value == pytest.approx(float(size * wave(n + j - 0.5, z)), abs=20 * EPS * (1 + 6 * min(one, 10.0)))
         alone = (*hertz.sine_integrals(k, one)[:2], *hertz.cosine_integrals(k, one))

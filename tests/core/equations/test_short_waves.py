@@ -11,7 +11,7 @@ from scipy.optimize import minimize_scalar
 from gradhesion.core import solve
 from gradhesion.core.equations import effective, envelopes, general, jkr, short_waves
 from gradhesion.core.problem.material import stiffness
-from tests.exact import envelope_loop
+from tests.core.scene import envelope_loop
 
 EPS = float(np.finfo(float).eps)
 M, WAVELENGTH, AMPLITUDE = 150.0, 0.003, 0.02
@@ -131,9 +131,8 @@ def test_extrema_of_zeta_are_true(k: float) -> None:
 def test_envelopes_of_any_power(k: float, m: float) -> None:
     s, r = strengths(k)
     radius, force = (float(one) for one in envelopes.power_pull_off(k, M, s + r, m))
-    low = minimize_scalar(
-        lambda a: float(envelopes.load(k, M, a, s + r, m)), bounds=(0.5 * radius, 2 * radius), options={"xatol": 1e-12}
-    )
+    around = {"bounds": (0.5 * radius, 2 * radius), "options": {"xatol": 1e-12}}
+    low = minimize_scalar(lambda a: float(envelopes.load(k, M, a, s + r, m)), **around)
     assert -low.fun == pytest.approx(force, rel=1e-12)
     if m == 2.0:
         assert envelopes.pull_off_force(k, r / s) == pytest.approx(force, rel=1e-12)
@@ -249,9 +248,8 @@ def test_energy_of_short_waves(k: float) -> None:
     first = effective.first_part(k, material, wavelength, SCENE["A"])
     whole = first + 4 * math.pi * ratio * end**2 * short_waves.saturated_share(k)
     assert k == 0.5 or whole == pytest.approx(exact[3], rel=1e-3)  # a_2 is nearer to a_e there
-    assert short_waves.dissipated_energy(k, material, 0.01, 0.0, math.inf) == effective.first_part(
-        k, material, 0.01, 0.0
-    )
+    smooth = effective.first_part(k, material, 0.01, 0.0)
+    assert short_waves.dissipated_energy(k, material, 0.01, 0.0, math.inf) == smooth
     # int W d(u^(2/n)) over 2001 points of u = t^2, Simpson
     t, power = np.linspace(0.0, 1.0, 2001), 8 / (1 + k)
     values = power * t ** (power - 1) * short_waves.share(t * t)

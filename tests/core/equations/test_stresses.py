@@ -15,12 +15,8 @@ from gradhesion.core.equations import general, hertz, jkr, quadrature
 pytestmark = pytest.mark.slow
 
 M, WAVELENGTH = 210.0, 0.13
-PROFILES = [
-    ([], [], 2.0),
-    ([-0.021, 0.004], [0.003, 0.0, -0.002], 2.0),
-    ([-0.01], [0.02], 1.0),
-    ([0.0, 0.0, 0.005], [], 2.9),
-]
+SERIES = ([-0.021, 0.004], [0.003, 0.0, -0.002], 2.0)
+PROFILES = [([], [], 2.0), SERIES, ([-0.01], [0.02], 1.0), ([0.0, 0.0, 0.005], [], 2.9)]
 """Pressure, load and depth are sums over the terms of a profile, so that a wrong term shows beside others too."""
 Values = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
@@ -59,9 +55,8 @@ def test_the_pressure_makes_the_load_and_the_depth(k: float, profile: int) -> No
             return quadrature.pressure(k, M, r, a, depth, *wave)
 
         load = 1.5 * math.pi * (float(general.hertz_load(k, M, a, *wave)) + disc * raised * stretch)
-        assert 2.0 * math.pi * _integral(k, a, 1.0, pressure) == pytest.approx(
-            load, rel=1e-10, abs=1e-10 * disc * stretch
-        )
+        found = 2.0 * math.pi * _integral(k, a, 1.0, pressure)
+        assert found == pytest.approx(load, rel=1e-10, abs=1e-10 * disc * stretch)
         if k < 0.9:  # a point load sinks the surface as distance^-(1+k); a flat punch, of depth 1, tells the factor
             flat = front * math.pi / (2.0 * math.cos(0.5 * math.pi * k))
             assert _integral(k, a, -k, pressure) / flat == pytest.approx(depth, abs=1e-11 * stretch)
@@ -118,11 +113,9 @@ def _disc_shape(k: float, ratio: float) -> float:
 @pytest.mark.parametrize("k", [0.0, 0.37, 0.8])
 def test_the_surface_around_a_punch_is_that_of_flat_discs(k: float) -> None:
     with mpmath.workdps(18):
+        series = (0.1, [-0.02, 0.003], [0.0, 0.01])
         for ratio in (0.15, 0.7, 0.95):  # two depths of one disc differ by a flat disc, whatever the punch
-            for surface, wave in (
-                (quadrature.surface, (0.1, 0.01)),
-                (quadrature.series_surface, (0.1, [-0.02, 0.003], [0.0, 0.01])),
-            ):
+            for surface, wave in ((quadrature.surface, (0.1, 0.01)), (quadrature.series_surface, series)):
                 above, below = surface(k, 0.2 / ratio, 0.2, [1.0, 0.0], *wave)
                 assert above - below == pytest.approx(_disc_shape(k, ratio), rel=1e-12)
     # contact that grows from 0 to a presses flat discs of all radii s one after the other, by d(delta_H)(s) each

@@ -28,8 +28,12 @@ SERIES: Final = profile_of(2.2, (1, 1.0, 0.0), (2, 0.0, 0.3))
 RINGS: Final = pattern_of("toughness", (1, 0.2, 0.1))
 SPRING: Final = 10.0
 """N/m."""
+STIFF: Final = {"machine_stiffness": SPRING / (1e7 * R)}
+RIM: Final = 0.2 * R
 PULLED: Final = {"spring_constant": SPRING, "indentation_max": TURN * R}
 BY_MACHINE: Final = {"loading": Loading(control="machine")}
+NOISE: Final = (1e-4 * R, 0.01 * UNIT)
+"""Of depth and load."""
 
 
 @dataclass(frozen=True)
@@ -66,15 +70,11 @@ CASES: Final = {
     "series": Case(more={"profile": SERIES}),
     "rim": Case({"a_max": 0.2 * R}, scene={"a_max_over_R": 0.2}),
     "preload": Case({"preload": 5e-8}, scene={"load_max": 5e-8 / UNIT}),
-    "machine": Case(PULLED, BY_MACHINE, {"machine_stiffness": SPRING / (1e7 * R)}),
-    "machine at the rim": Case(
-        PULLED | {"a_max": 0.2 * R}, BY_MACHINE, {"machine_stiffness": SPRING / (1e7 * R), "a_max_over_R": 0.2}
-    ),
+    "machine": Case(PULLED, BY_MACHINE, STIFF),
+    "machine at the rim": Case(PULLED | {"a_max": 0.2 * R}, BY_MACHINE, STIFF | {"a_max_over_R": 0.2}),
     "load control": Case(more={"loading": Loading(control="load")}, scene={"load_max": 5e-7 / UNIT}, highest=5e-7),
     "load control to a depth": Case({"indentation_max": TURN * R}, {"loading": Loading(control="load")}),
-    "preload at the rim": Case(
-        {"preload": 6e-6, "a_max": 0.2 * R}, scene={"load_max": 6e-6 / UNIT, "a_max_over_R": 0.2}
-    ),
+    "preload at the rim": Case({"preload": 6e-6, "a_max": RIM}, scene={"load_max": 6e-6 / UNIT, "a_max_over_R": 0.2}),
     "closing ratio 0.3": Case({"closing_ratio": 0.3}, scene={"closing_ratio": 0.3}),
     "closing ratio 0": Case({"closing_ratio": 0.0}, scene={"closing_ratio": 0.0}),
     "rings": Case(
@@ -93,19 +93,12 @@ def vector(model: LoopModel, **more: float) -> Array:
     return np.array([known[name] if name in LINEAR else math.log(known[name]) for name in model.names])
 
 
-NOISE: Final = (1e-4 * R, 0.01 * UNIT)
-"""Of depth and load."""
-
-
 def path_of(model: LoopModel, here: Array) -> LoopPath:
-    """The path of some numbers, which has to be there."""
     drawn = model.path(here)
     assert drawn is not None
     return drawn
 
 
-def misfit_of(
-    model: LoopModel, here: Array, spots: Array, back: Array, *, count: float = 1.0, wide: float = 1e3
-) -> Misfit:
+def misfit_of(model: LoopModel, here: Array, spots: Array, back: Any, count: float = 1.0, wide: float = 1e3) -> Misfit:
     """The misfit of some points, with ranges so far away."""
     return Misfit(spots, back, NOISE, np.full(len(spots), count), model, here - wide, here + wide)

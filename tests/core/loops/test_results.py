@@ -23,6 +23,25 @@ from gradhesion.core.problem.status import ANOTHER_MINIMUM, JUMP_IN_TO_RIM, POOR
 from tests.core.loops.models import CASES, NOISE, SCENE, UNIT, Array, Case, R, misfit_of, path_of, vector
 
 NAMES = ("E_star", "work_of_adhesion")
+FINE = Case({"chi": 0.2, "wavelength": 2e-3 * R})
+VALLEYS = [
+    ([(20.0, 0.0, 2.0)], 1.0, [20.0]),
+    ([(2.0, 2.0, 2.0)], 1.0, []),  # the same valley
+    ([(4.0, 0.0, 5.0)], 1.0, []),  # a parabola has risen by 16: on its slope
+    ([(40.0, 0.0, 6.5)], 1.0, []),  # 95 % of chi square of two numbers are below 5.99
+    ([(40.0, 0.0, 6.5)], 1.2, [40.0]),
+    ([(20.0, 0.0, 1.0), (20.5, 0.0, 1.1), (-20.0, 0.0, 1.2)], 1.0, [20.0, -20.0]),  # one of two alike
+]
+BOUNDS = [(1.009, (1.0, 2.0), True), (1.011, (1.0, 2.0), False), (1.04, (1.0, 100.0), True), (1.05, (1.0, 100.0), False),
+ (96.0, (1.0, 100.0), True), (-0.99, (-1.0, 1.0), True), (0.0, (-1.0, 1.0), False)]  # fmt: skip
+ALIKE = [
+    # the roots of the works are as 1 - chi to 1 + chi: 1/2 is that of chi = 1/3
+    (Case({"A": 0.0}), ("E_star", "closing_ratio"), 1e-3, 1.0, ("chi = 0.333", "closing_ratio = 0.25")),
+    (Case({"A": 0.0, "closing_ratio": 0.25}), ("E_star",), 1e-3, 1.0, ()),  # it is not fitted
+    (FINE, ("wavelength",), 10.0, 1.0, ("closing_ratio = 0.444 ", "1.44 times the work of adhesion")),
+    (FINE, ("wavelength",), 1e-7, 1.0, ()),  # the jumps are seen
+    (FINE, ("wavelength",), 10.0, 1e-6, ()),  # the wavelength is known
+]
 
 
 def loop(error: float = 1.0) -> tuple[Misfit, Array]:
@@ -52,17 +71,7 @@ def test_another_minimum_is_named_with_its_values() -> None:
     assert not results(own, [best]).status & ANOTHER_MINIMUM
 
 
-@pytest.mark.parametrize(
-    ("places", "unit", "kept"),
-    [
-        ([(20.0, 0.0, 2.0)], 1.0, [20.0]),
-        ([(2.0, 2.0, 2.0)], 1.0, []),  # the same valley
-        ([(4.0, 0.0, 5.0)], 1.0, []),  # a parabola has risen by 16: on its slope
-        ([(40.0, 0.0, 6.5)], 1.0, []),  # 95 % of chi square of two numbers are below 5.99
-        ([(40.0, 0.0, 6.5)], 1.2, [40.0]),
-        ([(20.0, 0.0, 1.0), (20.5, 0.0, 1.1), (-20.0, 0.0, 1.2)], 1.0, [20.0, -20.0]),  # one of two alike
-    ],
-)
+@pytest.mark.parametrize(("places", "unit", "kept"), VALLEYS)
 def test_minima_are_those_that_the_noise_allows_in_other_valleys(places: Any, unit: float, kept: list[float]) -> None:
     found = [SimpleNamespace(x=np.array([x, y]), cost=50.0 + 0.5 * rise) for x, y, rise in [(0.0, 0.0, 0.0), *places]]
     assert [one.x[0] for one in others(found, np.diag([1.0, 4.0]), unit)] == kept
@@ -97,11 +106,7 @@ def test_profile_intervals_are_where_the_misfit_has_grown_so_far() -> None:
             assert end == pytest.approx(linear, rel=0.0, abs=2.0 * along[number])
 
 
-@pytest.mark.parametrize(
-    ("value", "ends", "bound"),
-    [(1.009, (1.0, 2.0), True), (1.011, (1.0, 2.0), False), (1.04, (1.0, 100.0), True), (1.05, (1.0, 100.0), False),
-     (96.0, (1.0, 100.0), True), (-0.99, (-1.0, 1.0), True), (0.0, (-1.0, 1.0), False)],
-)  # fmt: skip
+@pytest.mark.parametrize(("value", "ends", "bound"), BOUNDS)
 def test_a_bound_is_a_hundredth_of_the_range_wide(value: float, ends: tuple[float, float], *, bound: bool) -> None:
     """Of its logarithm, beyond a factor of 10."""
     assert is_on_bound(value, ends) == bound
@@ -123,20 +128,7 @@ def test_the_status_is_that_of_the_scene_and_of_the_rim_that_is_met() -> None:
     assert not status_of(model, here, 0.02) & JUMP_IN_TO_RIM
 
 
-FINE = Case({"chi": 0.2, "wavelength": 2e-3 * R})
-
-
-@pytest.mark.parametrize(
-    ("case", "names", "noise", "spread", "numbers"),
-    [
-        # the roots of the works are as 1 - chi to 1 + chi: 1/2 is that of chi = 1/3
-        (Case({"A": 0.0}), ("E_star", "closing_ratio"), 1e-3, 1.0, ("chi = 0.333", "closing_ratio = 0.25")),
-        (Case({"A": 0.0, "closing_ratio": 0.25}), ("E_star",), 1e-3, 1.0, ()),  # it is not fitted
-        (FINE, ("wavelength",), 10.0, 1.0, ("closing_ratio = 0.444 ", "1.44 times the work of adhesion")),
-        (FINE, ("wavelength",), 1e-7, 1.0, ()),  # the jumps are seen
-        (FINE, ("wavelength",), 10.0, 1e-6, ()),  # the wavelength is known
-    ],
-)
+@pytest.mark.parametrize(("case", "names", "noise", "spread", "numbers"), ALIKE)
 def test_a_closing_ratio_may_be_fine_waves_and_these_a_closing_ratio(
     case: Case, names: tuple[str, ...], noise: float, spread: float, numbers: tuple[str, ...]
 ) -> None:

@@ -28,7 +28,6 @@ SAME = Rate(exponent=0.6, closing="same")
 
 
 def stored(given: dict[str, float], **more: float) -> dict[str, Any]:
-    """Parameters of a scene of the reference."""
     return scene_of(*(given[name] for name in ("k", "nu", "modulus", "c0", "lam", "A", "end")), **more)
 
 

@@ -1,4 +1,4 @@
-"""Sensitivities where they are known: limits, one-sided ratios, absent parameters, and the order of the last axis.
+"""Sensitivities where they are known: limits, one-sided ratios, absent parameters, the order of the last axis, slopes to whatever gives a scene.
 
 Stored values, sum rules and central differences of random scenes of every kind are in tests/conformance.
 """
@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from gradhesion.core import PARAMETERS, SENSITIVITIES, Loading, solve
-from tests.core.scene import ENDLESS, pattern_of, profile_of, scene_of
+from gradhesion.core.answers.slopes_to_keys import POWERS, slopes_to_keys
+from gradhesion.core.closed.reduced import parameters_from, scales_in_si
+from tests.core.scene import ENDLESS, Scene, pattern_of, profile_of, scene_of
 
 FORCE, ENERGY = VALUES = ("pull_off_force", "dissipated_energy")
 SCENE = scene_of(0.3, 0.3, 500.0, 0.1, 0.1, 0.03, 0.57)
@@ -20,13 +22,11 @@ BOTH = profile_of(2.0, (1, 0.8, 0.2), (3, 0.1, 0.25))
 BY_LOAD, BY_MACHINE = Loading(control="load"), Loading(control="machine")
 LENGTH = {"toughness_wavelength_over_R": 0.113, "toughness_amplitude": 0.8}
 AT_TURN = ENDLESS | LENGTH | {"lambda_over_R": 0.2, "A": 0.055, "c0_over_R": 0.01, "k": 0.1, "toughness_amplitude": 0.2}
+LANDING = ENDLESS | {"indentation_max_over_R": 1e-3, "closing_ratio": 0.4}
 KINDS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "unbounded": (ENDLESS, {}),
     "two harmonics under a load, two works": ({"closing_ratio": 0.4}, {"profile": BOTH, "loading": BY_LOAD}),
-    "two works, turned where a jump lands": (
-        ENDLESS | {"indentation_max_over_R": 1e-3, "machine_stiffness": 0.05, "closing_ratio": 0.4},
-        {"loading": BY_MACHINE},
-    ),
+    "two works, turned where a jump lands": (LANDING | {"machine_stiffness": 0.05}, {"loading": BY_MACHINE}),
     "a pattern, a load": (LENGTH, {"toughness": PATTERN, "loading": BY_LOAD}),
     "a pull-off at the turn": (AT_TURN | {"indentation_max_over_R": 0.005}, {"toughness": OF_WORK}),
     "600 waves": ({"lambda_over_R": 0.57 / 600.3, "A": 0.01}, {}),
@@ -130,3 +130,51 @@ def test_the_last_axis_has_what_is_given_in_order() -> None:
         np.testing.assert_array_equal(found[name][1, 1], alone[name])
     del further["toughness_amplitude"]
     assert solve(SCENE | further, SENSITIVITIES, **how)[SENSITIVITIES[0]].shape == (11,)
+
+
+OF_FORCE = SENSITIVITIES[0]
+BASE = scene_of(0.31, 0.27, 430.0, 0.013, 0.31, 0.023, 0.7)
+REDUCED = dict(zip((*PARAMETERS[:4], "lambda_over_L", "chi", "a_max_over_L"), (0.31, 0.27, 430.0, 0.013, 2.1, 0.4, 6.0), strict=True))  # fmt: skip
+UNITS = {"k": 0.31, "nu": 0.27, "R": 1e-6, "E": 8e8, "work_of_adhesion": 0.05, "c0": 2e-8}
+UNITS |= {"wavelength": 1.7e-7, "amplitude": 4e-9, "a_max": 7e-7}
+
+
+@pytest.mark.parametrize("given", [REDUCED, UNITS], ids=["reduced", "units"])
+@pytest.mark.parametrize("output", SENSITIVITIES)
+def test_against_differences(given: Scene, output: str) -> None:
+    value = output.removesuffix("_sensitivity")
+
+    def values(scene: Scene) -> Any:
+        found = solve(parameters_from(scene), [value])[value]
+        if "R" not in scene:
+            return found
+        return found * scales_in_si(scene["R"], scene["work_of_adhesion"])["N" if value == "pull_off_force" else "J"]
+
+    slopes_of = solve(parameters_from(given), [output])[output]
+    powers = POWERS[output] if "R" in given else {}
+    slopes = slopes_to_keys(given, [*given], PARAMETERS, values(given), slopes_of, powers)
+    for key, centre in given.items():
+        step = 1e-4 * centre
+        around = [float(values({**given, key: centre + i * step})) for i in (-2, -1, 1, 2)]
+        exact = np.dot([1.0, -8.0, 8.0, -1.0], around) / (12.0 * step)
+        # differences of fourth order are good to some 1e-11/1e-4 of the value
+        assert slopes[key] * centre == pytest.approx(exact * centre, rel=1e-7, abs=1e-9 * abs(values(given)))
+
+
+def test_what_is_zero_has_no_slope_and_what_has_no_influence_none() -> None:
+    ball = BASE | ENDLESS | {"k": 0.0, "A": 0.0}
+    names, found = ["A", "c0_over_R", "a_max_over_R"], solve(ball, [OF_FORCE])[OF_FORCE]
+    slopes = slopes_to_keys(ball, names, PARAMETERS, 1.0, found, {})
+    assert np.isnan(slopes["A"])
+    assert slopes["c0_over_R"] == slopes["a_max_over_R"] == 0.0
+
+
+@pytest.mark.parametrize(("k", "nu", "side"), [(0.0, 0.3, 1.0), (1.0, 0.5, -1.0)])
+def test_at_the_ends_of_k_slopes_are_inwards(k: float, nu: float, side: float) -> None:
+    """With lambda/L given, lambda follows from k too."""
+    scene, step = REDUCED | {"k": k, "nu": nu}, 1e-3
+    ahead = solve(parameters_from(scene | {"k": k + side * step * np.arange(5)}), ["pull_off_force"])["pull_off_force"]
+    own = solve(parameters_from(scene), [OF_FORCE])[OF_FORCE]
+    slope = slopes_to_keys(scene, ["k"], PARAMETERS, ahead[0], own, {})["k"]
+    exact = side * np.dot([-25.0, 48.0, -36.0, 16.0, -3.0], ahead) / (12.0 * step)
+    assert slope == pytest.approx(exact, rel=1e-6)

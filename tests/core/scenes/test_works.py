@@ -11,9 +11,8 @@ import pytest
 
 from gradhesion.core import OUTPUTS, Loading, solve
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, NO_VALUE, TOO_MANY_WAVES
-from tests.core.scene import ENDLESS, pattern_of, profile_of, scene_of
+from tests.core.scene import ENDLESS, EPS, pattern_of, profile_of, scene_of
 
-EPS = float(np.finfo(float).eps)
 BALL = scene_of(0.1, 0.3, 500.0, 0.01, 0.1, 0.02, 0.5)
 ROW = (1, 0.6, 0.8)
 

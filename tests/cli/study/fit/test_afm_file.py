@@ -9,7 +9,7 @@ import pytest
 
 import gradhesion as gr
 from tests.cli.conftest import COLUMNS
-from tests.cli.study.fit.test_fit_data import STUDY, load, points, refused
+from tests.cli.study.fit.test_fit_data import DEPTH, FORCE, STUDY, load, points, refused
 
 afmformats = pytest.importorskip("afmformats")
 
@@ -26,13 +26,8 @@ def saved(folder: Path, name: str, *leave_out: str, curves: int = 1, spring: flo
     depth, load = 1e-9 * rows["depth"], 1e-9 * rows["force"]
     segment = np.where(rows["back"], 1, 0).astype(np.uint8)
     segment[290:310] = 2
-    columns = {
-        "height (measured)": 3e-6 - (depth + load / SPRING),
-        "force": load,
-        "tip position": 3e-6 - depth,
-        "segment": segment,
-        "time": np.arange(600) * 1e-3,
-    }
+    columns = {"height (measured)": 3e-6 - (depth + load / SPRING), "force": load, "tip position": 3e-6 - depth}
+    columns |= {"segment": segment, "time": np.arange(600) * 1e-3}
     data = {key: values for key, values in columns.items() if key not in leave_out}
     known = {} if spring is None else {"spring constant": spring}
     meta = {"path": name, "imaging mode": "force-distance", "point count": 600, **known}
@@ -49,7 +44,6 @@ def saved(folder: Path, name: str, *leave_out: str, curves: int = 1, spring: flo
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with a study that names no columns."""
     (tmp_path / "fit.toml").write_text(PLAIN)
     monkeypatch.chdir(tmp_path)
     return tmp_path
@@ -82,10 +76,8 @@ def test_columns_may_be_named_with_their_sign(folder: Path, monkeypatch: pytest.
     refused("data.file", data__file="curve.jpk-force")
     real = afmformats.load_data
     monkeypatch.setattr(afmformats, "load_data", lambda _, **more: real(folder / "saved.h5", **more))
-    height = {"column": "height (measured)", "sign": -1}
-    study = load(
-        data__file="curve.jpk-force", data__displacement=height, data__load="force", physical__spring_constant="2.5 N/m"
-    )
+    height, spring = {"column": "height (measured)", "sign": -1}, {"physical__spring_constant": "2.5 N/m"}
+    study = load(data__file="curve.jpk-force", data__displacement=height, data__load="force", **spring)
     np.testing.assert_allclose(study.loop.depth, rows["depth"] + rows["load"] / SPRING - 3e-6, rtol=0, atol=1e-12)
     refused("data.indentation", data__file="curve.jpk-force", data__indentation="hight", data__load="force")
     wrong = {"column": "force", "unit": "nN"}
@@ -113,8 +105,7 @@ def test_what_a_file_lacks_is_said(folder: Path, capfd: pytest.CaptureFixture[st
 
 def test_tables_by_such_names_are_tables_where_columns_are_named(folder: Path) -> None:
     (folder / "loop.tab").write_text("depth\tforce\n" + "".join(f"{i % 9}\t{i % 7}\n" for i in range(20)))
-    columns = {"indentation": {"column": "depth", "unit": "nm"}, "load": {"column": "force", "unit": "nN"}}
-    assert load(data__file="loop.tab", **{f"data__{name}": one for name, one in columns.items()}).loop.depth.size == 20
+    assert load(data__file="loop.tab", data__indentation=DEPTH, data__load=FORCE).loop.depth.size == 20
     refused("data.indentation", "data.load", data__file="loop.csv")
 
 

@@ -12,6 +12,7 @@ Array = np.ndarray
 Rows = tuple[Array, Array, Array, Array]
 """Depth, load, way and cycle."""
 NOISE = (0.3, 2.0)
+SIGNS = {(1, 1): "", (1, -1): "load", (-1, 1): "depth", (-1, -1): "both"}
 
 
 def curve(depth: Array, back: Array, waves: int = 0) -> Array:
@@ -148,9 +149,6 @@ def told(points: int, seed: int, x: int = 1, y: int = 1, from_: float = -np.inf,
     depth, load, back, _ = loop(points, noise=(0.3, 10.0), seed=seed)
     own = (depth > from_) & (depth < to)
     return fault_of(x * depth[own], y * load[own], np.full(np.count_nonzero(own), 10.0), back[own])
-
-
-SIGNS = {(1, 1): "", (1, -1): "load", (-1, 1): "depth", (-1, -1): "both"}
 
 
 @pytest.mark.parametrize("signs", SIGNS)
