@@ -306,6 +306,18 @@ def test_what_is_asked_for_changes_no_value(kind: Kind) -> None:
         agree(kind, scenes, found | asked, found, few, where=where)
 
 
+@for_kinds(kind for kind in EXACT if kind.exponent > 1)
+def test_almost_1_is_1(kind: Kind) -> None:
+    """Where k is next to 1, the first fold lies below all tables; forces and energies have the limit of k = 1."""
+    scenes, _ = drawn(kind)
+    scenes = scenes | {"nu": np.full(SCENES, 0.5)}
+    names = ["pull_off_force", "dissipated_energy", "loading_energy", "unloading_energy"]
+    one, almost = (kind.solve(scenes | {"k": np.full(SCENES, k)}) for k in (1.0, 1.0 - 1e-12))
+    where = is_sure(one) & is_sure(almost)
+    assert where.sum() > SCENES // 4
+    agree(kind, scenes | {"k": np.ones(SCENES)}, almost, one, names, where=where, more=1e-9)
+
+
 @pytest.mark.parametrize("why", REACH_FARTHER)
 def test_a_neighbour_that_reaches_farther_changes_no_bit(why: str) -> None:
     for pair in REACH_FARTHER[why]:
