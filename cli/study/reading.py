@@ -15,11 +15,12 @@ from gradhesion.cli.study.fit.study import FitStudy, fit_of, loops_of
 from gradhesion.cli.study.fit.study import broken as broken_in_fit
 from gradhesion.cli.study.rules.asked import Asked, checked, kind_of, value_at
 from gradhesion.cli.study.rules.form import OUTPUTS_OF, Optimum, Uncertainty
+from gradhesion.cli.study.rules.given import given_by
 from gradhesion.cli.study.rules.inputs import left_out, shape_of
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import Mistake
 from gradhesion.cli.study.rules.scenes import broken
-from gradhesion.cli.study.study import Method, Study, given_by
+from gradhesion.cli.study.study import Method, Study
 from gradhesion.cli.study.text.quantities import as_written
 from gradhesion.cli.study.text.source import DEEP, Source, included, is_deep, read_source
 from gradhesion.cli.study.text.written import dotted, steps_of, with_fingerprints

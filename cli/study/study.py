@@ -1,12 +1,10 @@
 """A study: what is asked for, as it is read from TOML or made in Python."""
 
-import hashlib
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,18 +15,15 @@ from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
 from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.files import FromFile
 from gradhesion.cli.study.rules.asked import Values
-from gradhesion.cli.study.rules.form import Form, Optimum, Uncertainty
+from gradhesion.cli.study.rules.form import Optimum, Uncertainty
+from gradhesion.cli.study.rules.given import Given
 from gradhesion.cli.study.rules.keys import Range
-from gradhesion.cli.study.text.source import Source
-from gradhesion.cli.study.text.written import Key, with_fingerprints
 from gradhesion.cli.study.tiling import Block, Tiling, cells_of_chunk
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
 from gradhesion.core.closed.reach import depends_on_contact
-from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.names import CLOSING, MACHINE, PARAMETERS, PATTERN, RANGE, SENSITIVITIES, TURNS
 from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.toughness import Rate, Toughness
 
 FEW_SAMPLES: Final = 32
 """Samples of each scene that check a linear standard deviation."""
@@ -42,40 +37,6 @@ class Method:
     """One solver, or several that stand side by side in the dataset."""
     check_contact: bool = True
     """Whether `status` shall report where loading does not keep the contact one disc."""
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Given:
-    """What a valid study of any kind has."""
-
-    name: str
-    title: str
-    text: str
-    """The study as TOML: reading it again gives the same study."""
-    kind: str
-    profile: Profile = field(default_factory=Profile)
-    loading: Loading = field(default_factory=Loading)
-    toughness: Toughness | None = None
-    rate: Rate | None = None
-    folder: Path = Path()
-    """The folder of the files that it names."""
-
-    @property
-    def sha256(self) -> str:
-        """The fingerprint of its text."""
-        return hashlib.sha256(self.text.encode()).hexdigest()
-
-
-def given_by(source: Source, form: Form, fingerprints: Mapping[Key, str]) -> dict[str, Any]:
-    """Make what studies of all kinds have of a form that is right, with the fingerprints of its files."""
-    return {
-        "name": source.name,
-        "title": form.title or source.name,
-        "text": with_fingerprints(source.data, source.text, fingerprints),
-        "kind": form.kind,
-        "toughness": form.toughness.made() if form.toughness else None,
-        "folder": source.folder,
-    }
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

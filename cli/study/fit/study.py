@@ -11,10 +11,10 @@ from gradhesion.cli.study.fit.columns import LoopFileError, is_force_file
 from gradhesion.cli.study.fit.loop_file import LoopFile, fingerprint, read_loops
 from gradhesion.cli.study.rules.asked import Asked, Found, home
 from gradhesion.cli.study.rules.form import Form
+from gradhesion.cli.study.rules.given import Given, given_by
 from gradhesion.cli.study.rules.inputs import inputs, rate, shape_of, together, toughness, waves, works
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import Mistake, line_of, required
-from gradhesion.cli.study.study import Given, given_by
 from gradhesion.cli.study.text.source import Source
 from gradhesion.cli.tables.columns import changed
 from gradhesion.cli.terminal.amounts import counted
