@@ -28,7 +28,6 @@ from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.model import TURN
 from gradhesion.core.loops.paths.offsets import DEPTH_ZERO, LOAD_ZERO, TILT, Offsets
 from gradhesion.core.loops.paths.path import LoopModel
-from gradhesion.core.loops.paths.speed import SpeedModel
 from gradhesion.core.loops.results import covariance_of, results_at
 from gradhesion.core.loops.starts import starts as starts_of
 from gradhesion.core.problem.control import Loading
@@ -126,10 +125,10 @@ def fit_loop(
         ranges[TURN], blur = (furthest[driven] - step, furthest[driven] + step), 0.0
     own: dict[str, Any] = {
         "furthest": tuple(furthest.tolist()), "blur": blur, "profile": profile or Profile(), "loading": drive,
-        "first": float(points[:, 0].min() - span[0]), "toughness": toughness,
+        "first": float(points[:, 0].min() - span[0]), "toughness": toughness, "rate": rate,
     }  # fmt: skip
     names = tuple(ranges)
-    model = LoopModel(known, names, **own) if rate is None else SpeedModel(known, names, rate=rate, **own)
+    model = LoopModel(known, names, **own)
     low, high = (np.array([*model.searched({name: ends[i] for name, ends in ranges.items()}).values()]) for i in (0, 1))
     misfit = Misfit(points, back, noise, each, model, low, high)
     with threadpool_limits(1):  # matrices of a few columns: threads only wait for each other

@@ -63,7 +63,7 @@ def distinct(vectors: list[Floats], misfit: Misfit, near: float = 1e-3) -> list[
 def _beside(misfit: Misfit, vector: Floats) -> list[Floats]:
     """Return where minima may lie beside one: with some waves more or less in the contact, or along the valley."""
     i, path = misfit.model.place_of(WAVELENGTHS), misfit.nearest(vector).drawn
-    if path is None or misfit.model.by_differences:
+    if path is None or misfit.model.rate is not None:
         return []
     if i is None or not misfit.model.has_waves:  # a jump between two points may be nearer to either of them
         widths = misfit.high - misfit.low

@@ -7,14 +7,14 @@ from typing import Any, Final
 import numpy as np
 from scipy.special import stdtrit
 
-from gradhesion.core.closed.reduced import WAYS, parameters_from
+from gradhesion.core.closed.reduced import WAYS
 from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
 from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop, OtherMinimum, poor_from
 from gradhesion.core.loops.minima import others
 from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.model import LINEAR, TURN, WAVELENGTHS, Model
 from gradhesion.core.loops.paths.path import LoopPath
-from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN
+from gradhesion.core.problem.names import CLOSING, SPEED
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, JUMP_IN_TO_RIM, POOR_FIT
 from gradhesion.core.sweep import solve
 from gradhesion.core.types import Floats
@@ -142,9 +142,9 @@ def status_of(model: Model, vector: Floats, radius: float) -> int:
     """Return the status that `solve` gives the cycle of a vector that turns at a radius, over R."""
     if radius == 0.0:
         return 0
-    made = {name: float(value) for name, value in parameters_from(model.given(model.values(vector))).items()}
-    more = ("machine_stiffness", CLOSING, *(PATTERN if model.toughness is not None else ()))
-    scene = {name: made[name] for name in (*PARAMETERS, *more) if name in made}
+    scene = model.parameters(vector)
+    scene.pop(SPEED, None)
+    turns_before = radius < (1.0 - _ROUNDING) * scene["a_max_over_R"]
     scene["a_max_over_R"] = min(scene["a_max_over_R"], radius)
     if CLOSING in scene:  # where the works are equal, two fitted ones are in either order, by noise
         scene[CLOSING] = min(scene[CLOSING], 1.0)
@@ -152,7 +152,6 @@ def status_of(model: Model, vector: Floats, radius: float) -> int:
     wanted = ["pull_off_force", "loading_jumps"] if model.loading.control == "load" else [
         "dissipated_energy", "loading_jumps", "unloading_jumps"]  # fmt: skip
     found = int(solve(scene, wanted, threads=1, **own)["status"])
-    turns_before = radius < (1.0 - _ROUNDING) * made["a_max_over_R"]
     return found & ~(JUMP_IN_TO_RIM if turns_before else 0)
 
 

@@ -47,7 +47,7 @@ def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: i
     `load_zero` is the load of the base line in N, `contact` the depth in m at which it ends (NaN if it has none), and
     `seed` that of the Sobol set of what no feature of the loop determines.
     """
-    if misfit.model.by_differences:
+    if misfit.model.rate is not None:
         rest = misfit.without(SPEEDS)
         best = minima(rest, starts(rest, load_zero, contact, count, seed))[0]
         return _fast(misfit.thinned(100), rest.named(best.x))

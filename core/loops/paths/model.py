@@ -20,7 +20,7 @@ from gradhesion.core.equations import hertz, jkr
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
-from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, SPEED, TURNS
+from gradhesion.core.problem.names import CLOSING, MACHINE, PARAMETERS, PATTERN, SPEED, TURNS
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.toughness import Toughness, rows_of_pattern, series_at
 from gradhesion.core.types import Floats
@@ -119,15 +119,20 @@ class Model:
         given = {name: value for name, value in {**self.fixed, **own}.items() if name not in (*OFFSETS, TURN)}
         return {name: one for name, one in _WITHOUT_EFFECT.items() if not WAYS[name].keys() & given.keys()} | given
 
+    def parameters(self, vector: Floats) -> dict[str, float]:
+        """Return the parameters of `solve` of one vector, but for the turn."""
+        made = parameters_from(self.given(self.values(vector)))
+        kept = (*PARAMETERS, SPEED, CLOSING, MACHINE, *(PATTERN if self.toughness is not None else ()))
+        return {name: float(made[name]) for name in kept if name in made}
+
     def scenes(self, vectors: Floats) -> Scenes:
         """Return the numbers of vectors, of shape (vectors, unknown)."""
         own = {name: column[:, None] for name, column in self.values(vectors).items()}
         given = self.given(own)
-        made = parameters_from(given)
-        R, work = given["R"], given["work_of_adhesion"]
+        made, R, work = parameters_from(given), given["R"], given["work_of_adhesion"]
         k, nu, modulus, c0 = (made[name] for name in PARAMETERS[:4])
         M, unit = stiffness(k, nu, modulus, c0), 1.5 * math.pi * R * work
-        compliance = 1.0 / (made["machine_stiffness"] * modulus * work) if self.loading.control == "machine" else 0.0
+        compliance = 1.0 / (made[MACHINE] * modulus * work) if self.loading.control == "machine" else 0.0
         turn = made[self.turns] * (unit if self.turns == "load_max" else R) if self.turns else math.nan
         columns = (
             k, R, M, made["lambda_over_R"], made["A"], np.sqrt(np.maximum(made.get(CLOSING, 1.0), 0.0)), compliance,
@@ -171,11 +176,9 @@ class Model:
         if not self.has_waves:
             return 0.0, 0.0, 0.0
         length, waves = scenes.wavelength * scenes.R, [(one.n, -one.cos, one.sin) for one in self.profile.harmonics]
-        if not np.ndim(scenes.k):
-            return scenes.A * length * np.array(hertz.wave_terms(scenes.k, radius / length, 1.0, waves))
         known: dict[tuple[float, bytes], Floats] = {}
         rows = []
-        for k, x in zip(scenes.k[:, 0].tolist(), radius / length, strict=True):
+        for k, x in zip(np.ravel(scenes.k).tolist(), np.atleast_2d(radius / length), strict=True):
             key = k, x.tobytes()
             known[key] = known[key] if key in known else np.array(hertz.wave_terms(k, x, 1.0, waves))
             rows.append(known[key])
