@@ -48,13 +48,14 @@ def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: i
     `seed` that of the Sobol set of what no feature of the loop determines.
     """
     if misfit.model.rate is not None:
-        rest = misfit.without(SPEEDS)
-        best = minima(rest, starts(rest, load_zero, contact, count, seed))[0]
-        return _fast(misfit.thinned(100), rest.named(best.x))
-    if misfit.turn:  # near the middle of its range
-        rest, middle = misfit.without((TURN,)), 0.5 * (misfit.low + misfit.high)
-        begun = starts(rest, load_zero, contact, count, seed)
-        return [put(misfit, middle, dict(zip(rest.names, vector, strict=True))) for vector in begun]
+        rest, few = misfit.without(SPEEDS), misfit.thinned(100)
+        start = _filled(few, rest, minima(rest, starts(rest, load_zero, contact, count, seed))[0].x)
+        tried = {name: shares_of(few, name, _SPEEDS) for name in few.names if name in SPEEDS}
+        begun = [put(few, start, {name: row[i] for name, row in tried.items()}) for i in range(_SPEEDS if tried else 1)]
+        return _kept([few.refined(vector, most=12, tolerance=1e-4) for vector in begun], few, 3)
+    if misfit.turn:
+        rest = misfit.without((TURN,))
+        return [_filled(misfit, rest, vector) for vector in starts(rest, load_zero, contact, count, seed)]
     few = misfit.thinned(_FEW)
     if not misfit.model.has_waves:
         return _smooth(few, load_zero, contact, seed)[:count]
@@ -73,11 +74,13 @@ def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: i
 
 def put(misfit: Misfit, vector: Floats, values: Mapping[str, float]) -> Floats:
     """Return a vector with other numbers under some names, within their ranges; those that are NaN stay."""
-    changed = vector.copy()
-    for i, name in enumerate(misfit.names):
-        if math.isfinite(value := values.get(name, math.nan)):
-            changed[i] = np.clip(value, misfit.low[i], misfit.high[i])
-    return changed
+    changed = np.array([values.get(name, math.nan) for name in misfit.names])
+    return np.where(np.isnan(changed), vector, np.clip(changed, misfit.low, misfit.high))
+
+
+def _filled(misfit: Misfit, rest: Misfit, vector: Floats) -> Floats:
+    """Return a vector from one of the rest of its numbers, the others in the middle of their ranges."""
+    return put(misfit, 0.5 * (misfit.low + misfit.high), dict(zip(rest.names, vector, strict=True)))
 
 
 def shares_of(misfit: Misfit, name: str, count: int) -> Floats:
@@ -95,11 +98,8 @@ def _kept(found: list[Any], few: Misfit, count: int) -> list[Floats]:
 def _smooth(few: Misfit, load_zero: float, contact: float, seed: int) -> list[Floats]:
     """Return refined starts of a loop whose punch has no waves that are searched, the best first."""
     lows, highs, names = few.low, few.high, few.names
-    depths, works = np.array([0.0]), np.zeros(1)
-    if DEPTH_ZERO in names:
-        depths = np.append(shares_of(few, DEPTH_ZERO, _CONTACTS), contact)
-    if _WORK in names:
-        works = shares_of(few, _WORK, _WORKS)
+    depths = np.append(shares_of(few, DEPTH_ZERO, _CONTACTS), contact) if DEPTH_ZERO in names else np.zeros(1)
+    works = shares_of(few, _WORK, _WORKS) if _WORK in names else np.zeros(1)
     others = [i for i, name in enumerate(names) if name not in (*OFFSETS, *_MODULI, _WORK)]
     drawn = np.full((1, len(others)), 0.5)
     if others:
@@ -170,7 +170,7 @@ def _wavy(few: Misfit, smooth: Misfit, base: Floats, count: int) -> list[Any]:
     length, height = (next((name for name in few.names if name in ways), "") for ways in (WAVELENGTHS, AMPLITUDES))
     held = [few.names.index(name) for name in (length, height) if name]
     heights = shares_of(few, height, _HEIGHTS) if height else [math.nan]
-    middle = put(few, 0.5 * (few.low + few.high), dict(zip(smooth.names, base, strict=True)))
+    middle = _filled(few, smooth, base)
     found: list[Any] = []
     for waves in _lengths(few, smooth, base, middle, length) if length else [[math.nan]]:
         begun = [put(few, middle, {length: wave, height: swell}) for wave, swell in itertools.product(waves, heights)]
@@ -205,11 +205,3 @@ def _softened(misfit: Misfit, vector: Floats) -> Floats:
     waves = float(waviness_strength(scene.k, scene.wavelength, scene.A))
     root = max(1.0 - waves / float(adhesion_strength(scene.k, scene.stiffness)), 0.15)
     return put(misfit, vector, {_WORK: vector[misfit.names.index(_WORK)] + 2.0 * math.log(root)})
-
-
-def _fast(few: Misfit, at_rest: Mapping[str, float]) -> list[Floats]:
-    """Return starts of some speeds from the minimum of an edge at rest, the best first."""
-    start = put(few, 0.5 * (few.low + few.high), few.model.searched(at_rest))
-    tried = {name: shares_of(few, name, _SPEEDS) for name in few.names if name in SPEEDS}
-    vectors = [put(few, start, {name: row[i] for name, row in tried.items()}) for i in range(_SPEEDS if tried else 1)]
-    return _kept([few.refined(vector, most=12, tolerance=1e-4) for vector in vectors], few, 3)

@@ -1,11 +1,10 @@
-"""The order of the points of a measured loop: which load, which unload, which are neighbours, and how these differ."""
+"""The order of the points of a measured loop: which load, which unload, which are neighbours, and their noise."""
 
 from math import comb, sqrt
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import median_filter
 
 from gradhesion.core.types import Floats, Truths
 
@@ -23,6 +22,10 @@ FEWEST: Final = 40
 _COARSE: Final = 0.12
 """Median step between neighbours, in parts of the span of the depth, from which on points are in no order."""
 _SORTED: Final = 0.05  # the same of one branch: to sort it by depth does no harm from there on
+FLOOR: Final = 1e-6
+"""Least noise, in parts of the span, that computing needs: below the digits of any instrument."""
+_REPEATED: Final = 0.7
+"""Number of different values over that of all, below which a row is digitised more coarsely than its steps."""
 _OF_NORMAL: Final = 0.6744897501960817  # the median of the absolute value of a normal variable of unit variance
 
 
@@ -37,6 +40,7 @@ def ways(depth: Floats, cycle: _Ints | None = None) -> tuple[Truths, _Ints]:
     >>> unloading.astype(int).tolist(), cycle.tolist()
     ([0, 0, 0, 1, 1, 0, 0, 1], [1, 1, 1, 1, 1, 2, 2, 2])
     """
+    from scipy.ndimage import median_filter  # noqa: PLC0415 (readers of fits do without)
     from scipy.signal import find_peaks  # noqa: PLC0415 (it takes half a second)
 
     if cycle is not None:
@@ -109,3 +113,39 @@ def of_differences(row: Floats, order: int = 2) -> float:
     if row.size <= order:
         return 0.0
     return float(np.median(np.abs(np.diff(row, order)))) / (_OF_NORMAL * sqrt(comb(2 * order, order)))
+
+
+def noise_of(depth: Floats, load: Floats, unloading: Truths, cycle: _Ints) -> tuple[float, float]:
+    """Estimate the standard deviations of depth and load from the points alone.
+
+    Depths and loads are in the order in which the points were measured, in any unit; `unloading` and `cycle` are the
+    way and the cycle of each; all of shape (n,). White noise is that of the median of second differences, which neither
+    drift nor jumps move, and of a coarse digit at least (its step over the root of 12); at least a millionth of the
+    span. It is too high of points further apart than the curve bends. Where points are in no order and have to be
+    sorted by depth, the noise of depth cannot be seen, and that of load contains it.
+
+    >>> rng = np.random.default_rng(0)
+    >>> depth, load = np.linspace(0.0, 1.0, 2000), np.linspace(0.0, 5.0, 2000)
+    >>> rows = (depth + 0.01 * rng.standard_normal(2000), load + 0.2 * rng.standard_normal(2000))
+    >>> back, one = np.zeros(2000, bool), np.ones(2000, np.int32)
+    >>> [round(size, 2) for size in noise_of(*rows, back, one)]
+    [0.01, 0.2]
+    """
+    order, begin = along(depth, unloading, cycle)
+    least = float(np.finfo(float).tiny)
+    found = [
+        max(of_differences(row[order]), _digit(row[order], begin), FLOOR * float(np.ptp(row)), least)
+        for row in (depth, load)
+    ]
+    return found[0], found[1]
+
+
+def _digit(row: Floats, begin: _Places) -> float:
+    """Give the standard deviation of rounding, where the longest branch of a row has many equal values on a grid."""
+    longest = max(np.split(row, begin[1:]), key=np.size)
+    steps = np.diff(np.unique(longest))
+    if not 0 < steps.size < _REPEATED * longest.size - 1.0:
+        return 0.0
+    multiples = steps / steps.min()
+    is_grid = np.mean(np.abs(multiples - np.rint(multiples)) < 0.1) > 0.9
+    return float(steps.min()) / sqrt(12.0) if is_grid else 0.0
