@@ -21,15 +21,14 @@ from numpy.typing import ArrayLike
 from threadpoolctl import threadpool_limits
 
 from gradhesion.core.closed.reduced import WAYS
-from gradhesion.core.loops.fitted import FittedLoop
+from gradhesion.core.loops.fitted import DEPTH_ZERO, LOAD_ZERO, TILT, FittedLoop, Offsets
 from gradhesion.core.loops.measured.features import BaseLine, base_line, contact_point
-from gradhesion.core.loops.minima import minima
 from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.model import TURN
-from gradhesion.core.loops.paths.offsets import DEPTH_ZERO, LOAD_ZERO, TILT, Offsets
 from gradhesion.core.loops.paths.path import LoopModel
 from gradhesion.core.loops.results import covariance_of, results_at
-from gradhesion.core.loops.starts import starts as starts_of
+from gradhesion.core.loops.search import minima
+from gradhesion.core.loops.search import starts as starts_of
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import CLOSING, TURNS
 from gradhesion.core.problem.profile import Profile

@@ -5,12 +5,11 @@ from collections.abc import Mapping
 from typing import Any, Final
 
 import numpy as np
-from scipy.special import stdtrit
+from scipy.special import chdtri, stdtrit
 
 from gradhesion.core.closed.reduced import WAYS
 from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
 from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop, OtherMinimum, poor_from
-from gradhesion.core.loops.minima import others
 from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.model import LINEAR, TURN, WAVELENGTHS, Model
 from gradhesion.core.loops.paths.path import LoopPath
@@ -24,7 +23,7 @@ _SINGULAR: Final = 5e-4
 _PART: Final = 0.01  # least part of such a combination that a parameter has in it
 _WITHOUT: Final = 1e-6  # effect of a parameter over the largest, below which it has none
 LEVEL: Final = 0.95
-"""Probability that an interval covers."""
+"""Probability that an interval covers, and that the rise of chi square is below that of minima which noise allows."""
 _NEAR_END: Final = 0.01  # part of a range: a value closer than this to an end is on the bound
 _WIDE: Final = 10.0  # ratio of stop to start above which a range is measured by its logarithm
 _NEAR: Final = 0.01  # accuracy of the end of an interval, in parts of the quantile
@@ -35,6 +34,9 @@ _ROUNDING: Final = 1e-12  # relative difference of radii that is rounding
 _SEEN: Final = 5.0  # size of a jump, in standard deviations of the noise, from which on it shows that there are waves
 _LEAST: Final = 0.01  # strength of waves below which nothing is reported
 _PHASE: Final = 0.1  # error of the number of waves within the contact, below which waves are resolved without jumps
+_APART: Final = 9.0, 4.0
+"""Another minimum is further away, in squared standard deviations, than the first, and than the second times the rise
+of chi square; two places in one valley are not."""
 
 
 def results_at(
@@ -85,6 +87,20 @@ def results_at(
         turning_radius=radius,
         widening=math.sqrt(unit),
     )
+
+
+def others(found: list[Any], covariance: Floats, unit: float) -> list[Any]:
+    """Return the minima after the first that noise allows, by the covariance of the first and a residual's variance."""
+    best, inverse = found[0], np.linalg.pinv(covariance)
+    allowed = float(chdtri(best.x.size, 1.0 - LEVEL)) * unit
+    kept: list[Any] = []
+    for done in found[1:]:
+        rise = 2.0 * (done.cost - best.cost)
+        least = max(_APART[0], _APART[1] * rise / unit)
+        away = [done.x - other.x for other in (best, *kept)]
+        if rise <= allowed and all(apart @ inverse @ apart > least for apart in away):
+            kept.append(done)
+    return kept
 
 
 def covariance_of(misfit: Misfit, vector: Floats) -> Floats:

@@ -15,10 +15,9 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from scipy.optimize import least_squares
 
+from gradhesion.core.loops.fitted import DEPTH_ZERO, LOAD_ZERO, OFFSETS, TILT
 from gradhesion.core.loops.paths.distance import Feet, feet
 from gradhesion.core.loops.paths.model import TURN, Scenes
-from gradhesion.core.loops.paths.offsets import DEPTH_ZERO, LOAD_ZERO, TILT
-from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.loops.paths.path import LoopModel, LoopPath
 from gradhesion.core.types import Floats, Integers, Truths
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from gradhesion.core.closed.reduced import WAYS, parameters_from
 from gradhesion.core.equations import hertz, jkr
-from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
+from gradhesion.core.loops.fitted import OFFSETS
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import CLOSING, MACHINE, PARAMETERS, PATTERN, SPEED, TURNS
@@ -188,13 +188,10 @@ class Model:
         """Return the toughness at radii over R, over its mean, and how it grows with them."""
         if self.toughness is None:
             return 1.0, 0.0
-        rows, step = rows_of_pattern(self.toughness), 1e-5
-        below, here, above = (
-            np.maximum(1.0 + scenes.swing * series_at(rows, a / scenes.pattern + way), 0.0)
-            for way in (-step, 0.0, step)
-        )
-        if self.toughness.of == "work":
-            below, here, above = np.sqrt(below), np.sqrt(here), np.sqrt(above)
+        at, step = a / scenes.pattern, 1e-5
+        series = series_at(rows_of_pattern(self.toughness), np.stack([at - step, at, at + step]))
+        tough = np.maximum(1.0 + scenes.swing * series, 0.0)
+        below, here, above = np.sqrt(tough) if self.toughness.of == "work" else tough
         return here, (above - below) / (2.0 * step * scenes.pattern)
 
     def shortest(self, scenes: Scenes) -> float:

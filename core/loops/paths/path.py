@@ -12,8 +12,8 @@ from typing import Final
 import numpy as np
 
 from gradhesion.core.draw.draw import draw_curves
+from gradhesion.core.loops.fitted import OFFSETS
 from gradhesion.core.loops.paths.model import EXPONENT, TURN, Model, Scenes
-from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.loops.paths.walk import between, climb, met
 from gradhesion.core.problem.toughness import EXPONENTS, Rate
 from gradhesion.core.types import Floats, Truths

@@ -1,4 +1,4 @@
-"""Where to start a fit: near the curve of a smooth punch, then of waves, then of speeds, each from the one before.
+"""Where a fit starts, near the curve of a smooth punch, then of waves, then of speeds; and the minima next to that.
 
 Smooth: contact points over all depths of the data, some works of adhesion with each, and the modulus that gives the
 largest load. Waves: the residual of a smooth punch is periodic in the contact radius; the peaks of its spectrum, then
@@ -9,18 +9,18 @@ than noise.
 import itertools
 import math
 from collections.abc import Mapping
+from operator import attrgetter
 from typing import Any, Final
 
 import numpy as np
 
 from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
-from gradhesion.core.loops.minima import COST, distinct, minima
+from gradhesion.core.loops.fitted import DEPTH_ZERO, LOAD_ZERO, OFFSETS
 from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.model import AMPLITUDES, SPEEDS, TURN, WAVELENGTHS, WAVES
-from gradhesion.core.loops.paths.offsets import DEPTH_ZERO, LOAD_ZERO
-from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.types import Floats
 
+COST: Final = attrgetter("cost")
 _FEW: Final = 140  # points that starts are compared with
 _WORK: Final = "work_of_adhesion"
 _MODULI: Final = ("E_star", "E", "modulus")
@@ -39,6 +39,16 @@ _ALIKE: Final = 0.05  # parts of the ranges within which two smooth curves share
 _HELD, _ROUGH = 6, 15  # steps in which starts are refined with the waves held, and the best of these with them
 _SPEEDS: Final = 4  # speeds that are tried
 _WORSE: Final = 4.0  # half the sum of squares over that of the best start, above which another is left out
+_SOME: Final = 300  # largest number of points by which starts are refined
+_WHOLE: Final = 4  # how many of the starts that fit some of the points best are refined by all points
+_MORE: Final = (-1.0, -0.5, 0.5, 1.0)  # differences of the number of waves within the contact that are tried
+_HOPELESS: Final = 25.0
+"""Half the sum of squares of some of the points by which a minimum may be worse than one that leaves only noise."""
+_VALLEY: Final = 3.0
+"""Standard deviations of the least certain combination by which a smooth fit is begun anew on both sides."""
+_FEWEST: Final = 0.2  # least number of waves that is tried
+_HOPS: Final = 5  # most rounds in which these are tried
+_BETTER: Final = 1e-6  # relative difference of sums of squares, below which two minima are the same
 
 
 def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: int) -> list[Floats]:
@@ -205,3 +215,51 @@ def _softened(misfit: Misfit, vector: Floats) -> Floats:
     waves = float(waviness_strength(scene.k, scene.wavelength, scene.A))
     root = max(1.0 - waves / float(adhesion_strength(scene.k, scene.stiffness)), 0.15)
     return put(misfit, vector, {_WORK: vector[misfit.names.index(_WORK)] + 2.0 * math.log(root)})
+
+
+def minima(misfit: Misfit, begun: list[Floats]) -> list[Any]:
+    """Refine starts, by some of the points and then the best of them by all; the best minimum first.
+
+    Minima beside the best one are tried too, until none is better: with some waves more or less in the contact, or
+    along the valley of a smooth punch.
+    """
+    few = misfit.thinned(_SOME)
+
+    def best(vectors: list[Floats], count: int) -> list[Any]:
+        rough = sorted((few.refined(vector, most=30, tolerance=1e-6) for vector in vectors), key=COST)
+        if rough and few.is_noise(rough[0].cost):
+            rough = [done for done in rough if done.cost < rough[0].cost + _HOPELESS]
+        return [misfit.refined(vector, most=100) for vector in distinct([done.x for done in rough], misfit)[:count]]
+
+    whole = sorted(best(begun, _WHOLE), key=COST)
+    for _ in range(_HOPS):
+        least = whole[0].cost * (1.0 - _BETTER)
+        whole = sorted([*whole, *best(_beside(misfit, whole[0].x), 2)], key=COST)
+        if not whole[0].cost < least:
+            break
+    return whole
+
+
+def distinct(vectors: list[Floats], misfit: Misfit, near: float = 1e-3) -> list[Floats]:
+    """Return those of some vectors that are not near an earlier one: a part of the ranges in every number."""
+    kept: list[Floats] = []
+    for vector in vectors:
+        if all(np.max(np.abs(vector - other) / (misfit.high - misfit.low)) > near for other in kept):
+            kept.append(vector)
+    return kept
+
+
+def _beside(misfit: Misfit, vector: Floats) -> list[Floats]:
+    """Return where minima may lie beside one: with some waves more or less in the contact, or along the valley."""
+    i, path = misfit.model.place_of(WAVELENGTHS), misfit.nearest(vector).drawn
+    if path is None or misfit.model.rate is not None:
+        return []
+    if i is None or not misfit.model.has_waves:  # a jump between two points may be nearer to either of them
+        widths = misfit.high - misfit.low
+        _, singular, rows = np.linalg.svd(misfit.jacobian(vector) * widths, full_matrices=False)
+        step = _VALLEY / max(singular[-1], 1e-300) * rows[-1] * widths
+        return [np.clip(vector + sign * step, misfit.low, misfit.high) for sign in (-1.0, 1.0)]
+    waves = float(path.radius.max()) / (path.scene.wavelength * path.scene.R)
+    step = np.eye(vector.size)[i]
+    moved = [vector - step * math.log((waves + more) / waves) for more in _MORE if waves + more > _FEWEST]
+    return [other for other in moved if misfit.low[i] < other[i] < misfit.high[i]]
