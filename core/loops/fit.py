@@ -6,8 +6,8 @@ axes are scaled by their noise. Loading begins, and unloading ends, on the line 
 data do.
 
 There are many local minima: contact points anywhere in the data, and each wavelength with another number of waves in
-the contact. Starts come from features that depend on no zero of the instrument (starts.py), several are refined with
-exact derivatives, and other minima that the noise allows are reported (minima.py). Parameters with the same effect on
+the contact. Starts come from features that depend on no zero of the instrument (search.py), several are refined with
+exact derivatives, and other minima that the noise allows are reported. Parameters with the same effect on
 the loop (E*, c0 and nu act through one number M, docs/theory.md) make its Jacobian singular and are refused.
 """
 
@@ -24,7 +24,7 @@ from gradhesion.core.closed.reduced import WAYS
 from gradhesion.core.loops.fitted import DEPTH_ZERO, LOAD_ZERO, TILT, FittedLoop, Offsets
 from gradhesion.core.loops.measured.features import BaseLine, base_line, contact_point
 from gradhesion.core.loops.paths.misfit import Misfit
-from gradhesion.core.loops.paths.model import TURN
+from gradhesion.core.loops.paths.model import LINEAR, TURN
 from gradhesion.core.loops.paths.path import LoopModel
 from gradhesion.core.loops.results import covariance_of, results_at
 from gradhesion.core.loops.search import minima
@@ -124,7 +124,8 @@ def fit_loop(
         drive, toughness, furthest=tuple(furthest.tolist()), first=float(points[:, 0].min() - span[0]), blur=blur,
         rate=rate,
     )  # fmt: skip
-    low, high = (np.array([*model.searched({name: ends[i] for name, ends in ranges.items()}).values()]) for i in (0, 1))
+    ends = [own if name in LINEAR else (math.log(own[0]), math.log(own[1])) for name, own in ranges.items()]
+    low, high = np.array(ends).T
     misfit = Misfit(points, back, noise, each, model, low, high)
     with threadpool_limits(1):  # matrices of a few columns: threads only wait for each other
         begun = starts_of(misfit, *_zeros(points, back, line), starts, seed)

@@ -107,7 +107,7 @@ class CannotTellApartError(ValueError):
 
     def __init__(self, names: Sequence[str]) -> None:
         self.names = tuple(names)
-        listed = " and ".join(names) if len(names) < 3 else f"{', '.join(names[:-1])} and {names[-1]}"
+        listed = f"{', '.join(names[:-1])} and {names[-1]}"
         super().__init__(f"a loop cannot tell {listed} apart; give one of them as a number")
 
 

@@ -163,16 +163,17 @@ def _digit(row: Floats, begin: _Places) -> float:
 
 @dataclass(frozen=True, eq=False)
 class Averaged:
-    """Means of neighbouring points, in the order of cycles and branches; arrays of shape (m,)."""
+    """Means of neighbouring points, in the order of cycles and branches; arrays of shape (m,).
+
+    `noise` are the standard deviations of a point, from which those of its means follow: higher where it is not white.
+    """
 
     depth: Floats
     load: Floats
     unloading: Truths
     cycle: _Ints
-    counts: Floats
-    """How many points each is the mean of."""
+    counts: Floats  # how many points each is the mean of
     noise: tuple[float, float]
-    """Standard deviations of a point, from which those of these means follow: higher where noise is not white."""
 
 
 def averaged(

@@ -40,14 +40,10 @@ class Nearest(NamedTuple):
 class Misfit:
     """The points of a loop in units of their noise, the model of its path, and the ends of the range of each number."""
 
-    data: Floats
-    """Rows of depth in m (of the machine's displacement, if that is measured) and load in N, of shape (n, 2)."""
-    back: Truths
-    """Whether each belongs to unloading."""
-    noise: tuple[float, float]
-    """The standard deviations of depth and load of one raw point."""
-    counts: Floats
-    """Of how many of these each is the mean."""
+    data: Floats  # rows of depth in m (displacement of the machine, if that is measured) and load in N, (n, 2)
+    back: Truths  # whether each belongs to unloading
+    noise: tuple[float, float]  # standard deviations of depth and load of one raw point
+    counts: Floats  # of how many of these each is the mean
     model: LoopModel
     low: Floats
     high: Floats
@@ -65,9 +61,10 @@ class Misfit:
         return replace(self, data=self.data[some], back=self.back[some], counts=self.counts[some])
 
     def without(self, names: Sequence[str], **more: float) -> "Misfit":
-        """Return the misfit of the loop less some numbers, with others fixed."""
-        model = self.model.without(names, **more)
-        use = [self.names.index(name) for name in model.names]
+        """Return the misfit of the loop less some numbers, with others fixed and an edge at rest."""
+        use = [place for place, name in enumerate(self.names) if name not in names]
+        fixed = {name: value for name, value in self.model.fixed.items() if name not in names} | more
+        model = replace(self.model, fixed=fixed, names=tuple(self.names[place] for place in use), rate=None)
         return replace(self, model=model, low=self.low[use], high=self.high[use])
 
     def named(self, vector: Floats) -> dict[str, float]:

@@ -110,10 +110,6 @@ class Model:
             for name, column in zip(self.names, vectors.T, strict=True)
         }
 
-    def searched(self, values: Mapping[str, float]) -> dict[str, float]:
-        """Return numbers by name as they are searched."""
-        return {name: value if name in LINEAR else math.log(value) for name, value in values.items()}
-
     def given(self, own: Mapping[str, Any]) -> dict[str, Any]:
         """Join the searched and the fixed numbers, with defaults without effect for what is left out."""
         given = {name: value for name, value in {**self.fixed, **own}.items() if name not in (*OFFSETS, TURN)}
@@ -145,12 +141,9 @@ class Model:
     def states(self, scenes: Scenes, radius: Floats, edge: Any) -> Floats:
         """Return equilibrium at radii in m where the edge has a toughness, over that of opening.
 
-        Radii are of shape (n,) for one scene and (1 or scenes, n) for columns of them.
-
-        Returns
-        -------
-        Displacement (of the machine, or depth) and load in m and N, and what both grow by for each m of radius; four
-        rows of the shape to which scenes, radii and edge broadcast.
+        Radii are of shape (n,) for one scene and (1 or scenes, n) for columns of them. Four rows of the shape to which
+        scenes, radii and edge broadcast: displacement (of the machine, or depth) and load in m and N, and what both
+        grow by for each m of radius.
         """
         k, R, m = scenes.k, scenes.R, self.profile.exponent
         a = radius / R

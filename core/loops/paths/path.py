@@ -5,9 +5,8 @@ integrated by core/rate/; loading at rest stays as it is.
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -27,29 +26,24 @@ _REACH: Final = (1.25, 2.5, 10.0)
 _BY_LOAD: Final = (0.0, 1.0)  # what loading turns at, as parts of displacement and load
 
 
-@dataclass(frozen=True, eq=False)
-class LoopPath:
-    """A path in SI units, offsets included: vertices in the order in which they are passed."""
+class LoopPath(NamedTuple):
+    """A path in SI units, offsets included: vertices in the order in which they are passed.
 
-    places: Floats
-    """Rows of depth in m (of the machine, where its displacement is measured) and load in N: first along the line
-    of no load, then loading, unloading, and back along that line."""
-    tangents: Floats
-    """How both grow with the radius, in the same rows; 0 out of contact."""
-    radius: Floats
-    """The contact radius of each, in m; 0 out of contact."""
-    jump: Truths
-    """Whether each is reached by a jump."""
-    curved: Truths
-    """Whether the way to each is part of a smooth branch, of which the vertices are points."""
+    `places` are depths in m (of the machine, where its displacement is measured) and loads in N: first along the line
+    of no load, then loading, unloading, and back along that line. `turn` is the vertex at which loading ends and
+    unloading begins; the edge is pinned up to the next. `aim` is what the turn is prescribed by: the parts of
+    displacement and load in it, 0 where it is the end of a branch.
+    """
+
+    places: Floats  # (vertices, 2)
+    tangents: Floats  # how both grow with the radius, in the same rows; 0 out of contact
+    radius: Floats  # contact radii in m; 0 out of contact
+    jump: Truths  # whether each is reached by a jump
+    curved: Truths  # whether the way to each is part of a smooth branch, of which the vertices are points
     turn: int
-    """The number of the vertex at which loading ends and unloading begins; the edge is pinned up to the next."""
     scene: Scenes
-    """The scene that was drawn."""
     aim: tuple[float, float] = (1.0, 0.0)
-    """What the turn is prescribed by: the parts of displacement and load in it; 0 where it is the end of a branch."""
-    pressed: float | None = None
-    """How much deeper the contact is pressed on at the rim, up to the turn, in m; None if the rim is not met."""
+    pressed: float | None = None  # by how much at the rim, up to the turn, in m; None if that is not met
 
 
 @dataclass(eq=False, kw_only=True)
@@ -71,11 +65,6 @@ class LoopModel(Model):
     def driven(self) -> int:
         """The row of the states that is prescribed."""
         return int(self.loading.control == "load")
-
-    def without(self, names: Sequence[str], **more: float) -> "LoopModel":
-        """Return the path of an edge at rest as a function of the numbers less some, with others fixed."""
-        fixed = {name: value for name, value in self.fixed.items() if name not in names} | more
-        return replace(self, fixed=fixed, names=tuple(name for name in self.names if name not in names), rate=None)
 
     def shift(self, vector: Floats) -> tuple[float, ...]:
         """Return the zeros of depth and load, and the tilt, of a vector."""
