@@ -73,11 +73,10 @@ def _flat_part(depth: Floats, load: Floats, noise: float, steep: float) -> int:
     is_flat = (np.abs(slope) <= steep + _SIGMAS * doubt) & (doubt <= _DOUBT * steep)
     is_flat[: _LEAST - 1] = False
     white = noise * (_WHITE + _SIGMAS / np.sqrt(2.0 * number))
-    for most in (white, _SIGMAS * noise):  # first as if there were only noise; if that gives no line, with drift
-        found = np.flatnonzero(is_flat & (scatter <= most))
-        if found.size:
-            break
-    else:
+    found = np.flatnonzero(is_flat & (scatter <= white))  # as if there were only noise
+    if not found.size:
+        found = np.flatnonzero(is_flat & (scatter <= _SIGMAS * noise))  # with drift
+    if not found.size:
         return 0
     last = int(found[-1])
     # the last ones may be in contact already: two consecutive ones off the line do not belong to it
