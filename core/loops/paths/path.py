@@ -6,7 +6,7 @@ integrated by core/rate/; loading at rest stays as it is.
 
 import math
 from dataclasses import dataclass, replace
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
@@ -116,22 +116,15 @@ class LoopModel(Model):
         places, radius = np.column_stack([x, y + load + tilt * x]), scene.R * drawn["path_contact_radius"]
         if not np.isfinite(places).all() or not back.any():
             return None
-        up, inside = rest.places[: turn + 1], rest.radius[: turn + 1]
-        bent, tangents = rest.curved[: turn + 1], rest.tangents[: turn + 1]
+        up: tuple[Any, ...] = tuple(one[: turn + 1] for one in (rest.places, rest.tangents, rest.radius, rest.curved))
         if law.closing != "quasi-static":
-            up, inside = np.concatenate([up[:1], places[~back]]), np.append(0.0, radius[~back])
-            bent, tangents = np.arange(len(up)) > 1, _along(up)
-        places, radius = places[back], radius[back]
-        end = [[min(up[0, 0], places[-1, 0]), rest.places[-1, 1]]]
-        return LoopPath(
-            np.concatenate([up, places, end]),
-            np.concatenate([tangents, _along(places), np.zeros((1, 2))]),
-            np.concatenate([inside, radius, [0.0]]),
-            np.zeros(len(up) + len(places) + 1, bool),
-            np.concatenate([bent, np.arange(len(places)) > 0, [False]]),
-            len(up) - 1,
-            scene,
-        )
+            way = np.concatenate([rest.places[:1], places[~back]])
+            up = way, _along(way), np.append(0.0, radius[~back]), np.arange(len(way)) > 1
+        way = places[back]
+        down: tuple[Any, ...] = way, _along(way), radius[back], np.arange(len(way)) > 0
+        end: tuple[Any, ...] = [[min(up[0][0, 0], way[-1, 0]), rest.places[-1, 1]]], np.zeros((1, 2)), [0.0], [False]
+        chain, tangents, radius, curved = (np.concatenate(parts) for parts in zip(up, down, end, strict=True))
+        return LoopPath(chain, tangents, radius, np.zeros(len(chain), bool), curved, len(up[0]) - 1, scene)
 
     def _grid(self, scene: Scenes, end: float) -> Floats | None:
         """Return radii up to an end, evenly spaced by waves, and by parts of the radius near 0; None for too many."""
