@@ -20,8 +20,7 @@ from scipy.stats import binom
 from benchmarks.clock import table
 from benchmarks.measured_loops import POINTS, WORDS, Loop, draw_loop
 from gradhesion.core.loops.fit import fit_loop
-from gradhesion.core.loops.fitted import FittedLoop
-from gradhesion.core.loops.paths.offsets import Offsets
+from gradhesion.core.loops.fitted import FittedLoop, Offsets
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
 
 FAR: Final = 5.0

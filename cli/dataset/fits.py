@@ -20,9 +20,8 @@ from gradhesion.cli.terminal.amounts import bytes_in_words
 from gradhesion.cli.work.compiling import prepare
 from gradhesion.cli.work.solve.fitting import Fit, fits_of, range_words, tabor_of
 from gradhesion.core.closed.reach import SMALL, is_steep, slopes_of
-from gradhesion.core.loops.fitted import FittedLoop
+from gradhesion.core.loops.fitted import OFFSETS, FittedLoop
 from gradhesion.core.loops.paths.model import EXPONENT
-from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.status import FLAGS, NO_VALUE, OF_FITS
 

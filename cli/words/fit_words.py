@@ -18,8 +18,7 @@ from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.words.table import unit_behind
 from gradhesion.cli.words.words import origin_lines
 from gradhesion.core.answers.flags import FLAG_WORDS
-from gradhesion.core.loops.fitted import poor_from
-from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
+from gradhesion.core.loops.fitted import OFFSETS, poor_from
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.names import CLOSING
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, FAILED, FLAGS, OF_FITS, POOR_FIT

@@ -18,8 +18,7 @@ from scipy.ndimage import maximum_filter, maximum_filter1d
 
 from gradhesion.core.types import Floats, Integers, Truths
 
-SCENES: Final = 2**18
-"""Number of scenes evaluated at a time in a sweep."""
+_SCENES: Final = 2**18  # scenes evaluated at a time in a sweep
 _CLOSE: Final = 1e-9  # relative difference by which a merit is better than another
 _ALIKE: Final = 2.0**-44  # relative difference by which it may be no better: rounding of a merit
 _ROUNDING: Final = 2.0**-50  # relative difference of merits next to the best below which there is no more to gain
@@ -74,7 +73,7 @@ def axis_of(resolution: int) -> Floats:
 def sweep(values: Callable[[Floats, Integers], Floats], inputs: int, cells: int, resolution: int) -> Floats:
     """Return values (*places, cells) at all places of `axis_of` for all cells; several values have a first axis."""
     axis = axis_of(resolution)
-    step = max(1, SCENES // cells)
+    step = max(1, _SCENES // cells)
     grid = axis[np.indices((axis.size,) * inputs).reshape(inputs, -1, 1)]
     parts = [values(grid[:, i : i + step], np.arange(cells)) for i in range(0, grid.shape[1], step)]
     found = np.concatenate(parts, axis=-2)

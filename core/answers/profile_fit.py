@@ -192,9 +192,8 @@ class _Points:
         rho = np.abs(few.x - centre)
         m = exponent or float(minimize_scalar(lambda m: norm(_left_of_power(m, rho, few.y)), bounds=_EXPONENTS).x)
         starts = [np.array([waves, m, centre]) for waves in few.periods(rho, _left_of_power(m, rho, few.y))]
-        found = [
-            few.refined(start) for start in sorted(starts, key=lambda start: norm(few.projected(start)))[:_REFINED]
-        ]
+        nearest = sorted(starts, key=lambda start: norm(few.projected(start)))[:_REFINED]
+        found = [few.refined(start) for start in nearest]
         floor = _ROUNDING**2 * self.x.size
         as_good = min(size for size, _ in found) * (1.0 + _AS_GOOD * math.sqrt(2.0 / few.x.size)) + floor
         shortest = max(numbers[0] for size, numbers in found if size <= as_good)
@@ -226,11 +225,8 @@ class _Points:
             numbers[self.free] = searched
             return self.projected(numbers)
 
-        margin = 1e-9 * (high - low)
-        begun, scale = (
-            np.clip(start[self.free], low + margin, high - margin),
-            np.array([0.1 / self.terms, 0.1, 0.01])[self.free],
-        )
+        margin, scale = 1e-9 * (high - low), np.array([0.1 / self.terms, 0.1, 0.01])[self.free]
+        begun = np.clip(start[self.free], low + margin, high - margin)
         done = least_squares(
             residual, begun, bounds=(low, high), x_scale=scale, xtol=1e-12, ftol=1e-12, gtol=1e-15, max_nfev=40
         )
@@ -262,12 +258,9 @@ def _described(points: _Points, numbers: Floats, reach: float, lowest: float, un
         cosines, sines = np.pad(amplitudes.reshape(2, -1), ((0, 0), (0, points.terms - amplitudes.size // 2))) * unit
         return {"height": float(height) * unit, "cosines": cosines, "sines": sines}
 
-    found = named(linear[0] + lowest / unit, linear[2:]) | {
-        "radius": reach * float(linear[1] * m * unit / reach) ** (-1.0 / (m - 1.0)),
-        "wavelength": reach / waves,
-        "exponent": m,
-        "centre": centre * reach,
-    }
+    radius = reach * float(linear[1] * m * unit / reach) ** (-1.0 / (m - 1.0))
+    found = {"radius": radius, "wavelength": reach / waves, "exponent": m, "centre": centre * reach}
+    found |= named(linear[0] + lowest / unit, linear[2:])
     fit = FittedProfile(**found, errors={}, up_to=reach, distance=rho[inside] * reach, residual=left[inside])
 
     def slope_to(name: str) -> Floats:

@@ -56,11 +56,10 @@ def relative_slopes(
     """
     arrays, found = {name: np.asarray(one, dtype=float) for name, one in given.items()}, {}
     for key in keys:
-        total = powers.get(key, 0.0) + 0.0 * sensitivity[..., parameters.index("modulus")]
+        found[key] = powers.get(key, 0.0) + 0.0 * sensitivity[..., parameters.index("modulus")]
         for name, influence in _influences(arrays, key, parameters).items():
             part = sensitivity[..., parameters.index(name)] * influence
-            total = total + np.where(influence == 0.0, 0.0, part)
-        found[key] = total
+            found[key] = found[key] + np.where(influence == 0.0, 0.0, part)
     return found
 
 

@@ -21,8 +21,6 @@ from gradhesion.core.types import Floats, Truths
 
 QUANTILES: Final = {"p05": 0.05, "p50": 0.5, "p95": 0.95}
 """The quantiles of the samples, by their names."""
-TENTH: Final = 0.1
-"""Two standard deviations differ where they do by more of the larger one."""
 FEW: Final = 32
 """Samples that check a straight line, if no more are requested. Of 600 values with six inputs known to 1 %, those
 that pass are right to 3 %, but for three that are off by 8 to 10 %; 8 samples miss some that are off by half."""
@@ -94,7 +92,7 @@ def linear_deviation(slopes: Sequence[ArrayLike], deviations: Sequence[ArrayLike
     return np.sqrt(np.sum(np.square(parts), axis=0))
 
 
-def differ(one: ArrayLike, other: ArrayLike, share: float = TENTH) -> Truths:
+def differ(one: ArrayLike, other: ArrayLike, share: float = 0.1) -> Truths:
     """Return where deviations, of any shape, differ by more than a share of the larger, or one of them is missing."""
     first, second = np.asarray(one, dtype=float), np.asarray(other, dtype=float)
     close: Truths = np.abs(first - second) <= share * np.maximum(first, second)

@@ -6,31 +6,29 @@ axes are scaled by their noise. Loading begins, and unloading ends, on the line 
 data do.
 
 There are many local minima: contact points anywhere in the data, and each wavelength with another number of waves in
-the contact. Starts come from features that depend on no zero of the instrument (starts.py), several are refined with
-exact derivatives, and other minima that the noise allows are reported (minima.py). Parameters with the same effect on
+the contact. Starts come from features that depend on no zero of the instrument (search.py), several are refined with
+exact derivatives, and other minima that the noise allows are reported. Parameters with the same effect on
 the loop (E*, c0 and nu act through one number M, docs/theory.md) make its Jacobian singular and are refused.
 """
 
 import math
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike
 from threadpoolctl import threadpool_limits
 
 from gradhesion.core.closed.reduced import WAYS
-from gradhesion.core.loops.fitted import FittedLoop
+from gradhesion.core.loops.fitted import DEPTH_ZERO, LOAD_ZERO, TILT, FittedLoop, Offsets
 from gradhesion.core.loops.measured.features import BaseLine, base_line, contact_point
-from gradhesion.core.loops.minima import minima
 from gradhesion.core.loops.paths.misfit import Misfit
-from gradhesion.core.loops.paths.model import TURN
-from gradhesion.core.loops.paths.offsets import DEPTH_ZERO, LOAD_ZERO, TILT, Offsets
+from gradhesion.core.loops.paths.model import LINEAR, TURN
 from gradhesion.core.loops.paths.path import LoopModel
-from gradhesion.core.loops.paths.speed import SpeedModel
 from gradhesion.core.loops.results import covariance_of, results_at
-from gradhesion.core.loops.starts import starts as starts_of
+from gradhesion.core.loops.search import minima
+from gradhesion.core.loops.search import starts as starts_of
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import CLOSING, TURNS
 from gradhesion.core.problem.profile import Profile
@@ -103,34 +101,31 @@ def fit_loop(
     >>> round(found.values["E_star"] / E_star, 3), round(found.values["work_of_adhesion"] / work, 3)
     (1.0, 1.0)
     """
-    points = np.column_stack([np.asarray(indentation, dtype=float).ravel(), np.asarray(load, dtype=float).ravel()])
-    back, zeros = np.asarray(unloading, dtype=bool).ravel(), offsets or Offsets()
-    each = np.ones(back.size) if counts is None else np.asarray(counts, dtype=float).ravel()
+    points = np.column_stack([np.ravel(indentation), np.ravel(load)]).astype(float)
+    back, zeros = np.ravel(unloading).astype(bool), offsets or Offsets()
+    each = np.ones(back.size) if counts is None else np.ravel(counts).astype(float)
     root = float(np.sqrt(np.median(each)))
     of_means = noise[0] / root, noise[1] / root
-    line = base_line(points, back, of_means[1])
-    known = dict(fixed)
-    contact = contact_point(points, back, line, of_means) if zeros.indentation == "contact" else None
-    if contact is not None:
-        known[DEPTH_ZERO] = contact.depth
-    elif zeros.indentation == "contact":
+    line, contact = base_line(points, back, of_means[1]), None
+    if zeros.indentation == "contact" and (contact := contact_point(points, back, line, of_means)) is None:
         raise ValueError(
             'offsets.indentation = "contact": loading has no base line from which contact could be told; measure '
             'further out, or write "free"'
         )
     drive, furthest, span = loading or Loading(), points.max(axis=0), np.ptp(points, axis=0)
-    driven = int(drive.control == "load")
+    driven, given = int(drive.control == "load"), {*fixed, *free}
     ranges, blur = _searched(points, free, zeros, line), _BLUR * of_means[0]
-    if _is_pinned({*fixed, *free}):  # at a turn that points may miss by a step
+    turns = any(given & {name, *WAYS[name]} for name in TURNS)
+    if given & {CLOSING, *WAYS[CLOSING]} and not turns:  # the edge is pinned at a turn that points may miss by a step
         step = _MISSED * span[driven] + _BLUR * of_means[driven]
         ranges[TURN], blur = (furthest[driven] - step, furthest[driven] + step), 0.0
-    own: dict[str, Any] = {
-        "furthest": tuple(furthest.tolist()), "blur": blur, "profile": profile or Profile(), "loading": drive,
-        "first": float(points[:, 0].min() - span[0]), "toughness": toughness,
-    }  # fmt: skip
-    names = tuple(ranges)
-    model = LoopModel(known, names, **own) if rate is None else SpeedModel(known, names, rate=rate, **own)
-    low, high = (np.array([*model.searched({name: ends[i] for name, ends in ranges.items()}).values()]) for i in (0, 1))
+    model = LoopModel(
+        {**fixed} if contact is None else {**fixed, DEPTH_ZERO: contact.depth}, tuple(ranges), profile or Profile(),
+        drive, toughness, furthest=tuple(furthest.tolist()), first=float(points[:, 0].min() - span[0]), blur=blur,
+        rate=rate,
+    )  # fmt: skip
+    ends = [own if name in LINEAR else (math.log(own[0]), math.log(own[1])) for name, own in ranges.items()]
+    low, high = np.array(ends).T
     misfit = Misfit(points, back, noise, each, model, low, high)
     with threadpool_limits(1):  # matrices of a few columns: threads only wait for each other
         begun = starts_of(misfit, *_zeros(points, back, line), starts, seed)
@@ -143,11 +138,6 @@ def fit_loop(
         level = fitted.values.get(LOAD_ZERO, 0.0) + fitted.values.get(TILT, 0.0) * line.middle
         line = line if abs(line.level - level) < _LEVEL * line.spread else None
     return replace(fitted, base_line=line, contact=contact)
-
-
-def _is_pinned(given: set[str]) -> bool:
-    """Say whether works of adhesion differ, so that the edge is pinned at a turn, which is that of the data."""
-    return bool(given & {CLOSING, *WAYS[CLOSING]}) and not any(given & {name, *WAYS[name]} for name in TURNS)
 
 
 def _zeros(points: Floats, back: Truths, line: BaseLine | None) -> tuple[float, float]:

@@ -5,16 +5,15 @@ from collections.abc import Mapping
 from typing import Any, Final
 
 import numpy as np
-from scipy.special import stdtrit
+from scipy.special import chdtri, stdtrit
 
-from gradhesion.core.closed.reduced import WAYS, parameters_from
+from gradhesion.core.closed.reduced import WAYS
 from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
 from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop, OtherMinimum, poor_from
-from gradhesion.core.loops.minima import others
 from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.model import LINEAR, TURN, WAVELENGTHS, Model
 from gradhesion.core.loops.paths.path import LoopPath
-from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN
+from gradhesion.core.problem.names import CLOSING, SPEED
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, JUMP_IN_TO_RIM, POOR_FIT
 from gradhesion.core.sweep import solve
 from gradhesion.core.types import Floats
@@ -24,7 +23,7 @@ _SINGULAR: Final = 5e-4
 _PART: Final = 0.01  # least part of such a combination that a parameter has in it
 _WITHOUT: Final = 1e-6  # effect of a parameter over the largest, below which it has none
 LEVEL: Final = 0.95
-"""Probability that an interval covers."""
+"""Probability that an interval covers, and that the rise of chi square is below that of minima which noise allows."""
 _NEAR_END: Final = 0.01  # part of a range: a value closer than this to an end is on the bound
 _WIDE: Final = 10.0  # ratio of stop to start above which a range is measured by its logarithm
 _NEAR: Final = 0.01  # accuracy of the end of an interval, in parts of the quantile
@@ -35,6 +34,9 @@ _ROUNDING: Final = 1e-12  # relative difference of radii that is rounding
 _SEEN: Final = 5.0  # size of a jump, in standard deviations of the noise, from which on it shows that there are waves
 _LEAST: Final = 0.01  # strength of waves below which nothing is reported
 _PHASE: Final = 0.1  # error of the number of waves within the contact, below which waves are resolved without jumps
+_APART: Final = 9.0, 4.0
+"""Another minimum is further away, in squared standard deviations, than the first, and than the second times the rise
+of chi square; two places in one valley are not."""
 
 
 def results_at(
@@ -85,6 +87,20 @@ def results_at(
         turning_radius=radius,
         widening=math.sqrt(unit),
     )
+
+
+def others(found: list[Any], covariance: Floats, unit: float) -> list[Any]:
+    """Return the minima after the first that noise allows, by the covariance of the first and a residual's variance."""
+    best, inverse = found[0], np.linalg.pinv(covariance)
+    allowed = float(chdtri(best.x.size, 1.0 - LEVEL)) * unit
+    kept: list[Any] = []
+    for done in found[1:]:
+        rise = 2.0 * (done.cost - best.cost)
+        least = max(_APART[0], _APART[1] * rise / unit)
+        away = [done.x - other.x for other in (best, *kept)]
+        if rise <= allowed and all(apart @ inverse @ apart > least for apart in away):
+            kept.append(done)
+    return kept
 
 
 def covariance_of(misfit: Misfit, vector: Floats) -> Floats:
@@ -142,9 +158,9 @@ def status_of(model: Model, vector: Floats, radius: float) -> int:
     """Return the status that `solve` gives the cycle of a vector that turns at a radius, over R."""
     if radius == 0.0:
         return 0
-    made = {name: float(value) for name, value in parameters_from(model.given(model.values(vector))).items()}
-    more = ("machine_stiffness", CLOSING, *(PATTERN if model.toughness is not None else ()))
-    scene = {name: made[name] for name in (*PARAMETERS, *more) if name in made}
+    scene = model.parameters(vector)
+    scene.pop(SPEED, None)
+    turns_before = radius < (1.0 - _ROUNDING) * scene["a_max_over_R"]
     scene["a_max_over_R"] = min(scene["a_max_over_R"], radius)
     if CLOSING in scene:  # where the works are equal, two fitted ones are in either order, by noise
         scene[CLOSING] = min(scene[CLOSING], 1.0)
@@ -152,7 +168,6 @@ def status_of(model: Model, vector: Floats, radius: float) -> int:
     wanted = ["pull_off_force", "loading_jumps"] if model.loading.control == "load" else [
         "dissipated_energy", "loading_jumps", "unloading_jumps"]  # fmt: skip
     found = int(solve(scene, wanted, threads=1, **own)["status"])
-    turns_before = radius < (1.0 - _ROUNDING) * made["a_max_over_R"]
     return found & ~(JUMP_IN_TO_RIM if turns_before else 0)
 
 

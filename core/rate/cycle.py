@@ -50,9 +50,7 @@ def solve_at_speed(
     """
     given: dict[str, Any] = {CLOSING: 1.0} | {name: np.asarray(value, float) for name, value in parameters.items()}
     if rate.closing != "quasi-static" and TURNS[1] in given:
-        raise ValueError(
-            f"a contact that closes at a speed turns at a depth: give {TURNS[0]} in the place of {TURNS[1]}"
-        )
+        raise ValueError(f"a contact that closes at a speed turns at a depth: give {TURNS[0]}, not {TURNS[1]}")
     shape = np.broadcast_shapes(*(np.shape(value) for value in given.values()))
     scenes = {name: np.broadcast_to(value, shape) for name, value in given.items()}
     at_rest, moves = {name: value for name, value in given.items() if name != SPEED}, scenes[SPEED] != 0.0
@@ -64,10 +62,10 @@ def solve_at_speed(
     if RATE[0] in outputs:
         found[RATE[0]] = np.where(found["status"] & (NO_VALUE | NO_CONTACT), math.nan, 0.0)
     if moves.any():
-        closed, moving = ({name: values[moves] for name, values in of.items()} for of in (quiet, scenes))
-        cycles = _cycles(moving, closed, rate, known)
-        for name in {*outputs, "status"} - {RATE[1]}:
-            found[name][moves] = cycles[name]
+        moving, closed = ({name: values[moves] for name, values in of.items()} for of in (scenes, quiet))
+        for name, values in _cycles(moving, closed, rate, known).items():
+            if name in found:
+                found[name][moves] = values
     if RATE[1] in outputs:
         found[RATE[1]] = np.broadcast_to(_rate_coefficient(at_rest, rate, quiet), shape)
     if not {*outputs} & {*PULL_OFF, RATE[0]}:

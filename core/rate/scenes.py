@@ -6,7 +6,7 @@ Arrays of scenes are solved one scene at a time, those of one exponent on one ta
 import math
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, Final
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,8 +17,8 @@ from gradhesion.core.problem.names import SPEED, TURNS
 from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE, PULL_OFF_AT_RIM, TOLERANCE_NOT_MET, TOO_MANY_WAVES
 from gradhesion.core.problem.toughness import MOST_WAVES, Rate
 from gradhesion.core.processors import processors
-from gradhesion.core.rate.edge import Edge, goal, lag_of, load_at, place_at, pulls_at, state_of
-from gradhesion.core.rate.step import LAG, NODES, RADIUS, SLOW, STAGES, Room, Way, step_until, stride
+from gradhesion.core.rate import edge as steps
+from gradhesion.core.rate.edge import Edge, Room, Step, Way, advance, lag_of, place_at, pulls_at, state_of, stride
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.reduced import AT_RIM, UNIT_OF_FORCE, Punch, reduced_of
 from gradhesion.core.scenes.requests import columns_of, punch_of, scenes_of
@@ -28,6 +28,7 @@ from gradhesion.core.table.basis import basis_of
 from gradhesion.core.table.layout import EXACT, Table
 from gradhesion.core.types import Floats
 
+Pair: TypeAlias = tuple[float, float]
 OPENED: Final = ("pull_off_force", "pull_off_radius", "edge_speed_at_pull_off", "opening_energy", "delta_jump_out")
 CLOSED: Final = ("turning_radius", "delta_max", "closing_energy", "pinned_depth")
 """The results of opening and closing, in the order of the rows."""
@@ -51,6 +52,46 @@ def note(edge: Edge, y: float, lag: float, track: Floats) -> None:
 
 
 @kernel
+def load_at(edge: Edge, y: float, lag: float, slow: float) -> tuple[float, float, float]:
+    """Return the load in opening, its slope by ln y, and what falls from 1 to -1 as y does, through 0 in a trough.
+
+    y dP/dy = T Delta [force - ((3+k)/2 - level) rho]
+    """
+    place, rho = place_at(edge, y), edge.root + edge.sense * lag
+    need, force = (0.5 * (3.0 + edge.curve.table.k) - place.level) * rho, place.drag * slow
+    return state_of(place, rho)[1], place.front * place.adhesion * (force - need), (force - need) / (force + need)
+
+
+@kernel
+def goal(edge: Edge, y: float, lag: float, slow: float, target: float) -> float:
+    """Return what is 0 where a step is to end: a trough of the load in opening, the depth `target` in closing."""
+    if edge.sense > 0.0:
+        return load_at(edge, y, lag, slow)[2]
+    return state_of(place_at(edge, y), edge.root - lag)[0] - target
+
+
+@kernel
+def step_until(edge: Edge, way: Way, x: float, lag: float, ends: Pair, values: Pair, target: float, room: Room) -> Step:
+    """Make the step from (x, lag) whose end is the goal; its length is NaN if that fails.
+
+    Steps of two lengths `ends` reach `values` on either side of it. The rule of false position (Illinois).
+    """
+    (old, length), (first, last) = ends, values
+    for _ in range(60):
+        new = length - last * (length - old) / (last - first)
+        step = advance(edge, way, x, lag, new, room)
+        value = goal(edge, step.y, step.lag, step.slow, target)
+        if value * last > 0.0:
+            first *= 0.5
+        else:
+            old, first = length, last
+        length, last = new, value
+        if value == 0.0 or not abs(length - old) > 2e-15 * abs(length):
+            break
+    return step
+
+
+@kernel
 def open_edge(edge: Edge, start: float, room: Room, out: Floats) -> None:
     """Follow an edge inwards from the radius at which it rests to separation.
 
@@ -67,10 +108,10 @@ def open_edge(edge: Edge, start: float, room: Room, out: Floats) -> None:
         if math.isnan(step.length):
             return
         floor, ends, values, begin = low, (0.0, 0.0), (before, before), 0.0
-        for i in range(STAGES):
-            radius, own, slow = nodes[RADIUS, i], nodes[LAG, i], nodes[SLOW, i]
+        for i in range(steps.STAGES):
+            radius, own, slow = nodes[steps.RADIUS, i], nodes[steps.LAG, i], nodes[steps.SLOW, i]
             note(edge, radius, own, room.track)
-            (load, slope, falls), end = load_at(edge, radius, own, slow), step.length * NODES[i]
+            (load, slope, falls), end = load_at(edge, radius, own, slow), step.length * steps.NODES[i]
             bound = load + slope * math.log(y / radius)  # a trough between is above, by the tangent
             if before > 0.0 >= falls and bound < floor:
                 floor, ends, values = bound, (begin, end), (before, falls)
@@ -117,8 +158,8 @@ def close_edge(edge: Edge, rim: float, target: float, furthest: float, room: Roo
             step = step_until(edge, way, x, lag, (0.0, step.length), (depth - target, over), target, room)
         if math.isnan(step.length) or step.y > furthest:
             return step.y
-        for i in range(STAGES):
-            note(edge, room.nodes[RADIUS, i], room.nodes[LAG, i], room.track)
+        for i in range(steps.STAGES):
+            note(edge, room.nodes[steps.RADIUS, i], room.nodes[steps.LAG, i], room.track)
         x, y, lag, work = x + step.length, rim if rests else step.y, step.lag, work + step.work
         if way.drive > 0.0:
             depth = state_of(place_at(edge, y), edge.root - lag)[0]
@@ -139,7 +180,7 @@ def move_edges(
     `scenes` and `reduced` are those of scenes/rows.py, the first with a last row of V/v*. `out` has a row a result,
     NaN where nothing is stored, and a last one of status. `track` takes where the edge of the last scene has been.
     """
-    room = Room(np.empty((9, STAGES)), np.empty((STAGES, STAGES + 1)), track)
+    room = Room(np.empty((9, steps.STAGES)), np.empty((steps.STAGES, steps.STAGES + 1)), track)
     for i in range(scenes.shape[1]):
         speed, units, found = scenes[-1, i], reduced[:, i].copy(), out[:, i]
         root, rim = 1.0 if opens else math.sqrt(scenes[at.RATIO, i]), units[at.RIM_Y]
@@ -147,10 +188,8 @@ def move_edges(
         if not (units[at.VALID] and 0.0 < speed < math.inf and root > 0.0 and min(rim, target) < math.inf):
             continue
         shortest = 2.0 * math.pi / np.max(punch.waves[:, 0]) if units[at.BY_WAVES] > 0.0 else math.inf
-        curve, furthest = (
-            Curve(table, units[at.BY_POWER], units[at.BY_WAVES], 1.0, units[at.BY_LOAD]),
-            MOST_WAVES * shortest,
-        )
+        curve = Curve(table, units[at.BY_POWER], units[at.BY_WAVES], 1.0, units[at.BY_LOAD])
+        furthest = MOST_WAVES * shortest
         edge = Edge(curve, shortest, speed * units[at.LENGTH] / units[at.DEPTH], n, root, 1.0 if opens else -1.0)
         if target == math.inf and rim > furthest:
             status = NO_VALUE | TOO_MANY_WAVES

@@ -14,9 +14,8 @@ from gradhesion.cli.study.fit.columns import PAUSE, LoopFileError, Rows, read_ra
 from gradhesion.cli.study.rules.fit_form import DataTable
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.loops.measured import points as loop_points
-from gradhesion.core.loops.measured.averaging import MOST, averaged
-from gradhesion.core.loops.measured.noise import noise_of
-from gradhesion.core.loops.measured.plausible import fault_of
+from gradhesion.core.loops.measured.features import fault_of
+from gradhesion.core.loops.measured.points import MOST, averaged, noise_of
 
 MOST_FILES: Final = 10_000
 """Files of one study: each is a fit."""

@@ -18,8 +18,7 @@ from gradhesion.cli.study.rules.mistakes import Mistake, line_of, required
 from gradhesion.cli.study.text.source import Source
 from gradhesion.cli.tables.columns import changed
 from gradhesion.cli.terminal.amounts import counted
-from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
-from gradhesion.core.loops.paths.offsets import Offsets
+from gradhesion.core.loops.fitted import OFFSETS, Offsets
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.inputs import INPUTS
 

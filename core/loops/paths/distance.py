@@ -4,8 +4,7 @@ The curve is given by vertices. Where it bends between two of them, it is the cu
 tangents there; the foot of a point is searched on the chord, or the two that it is between, and then on the cubic.
 """
 
-from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -18,21 +17,14 @@ _LEAST: Final = 0.5
 """Least change of the slope that they divide by, over that of a straight line: it is 0 at the centre of curvature."""
 
 
-@dataclass(frozen=True, eq=False)
-class Feet:
+class Feet(NamedTuple):
     """Where points are nearest to a curve."""
 
-    distance: Floats
-    """Signed: positive on the left of the piece."""
-    piece: Integers
-    """The number of the piece, that of its first vertex."""
-    share: Floats
-    """How far along its chord, 0 to 1."""
-    normal: Floats
-    """Rows of the direction in which the distance grows, of length 1."""
-
-    bent: Truths
-    """Whether it is on a smooth curve, not at one of its ends."""
+    distance: Floats  # signed: positive on the left of the piece
+    piece: Integers  # its number, that of its first vertex
+    share: Floats  # how far along its chord, 0 to 1
+    normal: Floats  # rows of the direction in which the distance grows, of length 1
+    bent: Truths  # whether the foot is on a smooth curve, not at one of its ends
 
     def slopes(self, moving: Floats, tangents: Floats) -> Floats:
         """Return the derivatives of the distances, (points, parameters), from those of the vertices.
@@ -104,10 +96,8 @@ def _on_piece(
 
 
 @kernel
-def _feet(
-    points: Floats, chain: Floats, tangents: Floats, curved: Truths
-) -> tuple[Floats, Integers, Floats, Floats, Truths]:
-    """Return the fields of `Feet`; arguments are as to `feet`."""
+def _feet(points: Floats, chain: Floats, tangents: Floats, curved: Truths) -> Feet:
+    """Find the feet; arguments are as to `feet`."""
     count, last = points.shape[0], chain.shape[0] - 2
     distance, piece, share = np.full(count, np.inf), np.zeros(count, np.int64), np.zeros(count)
     normal, bent, guess = np.zeros((count, 2)), np.zeros(count, np.bool_), 0
@@ -143,7 +133,7 @@ def _feet(
         size, sign = np.hypot(left, over), -1.0 if across * left + up * over < 0.0 else 1.0
         distance[j] = sign * size
         normal[j, 0], normal[j, 1] = (sign * left / size, sign * over / size) if size > 0.0 else (across, up)
-    return distance, piece, share, normal, bent
+    return Feet(distance, piece, share, normal, bent)
 
 
 def feet(points: Floats, chain: Floats, tangents: Floats | None = None, curved: Truths | None = None) -> Feet:
@@ -159,4 +149,4 @@ def feet(points: Floats, chain: Floats, tangents: Floats | None = None, curved: 
     """
     straight = np.zeros(chain.shape[0], bool)
     rows = points, chain, chain if tangents is None else tangents, straight if curved is None else curved
-    return Feet(*_feet(*map(np.ascontiguousarray, rows)))
+    return _feet(*map(np.ascontiguousarray, rows))

@@ -17,10 +17,10 @@ import numpy as np
 
 from gradhesion.core.closed.reduced import WAYS, parameters_from
 from gradhesion.core.equations import hertz, jkr
-from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
+from gradhesion.core.loops.fitted import OFFSETS
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
-from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, SPEED, TURNS
+from gradhesion.core.problem.names import CLOSING, MACHINE, PARAMETERS, PATTERN, SPEED, TURNS
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.toughness import Toughness, rows_of_pattern, series_at
 from gradhesion.core.types import Floats
@@ -110,24 +110,25 @@ class Model:
             for name, column in zip(self.names, vectors.T, strict=True)
         }
 
-    def searched(self, values: Mapping[str, float]) -> dict[str, float]:
-        """Return numbers by name as they are searched."""
-        return {name: value if name in LINEAR else math.log(value) for name, value in values.items()}
-
     def given(self, own: Mapping[str, Any]) -> dict[str, Any]:
         """Join the searched and the fixed numbers, with defaults without effect for what is left out."""
         given = {name: value for name, value in {**self.fixed, **own}.items() if name not in (*OFFSETS, TURN)}
         return {name: one for name, one in _WITHOUT_EFFECT.items() if not WAYS[name].keys() & given.keys()} | given
 
+    def parameters(self, vector: Floats) -> dict[str, float]:
+        """Return the parameters of `solve` of one vector, but for the turn."""
+        made = parameters_from(self.given(self.values(vector)))
+        kept = (*PARAMETERS, SPEED, CLOSING, MACHINE, *(PATTERN if self.toughness is not None else ()))
+        return {name: float(made[name]) for name in kept if name in made}
+
     def scenes(self, vectors: Floats) -> Scenes:
         """Return the numbers of vectors, of shape (vectors, unknown)."""
         own = {name: column[:, None] for name, column in self.values(vectors).items()}
         given = self.given(own)
-        made = parameters_from(given)
-        R, work = given["R"], given["work_of_adhesion"]
+        made, R, work = parameters_from(given), given["R"], given["work_of_adhesion"]
         k, nu, modulus, c0 = (made[name] for name in PARAMETERS[:4])
         M, unit = stiffness(k, nu, modulus, c0), 1.5 * math.pi * R * work
-        compliance = 1.0 / (made["machine_stiffness"] * modulus * work) if self.loading.control == "machine" else 0.0
+        compliance = 1.0 / (made[MACHINE] * modulus * work) if self.loading.control == "machine" else 0.0
         turn = made[self.turns] * (unit if self.turns == "load_max" else R) if self.turns else math.nan
         columns = (
             k, R, M, made["lambda_over_R"], made["A"], np.sqrt(np.maximum(made.get(CLOSING, 1.0), 0.0)), compliance,
@@ -140,12 +141,9 @@ class Model:
     def states(self, scenes: Scenes, radius: Floats, edge: Any) -> Floats:
         """Return equilibrium at radii in m where the edge has a toughness, over that of opening.
 
-        Radii are of shape (n,) for one scene and (1 or scenes, n) for columns of them.
-
-        Returns
-        -------
-        Displacement (of the machine, or depth) and load in m and N, and what both grow by for each m of radius; four
-        rows of the shape to which scenes, radii and edge broadcast.
+        Radii are of shape (n,) for one scene and (1 or scenes, n) for columns of them. Four rows of the shape to which
+        scenes, radii and edge broadcast: displacement (of the machine, or depth) and load in m and N, and what both
+        grow by for each m of radius.
         """
         k, R, m = scenes.k, scenes.R, self.profile.exponent
         a = radius / R
@@ -171,11 +169,9 @@ class Model:
         if not self.has_waves:
             return 0.0, 0.0, 0.0
         length, waves = scenes.wavelength * scenes.R, [(one.n, -one.cos, one.sin) for one in self.profile.harmonics]
-        if not np.ndim(scenes.k):
-            return scenes.A * length * np.array(hertz.wave_terms(scenes.k, radius / length, 1.0, waves))
         known: dict[tuple[float, bytes], Floats] = {}
         rows = []
-        for k, x in zip(scenes.k[:, 0].tolist(), radius / length, strict=True):
+        for k, x in zip(np.ravel(scenes.k).tolist(), np.atleast_2d(radius / length), strict=True):
             key = k, x.tobytes()
             known[key] = known[key] if key in known else np.array(hertz.wave_terms(k, x, 1.0, waves))
             rows.append(known[key])
@@ -185,13 +181,10 @@ class Model:
         """Return the toughness at radii over R, over its mean, and how it grows with them."""
         if self.toughness is None:
             return 1.0, 0.0
-        rows, step = rows_of_pattern(self.toughness), 1e-5
-        below, here, above = (
-            np.maximum(1.0 + scenes.swing * series_at(rows, a / scenes.pattern + way), 0.0)
-            for way in (-step, 0.0, step)
-        )
-        if self.toughness.of == "work":
-            below, here, above = np.sqrt(below), np.sqrt(here), np.sqrt(above)
+        at, step = a / scenes.pattern, 1e-5
+        series = series_at(rows_of_pattern(self.toughness), np.stack([at - step, at, at + step]))
+        tough = np.maximum(1.0 + scenes.swing * series, 0.0)
+        below, here, above = np.sqrt(tough) if self.toughness.of == "work" else tough
         return here, (above - below) / (2.0 * step * scenes.pattern)
 
     def shortest(self, scenes: Scenes) -> float:

@@ -1,18 +1,20 @@
 """The path of a loop with its units and offsets: up the branches of loading, down those of unloading, out of contact.
 
-Vertices lie on the curve itself, at radii through which the path passes on a grid (walk.py).
+Vertices lie on the curve itself, at radii through which the path passes on a grid (walk.py). A moving edge is
+integrated by core/rate/; loading at rest stays as it is.
 """
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, fields
-from typing import Any, ClassVar, Final
+from dataclasses import dataclass, replace
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from gradhesion.core.loops.paths.model import TURN, Model, Scenes
-from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
+from gradhesion.core.draw.draw import draw_curves
+from gradhesion.core.loops.fitted import OFFSETS
+from gradhesion.core.loops.paths.model import EXPONENT, TURN, Model, Scenes
 from gradhesion.core.loops.paths.walk import between, climb, met
+from gradhesion.core.problem.toughness import EXPONENTS, Rate
 from gradhesion.core.types import Floats, Truths
 
 _A_WAVE: Final = 60  # radii of the grid within the shortest wave: the cubics between them are off by 3e-7 of its height
@@ -24,29 +26,24 @@ _REACH: Final = (1.25, 2.5, 10.0)
 _BY_LOAD: Final = (0.0, 1.0)  # what loading turns at, as parts of displacement and load
 
 
-@dataclass(frozen=True, eq=False)
-class LoopPath:
-    """A path in SI units, offsets included: vertices in the order in which they are passed."""
+class LoopPath(NamedTuple):
+    """A path in SI units, offsets included: vertices in the order in which they are passed.
 
-    places: Floats
-    """Rows of depth in m (of the machine, where its displacement is measured) and load in N: first along the line
-    of no load, then loading, unloading, and back along that line."""
-    tangents: Floats
-    """How both grow with the radius, in the same rows; 0 out of contact."""
-    radius: Floats
-    """The contact radius of each, in m; 0 out of contact."""
-    jump: Truths
-    """Whether each is reached by a jump."""
-    curved: Truths
-    """Whether the way to each is part of a smooth branch, of which the vertices are points."""
+    `places` are depths in m (of the machine, where its displacement is measured) and loads in N: first along the line
+    of no load, then loading, unloading, and back along that line. `turn` is the vertex at which loading ends and
+    unloading begins; the edge is pinned up to the next. `aim` is what the turn is prescribed by: the parts of
+    displacement and load in it, 0 where it is the end of a branch.
+    """
+
+    places: Floats  # (vertices, 2)
+    tangents: Floats  # how both grow with the radius, in the same rows; 0 out of contact
+    radius: Floats  # contact radii in m; 0 out of contact
+    jump: Truths  # whether each is reached by a jump
+    curved: Truths  # whether the way to each is part of a smooth branch, of which the vertices are points
     turn: int
-    """The number of the vertex at which loading ends and unloading begins; the edge is pinned up to the next."""
     scene: Scenes
-    """The scene that was drawn."""
     aim: tuple[float, float] = (1.0, 0.0)
-    """What the turn is prescribed by: the parts of displacement and load in it; 0 where it is the end of a branch."""
-    pressed: float | None = None
-    """How much deeper the contact is pressed on at the rim, up to the turn, in m; None if the rim is not met."""
+    pressed: float | None = None  # by how much at the rim, up to the turn, in m; None if that is not met
 
 
 @dataclass(eq=False, kw_only=True)
@@ -55,26 +52,19 @@ class LoopModel(Model):
 
     It turns at the largest depth in m, or load in N, of the data (`furthest`), unless told otherwise, and goes on by
     `blur` in m on the branch where it is, since points at the turn have noise. Where works of adhesion differ the edge
-    is pinned at the turn, which is then searched as `TURN`. The line of no load begins at the depth `first`.
+    is pinned at the turn, which is then searched as `TURN`. The line of no load begins at the depth `first`. `rate` is
+    the law of an edge that has a speed; its exponent is that of the numbers that are searched, if it is one of them.
     """
 
     furthest: tuple[float, float]
     first: float
     blur: float = 0.0
-    by_differences: ClassVar[bool] = False
-    """Whether derivatives are differences of paths."""
+    rate: Rate | None = None
 
     @property
     def driven(self) -> int:
         """The row of the states that is prescribed."""
         return int(self.loading.control == "load")
-
-    def without(self, names: Sequence[str], **more: float) -> "LoopModel":
-        """Return the path of an edge at rest as a function of the numbers less some, with others fixed."""
-        own: dict[str, Any] = {one.name: getattr(self, one.name) for one in fields(LoopModel)}
-        own["fixed"] = {name: value for name, value in self.fixed.items() if name not in names} | more
-        own["names"] = tuple(name for name in self.names if name not in names)
-        return LoopModel(**own)
 
     def shift(self, vector: Floats) -> tuple[float, ...]:
         """Return the zeros of depth and load, and the tilt, of a vector."""
@@ -82,7 +72,12 @@ class LoopModel(Model):
         return tuple(own.get(name, self.fixed.get(name, 0.0)) for name in OFFSETS)
 
     def path(self, vector: Floats) -> LoopPath | None:
-        """Draw the path; None where the scene has none."""
+        """Draw the path; None where the scene has none. With a speed, it turns where that of an edge at rest does."""
+        rest = self._at_rest(vector)
+        return rest if self.rate is None or rest is None else self._moved(vector, rest, self.rate)
+
+    def _at_rest(self, vector: Floats) -> LoopPath | None:
+        """Draw the path of an edge at rest."""
         scene = self.scenes(vector[None]).one
         if not (0.0 < scene.stiffness < math.inf and 0.0 < scene.R * scene.disc < math.inf):
             return None
@@ -102,6 +97,34 @@ class LoopModel(Model):
         drawn.places[:, 1] += load + tilt * drawn.places[:, 0]
         drawn.tangents[:, 1] += tilt * drawn.tangents[:, 0]
         return drawn
+
+    def _moved(self, vector: Floats, rest: LoopPath, rate: Rate) -> LoopPath | None:
+        """Draw the path of an edge with a speed from that of one at rest."""
+        given = {EXPONENT: rate.exponent, **self.fixed, **self.values(vector)}
+        exponent = float(given[EXPONENT])
+        if rest.radius[rest.turn] == 0.0 or not EXPONENTS[0] <= exponent <= EXPONENTS[1]:
+            return rest
+        scene, turn, (depth, load, tilt) = rest.scene, rest.turn, self.shift(vector)
+        x, y = rest.places[turn]
+        pressed = float(x - depth - scene.compliance * (y - load - tilt * x)) / scene.R
+        wanted = self.parameters(vector) | {"indentation_max_over_R": pressed}
+        law = replace(rate, exponent=exponent)
+        drawn, _ = draw_curves(wanted, ["path"], self.profile, self.loading, None, law)
+        back = drawn["path_unloading"] == 1
+        y = 1.5 * math.pi * scene.R * float(given["work_of_adhesion"]) * drawn["path_load"]
+        x = scene.R * drawn["path_indentation"] + scene.compliance * y + depth
+        places, radius = np.column_stack([x, y + load + tilt * x]), scene.R * drawn["path_contact_radius"]
+        if not np.isfinite(places).all() or not back.any():
+            return None
+        up: tuple[Any, ...] = tuple(one[: turn + 1] for one in (rest.places, rest.tangents, rest.radius, rest.curved))
+        if law.closing != "quasi-static":
+            way = np.concatenate([rest.places[:1], places[~back]])
+            up = way, _along(way), np.append(0.0, radius[~back]), np.arange(len(way)) > 1
+        way = places[back]
+        down: tuple[Any, ...] = way, _along(way), radius[back], np.arange(len(way)) > 0
+        end: tuple[Any, ...] = [[min(up[0][0, 0], way[-1, 0]), rest.places[-1, 1]]], np.zeros((1, 2)), [0.0], [False]
+        chain, tangents, radius, curved = (np.concatenate(parts) for parts in zip(up, down, end, strict=True))
+        return LoopPath(chain, tangents, radius, np.zeros(len(chain), bool), curved, len(up[0]) - 1, scene)
 
     def _grid(self, scene: Scenes, end: float) -> Floats | None:
         """Return radii up to an end, evenly spaced by waves, and by parts of the radius near 0; None for too many."""
@@ -195,3 +218,10 @@ class LoopModel(Model):
 def _rows(radius: Floats, states: Floats, jump: Truths) -> Floats:
     """Return vertices as rows: state, radius, whether it is reached by a jump, and whether along a smooth branch."""
     return np.column_stack([states.T, radius, jump, ~jump])
+
+
+def _along(places: Floats) -> Floats:
+    """Return directions of a curve at its points (n, 2), those of parabolas through their neighbours."""
+    steps = np.hypot(*(np.diff(places, axis=0) / np.maximum(np.ptp(places, axis=0), np.finfo(float).tiny)).T)
+    way = np.append(0.0, np.cumsum(np.maximum(steps, 1e-12)))
+    return np.asarray(np.gradient(places, way, axis=0) if len(places) > 1 else places)

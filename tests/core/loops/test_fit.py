@@ -8,8 +8,7 @@ import pytest
 
 from gradhesion.core import draw_curves
 from gradhesion.core.loops.fit import fit_loop
-from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop, poor_from
-from gradhesion.core.loops.paths.offsets import Offsets
+from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop, Offsets, poor_from
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
 from gradhesion.core.problem.toughness import Rate
 from tests.core.loops.models import CASES, SCENE, TURN, UNIT, Array, R

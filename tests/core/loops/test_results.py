@@ -9,12 +9,12 @@ import pytest
 
 from gradhesion.core import solve
 from gradhesion.core.loops.fitted import FittedLoop
-from gradhesion.core.loops.minima import others
 from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.results import (
     alternatives,
     covariance_of,
     is_on_bound,
+    others,
     profile_interval,
     results_at,
     status_of,

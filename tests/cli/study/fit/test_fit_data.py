@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import gradhesion as gr
-from gradhesion.core.loops.measured.averaging import MOST
+from gradhesion.core.loops.measured.points import MOST
 from tests.cli.conftest import BALL, COLUMNS, WORK, Call, Patch
 from tests.conftest import mistakes
 

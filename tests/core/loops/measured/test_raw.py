@@ -3,10 +3,8 @@
 import numpy as np
 import pytest
 
-from gradhesion.core.loops.measured.averaging import MOST, Averaged, averaged
-from gradhesion.core.loops.measured.noise import FLOOR, noise_of
-from gradhesion.core.loops.measured.plausible import fault_of
-from gradhesion.core.loops.measured.points import has_order
+from gradhesion.core.loops.measured.features import fault_of
+from gradhesion.core.loops.measured.points import FLOOR, MOST, Averaged, averaged, has_order, noise_of
 
 Array = np.ndarray
 Rows = tuple[Array, Array, Array, Array]

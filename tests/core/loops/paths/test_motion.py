@@ -3,21 +3,21 @@
 import numpy as np
 import pytest
 
+from gradhesion.core.loops.fitted import OFFSETS
 from gradhesion.core.loops.paths.misfit import LOST, Misfit
-from gradhesion.core.loops.paths.offsets import NAMES
 from tests.core.loops.models import CASES, NOISE, Array, R, misfit_of, path_of, vector
 
 STEP = 1e-5
 """Of the numbers as they are searched; of offsets, in units of the noise."""
-ALL = ("E_star", "work_of_adhesion", "wavelength", "A", *NAMES)
-SMOOTH = ("E_star", "work_of_adhesion", *NAMES)
+ALL = ("E_star", "work_of_adhesion", "wavelength", "A", *OFFSETS)
+SMOOTH = ("E_star", "work_of_adhesion", *OFFSETS)
 SEARCHED: dict[str, tuple[str, ...]] = {
     "wavy": ALL,
     "smooth": SMOOTH,
     "series": ALL,
     "rim": ALL,
     "preload": ("preload", *ALL[:4], "load_offset"),
-    "machine": (*ALL[:4], "spring_constant", "indentation_max", *NAMES),
+    "machine": (*ALL[:4], "spring_constant", "indentation_max", *OFFSETS),
     "machine at the rim": ("indentation_max", "spring_constant", *ALL),
     "load control": ALL,
     "load control to a depth": ("indentation_max", *ALL[:4], "load_offset"),
@@ -62,7 +62,7 @@ def test_distances_change_as_those_to_a_path_that_is_drawn_again(name: str) -> N
     """
     own, here = misfit(name, seed=1)
     exact = own.jacobian(here)[:400]
-    units = {NAMES[0]: NOISE[0], NAMES[1]: NOISE[1], "indentation_max": NOISE[0], "turn": NOISE[0]}
+    units = {OFFSETS[0]: NOISE[0], OFFSETS[1]: NOISE[1], "indentation_max": NOISE[0], "turn": NOISE[0]}
     for i, one in enumerate(own.names):
         step = STEP * units.get(one, 1.0)
         ends = [here + sign * step * np.eye(here.size)[i] for sign in (1.0, -1.0)]
@@ -82,7 +82,7 @@ def test_distances_change_as_those_to_a_path_that_is_drawn_again(name: str) -> N
 def test_the_turn_follows_what_it_is_prescribed_by(name: str) -> None:
     """A point beyond the end of a path is as far as the end is: that moves along its branch with the zero of depth."""
     own, here = misfit(name, seed=2)
-    i, step = own.names.index(NAMES[0]), 1e-3 * NOISE[0]
+    i, step = own.names.index(OFFSETS[0]), 1e-3 * NOISE[0]
     drawn = path_of(own.model, here)
     one = misfit_of(own.model, here, drawn.places[[drawn.turn]] + [0.0, 5.0 * NOISE[1]], np.zeros(1, bool))
     ends = [one.residual(here + sign * step * np.eye(here.size)[i])[0] for sign in (1.0, -1.0)]

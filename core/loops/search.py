@@ -1,4 +1,4 @@
-"""Where to start a fit: near the curve of a smooth punch, then of waves, then of speeds, each from the one before.
+"""Where a fit starts, near the curve of a smooth punch, then of waves, then of speeds; and the minima next to that.
 
 Smooth: contact points over all depths of the data, some works of adhesion with each, and the modulus that gives the
 largest load. Waves: the residual of a smooth punch is periodic in the contact radius; the peaks of its spectrum, then
@@ -9,18 +9,18 @@ than noise.
 import itertools
 import math
 from collections.abc import Mapping
+from operator import attrgetter
 from typing import Any, Final
 
 import numpy as np
 
 from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
-from gradhesion.core.loops.minima import COST, distinct, minima
+from gradhesion.core.loops.fitted import DEPTH_ZERO, LOAD_ZERO, OFFSETS
 from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.model import AMPLITUDES, SPEEDS, TURN, WAVELENGTHS, WAVES
-from gradhesion.core.loops.paths.offsets import DEPTH_ZERO, LOAD_ZERO
-from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.types import Floats
 
+COST: Final = attrgetter("cost")
 _FEW: Final = 140  # points that starts are compared with
 _WORK: Final = "work_of_adhesion"
 _MODULI: Final = ("E_star", "E", "modulus")
@@ -39,6 +39,16 @@ _ALIKE: Final = 0.05  # parts of the ranges within which two smooth curves share
 _HELD, _ROUGH = 6, 15  # steps in which starts are refined with the waves held, and the best of these with them
 _SPEEDS: Final = 4  # speeds that are tried
 _WORSE: Final = 4.0  # half the sum of squares over that of the best start, above which another is left out
+_SOME: Final = 300  # largest number of points by which starts are refined
+_WHOLE: Final = 4  # how many of the starts that fit some of the points best are refined by all points
+_MORE: Final = (-1.0, -0.5, 0.5, 1.0)  # differences of the number of waves within the contact that are tried
+_HOPELESS: Final = 25.0
+"""Half the sum of squares of some of the points by which a minimum may be worse than one that leaves only noise."""
+_VALLEY: Final = 3.0
+"""Standard deviations of the least certain combination by which a smooth fit is begun anew on both sides."""
+_FEWEST: Final = 0.2  # least number of waves that is tried
+_HOPS: Final = 5  # most rounds in which these are tried
+_BETTER: Final = 1e-6  # relative difference of sums of squares, below which two minima are the same
 
 
 def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: int) -> list[Floats]:
@@ -47,14 +57,15 @@ def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: i
     `load_zero` is the load of the base line in N, `contact` the depth in m at which it ends (NaN if it has none), and
     `seed` that of the Sobol set of what no feature of the loop determines.
     """
-    if misfit.model.by_differences:
-        rest = misfit.without(SPEEDS)
-        best = minima(rest, starts(rest, load_zero, contact, count, seed))[0]
-        return _fast(misfit.thinned(100), rest.named(best.x))
-    if misfit.turn:  # near the middle of its range
-        rest, middle = misfit.without((TURN,)), 0.5 * (misfit.low + misfit.high)
-        begun = starts(rest, load_zero, contact, count, seed)
-        return [put(misfit, middle, dict(zip(rest.names, vector, strict=True))) for vector in begun]
+    if misfit.model.rate is not None:
+        rest, few = misfit.without(SPEEDS), misfit.thinned(100)
+        start = _filled(few, rest, minima(rest, starts(rest, load_zero, contact, count, seed))[0].x)
+        tried = {name: shares_of(few, name, _SPEEDS) for name in few.names if name in SPEEDS}
+        begun = [put(few, start, {name: row[i] for name, row in tried.items()}) for i in range(_SPEEDS if tried else 1)]
+        return _kept([few.refined(vector, most=12, tolerance=1e-4) for vector in begun], few, 3)
+    if misfit.turn:
+        rest = misfit.without((TURN,))
+        return [_filled(misfit, rest, vector) for vector in starts(rest, load_zero, contact, count, seed)]
     few = misfit.thinned(_FEW)
     if not misfit.model.has_waves:
         return _smooth(few, load_zero, contact, seed)[:count]
@@ -73,11 +84,13 @@ def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: i
 
 def put(misfit: Misfit, vector: Floats, values: Mapping[str, float]) -> Floats:
     """Return a vector with other numbers under some names, within their ranges; those that are NaN stay."""
-    changed = vector.copy()
-    for i, name in enumerate(misfit.names):
-        if math.isfinite(value := values.get(name, math.nan)):
-            changed[i] = np.clip(value, misfit.low[i], misfit.high[i])
-    return changed
+    changed = np.array([values.get(name, math.nan) for name in misfit.names])
+    return np.where(np.isnan(changed), vector, np.clip(changed, misfit.low, misfit.high))
+
+
+def _filled(misfit: Misfit, rest: Misfit, vector: Floats) -> Floats:
+    """Return a vector from one of the rest of its numbers, the others in the middle of their ranges."""
+    return put(misfit, 0.5 * (misfit.low + misfit.high), dict(zip(rest.names, vector, strict=True)))
 
 
 def shares_of(misfit: Misfit, name: str, count: int) -> Floats:
@@ -95,11 +108,8 @@ def _kept(found: list[Any], few: Misfit, count: int) -> list[Floats]:
 def _smooth(few: Misfit, load_zero: float, contact: float, seed: int) -> list[Floats]:
     """Return refined starts of a loop whose punch has no waves that are searched, the best first."""
     lows, highs, names = few.low, few.high, few.names
-    depths, works = np.array([0.0]), np.zeros(1)
-    if DEPTH_ZERO in names:
-        depths = np.append(shares_of(few, DEPTH_ZERO, _CONTACTS), contact)
-    if _WORK in names:
-        works = shares_of(few, _WORK, _WORKS)
+    depths = np.append(shares_of(few, DEPTH_ZERO, _CONTACTS), contact) if DEPTH_ZERO in names else np.zeros(1)
+    works = shares_of(few, _WORK, _WORKS) if _WORK in names else np.zeros(1)
     others = [i for i, name in enumerate(names) if name not in (*OFFSETS, *_MODULI, _WORK)]
     drawn = np.full((1, len(others)), 0.5)
     if others:
@@ -170,7 +180,7 @@ def _wavy(few: Misfit, smooth: Misfit, base: Floats, count: int) -> list[Any]:
     length, height = (next((name for name in few.names if name in ways), "") for ways in (WAVELENGTHS, AMPLITUDES))
     held = [few.names.index(name) for name in (length, height) if name]
     heights = shares_of(few, height, _HEIGHTS) if height else [math.nan]
-    middle = put(few, 0.5 * (few.low + few.high), dict(zip(smooth.names, base, strict=True)))
+    middle = _filled(few, smooth, base)
     found: list[Any] = []
     for waves in _lengths(few, smooth, base, middle, length) if length else [[math.nan]]:
         begun = [put(few, middle, {length: wave, height: swell}) for wave, swell in itertools.product(waves, heights)]
@@ -207,9 +217,49 @@ def _softened(misfit: Misfit, vector: Floats) -> Floats:
     return put(misfit, vector, {_WORK: vector[misfit.names.index(_WORK)] + 2.0 * math.log(root)})
 
 
-def _fast(few: Misfit, at_rest: Mapping[str, float]) -> list[Floats]:
-    """Return starts of some speeds from the minimum of an edge at rest, the best first."""
-    start = put(few, 0.5 * (few.low + few.high), few.model.searched(at_rest))
-    tried = {name: shares_of(few, name, _SPEEDS) for name in few.names if name in SPEEDS}
-    vectors = [put(few, start, {name: row[i] for name, row in tried.items()}) for i in range(_SPEEDS if tried else 1)]
-    return _kept([few.refined(vector, most=12, tolerance=1e-4) for vector in vectors], few, 3)
+def minima(misfit: Misfit, begun: list[Floats]) -> list[Any]:
+    """Refine starts, by some of the points and then the best of them by all; the best minimum first.
+
+    Minima beside the best one are tried too, until none is better: with some waves more or less in the contact, or
+    along the valley of a smooth punch.
+    """
+    few = misfit.thinned(_SOME)
+
+    def best(vectors: list[Floats], count: int) -> list[Any]:
+        rough = sorted((few.refined(vector, most=30, tolerance=1e-6) for vector in vectors), key=COST)
+        if rough and few.is_noise(rough[0].cost):
+            rough = [done for done in rough if done.cost < rough[0].cost + _HOPELESS]
+        return [misfit.refined(vector, most=100) for vector in distinct([done.x for done in rough], misfit)[:count]]
+
+    whole = sorted(best(begun, _WHOLE), key=COST)
+    for _ in range(_HOPS):
+        least = whole[0].cost * (1.0 - _BETTER)
+        whole = sorted([*whole, *best(_beside(misfit, whole[0].x), 2)], key=COST)
+        if not whole[0].cost < least:
+            break
+    return whole
+
+
+def distinct(vectors: list[Floats], misfit: Misfit, near: float = 1e-3) -> list[Floats]:
+    """Return those of some vectors that are not near an earlier one: a part of the ranges in every number."""
+    kept: list[Floats] = []
+    for vector in vectors:
+        if all(np.max(np.abs(vector - other) / (misfit.high - misfit.low)) > near for other in kept):
+            kept.append(vector)
+    return kept
+
+
+def _beside(misfit: Misfit, vector: Floats) -> list[Floats]:
+    """Return where minima may lie beside one: with some waves more or less in the contact, or along the valley."""
+    i, path = misfit.model.place_of(WAVELENGTHS), misfit.nearest(vector).drawn
+    if path is None or misfit.model.rate is not None:
+        return []
+    if i is None or not misfit.model.has_waves:  # a jump between two points may be nearer to either of them
+        widths = misfit.high - misfit.low
+        _, singular, rows = np.linalg.svd(misfit.jacobian(vector) * widths, full_matrices=False)
+        step = _VALLEY / max(singular[-1], 1e-300) * rows[-1] * widths
+        return [np.clip(vector + sign * step, misfit.low, misfit.high) for sign in (-1.0, 1.0)]
+    waves = float(path.radius.max()) / (path.scene.wavelength * path.scene.R)
+    step = np.eye(vector.size)[i]
+    moved = [vector - step * math.log((waves + more) / waves) for more in _MORE if waves + more > _FEWEST]
+    return [other for other in moved if misfit.low[i] < other[i] < misfit.high[i]]
