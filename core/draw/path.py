@@ -2,8 +2,7 @@
 
 The corners of a path come first: where it starts, where it jumps to, where depth or load turns, where a branch ends.
 Flags mark how they are reached: along the curve or by a straight line, by a jump or not, on which branch, loading or
-unloading. The curve between them is sampled (sampling.py). Jumps keep what is prescribed. Under load control the punch
-falls without end once contact is lost: the path ends there, with radius 0 at the depth and the load of the last fold.
+unloading. The curve between them is sampled (sampling.py). Jumps keep what is prescribed.
 """
 
 from typing import Any, Final, TypeAlias
