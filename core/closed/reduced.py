@@ -90,7 +90,7 @@ def _over_length(ratio: Any, *material: Any) -> Any:
 _FORMULAS: Final[dict[str, Callable[..., Any]]] = {
     **{name: one.follows for name, one in INPUTS.items() if one.follows},
     "lambda_over_L": _over_length,
-    "chi": lambda chi, *scene: amplitude_of_ratio(*scene, chi=chi),
+    "chi": lambda chi, *scene: amplitude_of_ratio(*(*scene, chi)),
     "a_max_over_L": _over_length,
     "a_max_over_a2": lambda ratio, *scene: ratio * jump_in_radius_of_envelope(*scene),
 }
