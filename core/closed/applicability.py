@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.closed.envelope import chis
+from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import PARAMETERS, RANGE, VALIDITY
 from gradhesion.core.problem.profile import Profile, rows_of, swings
@@ -73,8 +74,10 @@ def validity(
     rows = tuple(map(tuple, rows_of(profile).tolist()))
     with np.errstate(all="ignore"):  # a scene that overflows has no value
         M = stiffness(k, nu, modulus, c0)
-        sound = np.isfinite(M) & (wavelength > 0.0) & (amplitude >= 0.0) & (arrays["a_max_over_R"] > 0.0)
-        sound &= np.isfinite(wavelength) & np.isfinite(amplitude)
+        reach = np.where(INPUTS[RANGE].admits(arrays[RANGE]), arrays[RANGE], np.nan) if RANGE in arrays else np.nan
+        sound = np.isfinite(M)
+        for name in PARAMETERS[4:]:
+            sound = sound & INPUTS[name].admits(arrays[name])
         found = {}
         for name in outputs:
             if name == "wave_slope":
@@ -83,15 +86,10 @@ def validity(
                 values = 1.0 / (math.sqrt(math.pi) * chis(k, M, wavelength, amplitude, profile)[1])
             elif name == "tabor_parameter":
                 m = profile.exponent
-                values = M ** (-m / (2.0 * m - 1.0 + k)) / _range(arrays[RANGE])
+                values = M ** (-m / (2.0 * m - 1.0 + k)) / reach
             else:
                 crest = wavelength / (4.0 * math.pi**2 * amplitude * swings(_CURVATURE, rows)[0])
-                values = (crest**2 / M) ** (2.0 / (3.0 + k)) / (crest * _range(arrays[RANGE]))
+                values = (crest**2 / M) ** (2.0 / (3.0 + k)) / (crest * reach)
                 values = np.where(np.isfinite(crest), values, np.nan)
             found[name] = np.array(np.broadcast_to(np.where(sound, values, np.nan), shape))
     return found
-
-
-def _range(values: _Array) -> _Array:
-    """Return the range of attraction, NaN out of range."""
-    return np.where((values > 0.0) & np.isfinite(values), values, np.nan)

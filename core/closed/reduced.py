@@ -1,9 +1,17 @@
 """Scenes given in other variables than those of `solve`: in reduced ones, or in SI units.
 
+    L   = (R^2 dgamma/M)^(1/(3+k)),   the length of the problem
+    chi = r/s,   r = pi^((1-k)/2) G((1+k)/2) A lambda^((1+k)/2),   s = sqrt(2^(1+k) pi dgamma/M)
+    a_2 = [(1+k) R (s - r)]^(2/(3+k)), the jump-in radius of the loading envelope (5.34)
+
+At one gradient exponent a paraboloid with one cosine wave depends on lambda/L, chi and a_max/L alone: nu, E* and c0 act
+through M only (docs/theory.md). Arguments of the functions of these variables are the first of `PARAMETERS`, with their
+ranges, all broadcastable; results are NaN outside the ranges, and accurate to a few units in the last place.
+
 R, c0, wavelength, amplitude, a_max, indentation_max, toughness_wavelength and adhesion_range are in m, E_star and E =
 E_star (1 - nu^2) in Pa, work_of_adhesion and that of closing in J/m^2, spring_constant in N/m, preload in N, speeds in
-m/s. lambda_over_L, chi, a_max_over_L and a_max_over_a2 are the variables of closed/similarity.py: a_2 is that of
-loading, at the work of closing; all others are at work_of_adhesion, that of opening.
+m/s. a_max_over_a2 is over the a_2 of loading, at the work of closing; all others are at work_of_adhesion, that of
+opening.
 """
 
 import math
@@ -13,25 +21,65 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.closed.similarity import amplitude_of_ratio, jump_in_radius_of_envelope, similarity_length
+from gradhesion.core.equations.effective import jump_in_radius
+from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
+from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import CLOSING, PARAMETERS
 
 _Array = NDArray[np.float64]
 
 
-def _ways() -> dict[str, dict[str, tuple[str, ...]]]:
-    """Return for each parameter the inputs that can give it and what else that needs, reduced ones first."""
-    found: dict[str, dict[str, tuple[str, ...]]] = {}
-    for name, one in sorted(INPUTS.items(), key=lambda item: item[0] in PHYSICAL):
-        if one.needs:
-            found.setdefault(one.instead_of or one.gives, {})[name] = one.needs
-    return found
+def similarity_length(k: ArrayLike, nu: ArrayLike, modulus: ArrayLike, c0_over_R: ArrayLike) -> _Array:
+    """Return L/R = (dgamma/(M R^(1+k)))^(1/(3+k)), the size of a contact that adhesion alone makes.
+
+    On a homogeneous half-space L^3 = R^2 dgamma/E*:
+
+    >>> float(similarity_length(0.0, 0.3, 1000.0, 0.01).round(12))
+    0.1
+    """
+    with np.errstate(all="ignore"):  # what overflows has no value
+        exponents = np.asarray(k, dtype=float)
+        return np.power(stiffness(exponents, nu, modulus, c0_over_R), -1.0 / (3.0 + exponents))
 
 
-def _of_chi(chi: Any, k: Any, nu: Any, modulus: Any, c0_over_R: Any, lambda_over_R: Any) -> Any:
-    """Return the amplitude over the wavelength that makes a roughness parameter."""
-    return amplitude_of_ratio(k, nu, modulus, c0_over_R, lambda_over_R, chi)
+def amplitude_of_ratio(
+    k: ArrayLike, nu: ArrayLike, modulus: ArrayLike, c0_over_R: ArrayLike, lambda_over_R: ArrayLike, chi: ArrayLike
+) -> _Array:
+    """Return the amplitude A over the wavelength at which the waviness is chi = r/s >= 0 times as strong as adhesion.
+
+    At 1 the jump-in of the envelopes ends, and the pull-off force of short waves grows as (1 + chi)^2. It is the
+    inverse of the report `roughness_parameter`:
+
+    >>> from gradhesion.core import solve
+    >>> scene = dict(k=0.5, nu=0.3, modulus=500.0, c0_over_R=0.01, lambda_over_R=0.1)
+    >>> scene |= {"A": amplitude_of_ratio(**scene, chi=0.25), "a_max_over_R": 1.0}
+    >>> float(solve(scene, ["roughness_parameter"])["roughness_parameter"].round(12))
+    0.25
+    """
+    with np.errstate(all="ignore"):
+        ratio = np.asarray(chi, dtype=float)
+        adhesion = adhesion_strength(k, stiffness(k, nu, modulus, c0_over_R))
+        amplitude = np.where(ratio >= 0.0, ratio, np.nan) * adhesion / waviness_strength(k, lambda_over_R, 1.0)
+    return np.where(np.isfinite(amplitude), amplitude, np.nan)
+
+
+def jump_in_radius_of_envelope(
+    k: ArrayLike, nu: ArrayLike, modulus: ArrayLike, c0_over_R: ArrayLike, lambda_over_R: ArrayLike, A: ArrayLike
+) -> _Array:
+    """Return a_2/R, the radius to which the contact jumps in on the loading envelope (5.34).
+
+    NaN also where r >= s: there the waves lift the loading envelope above zero depth everywhere. Where s and r are
+    close the error is that of their difference. The smooth punch of Johnson, Kendall & Roberts (1971) has
+    a^3 = 2 pi R^2 dgamma/E* at zero depth:
+
+    >>> radius = jump_in_radius_of_envelope(0.0, 0.3, 500.0, 0.01, 0.1, A=0.0)
+    >>> round(float(radius**3 * 500.0 / (2.0 * np.pi)), 12)
+    1.0
+    """
+    with np.errstate(all="ignore"):
+        adhesion = adhesion_strength(k, stiffness(k, nu, modulus, c0_over_R))
+        return jump_in_radius(k, adhesion, waviness_strength(k, lambda_over_R, A))
 
 
 def _over_length(ratio: Any, *material: Any) -> Any:
@@ -42,12 +90,15 @@ def _over_length(ratio: Any, *material: Any) -> Any:
 _FORMULAS: Final[dict[str, Callable[..., Any]]] = {
     **{name: one.follows for name, one in INPUTS.items() if one.follows},
     "lambda_over_L": _over_length,
-    "chi": _of_chi,
+    "chi": lambda chi, *scene: amplitude_of_ratio(*(*scene, chi)),
     "a_max_over_L": _over_length,
     "a_max_over_a2": lambda ratio, *scene: ratio * jump_in_radius_of_envelope(*scene),
 }
-WAYS: Final = _ways()
+WAYS: Final[dict[str, dict[str, tuple[str, ...]]]] = {}
 """Variables that can give a parameter, and what else that needs; in the order in which they follow from another."""
+for _name, _one in sorted(INPUTS.items(), key=lambda item: item[0] in PHYSICAL):  # reduced ones first
+    if _one.needs:
+        WAYS.setdefault(_one.instead_of or _one.gives, {})[_name] = _one.needs
 _IN_WAYS: Final = {name for ways in WAYS.values() for way, needed in ways.items() for name in (way, *needed)}
 """Inputs from which parameters follow: left out of the result, unless they are wanted themselves."""
 _OPTIONAL: Final = tuple(name for name, one in INPUTS.items() if one.is_parameter and one.group)
@@ -102,12 +153,8 @@ def sources_of(parameter: str, given: Mapping[str, Any]) -> tuple[str, ...]:
     way, needed = _way(parameter, given)
     if way == "a_max_over_a2" and {CLOSING, *WAYS[CLOSING]} & given.keys():
         needed = (*needed, CLOSING)
-    return tuple(dict.fromkeys(source for name in (way, *needed) for source in _given_for(name, given)))
-
-
-def _given_for(name: str, given: Mapping[str, Any]) -> tuple[str, ...]:
-    """Return what a name follows from: itself if nothing else gives it."""
-    return sources_of(name, given) if name in WAYS or name in PARAMETERS else (name,)
+    followed = (sources_of(name, given) if name in WAYS or name in PARAMETERS else (name,) for name in (way, *needed))
+    return tuple(dict.fromkeys(source for sources in followed for source in sources))
 
 
 def _way(parameter: str, given: Mapping[str, Any]) -> tuple[str, tuple[str, ...]]:

@@ -45,33 +45,26 @@ def _smooth_line(frame: Frame, pull: float, height: float = 0.0) -> Line:
     return Line(points)
 
 
-def _turns(frame: Frame, pulls: tuple[float, ...], end: float) -> Floats:
-    """Return the radii y, rising, in (0, end), where lines of these pulls have depth 0, least depth or least load."""
+def _corners(frame: Frame, pulls: tuple[float, ...], start: float, end: float) -> Floats:
+    """Return the radii y from start to end, rising, and between them those of depth 0, least depth and least load.
+
+    That is of the lines of these pulls: depth and load are monotone between the radii.
+    """
     m, k = frame.punch.exponent, frame.k
     levels = 1.0, 0.5 * (1.0 - k) / m, 0.5 * (3.0 + k) / m
-    places = np.unique([frame.place(level, pull) for pull in pulls for level in levels])
-    return places[(places > 0.0) & (places < end)]
-
-
-def _sampled(drawn: Drawn, line: Line, places: Floats) -> Floats:
-    """Return points of a line from no contact, y = 0, to the end of what is drawn, rows as of `Line`, (3, points).
-
-    `places` (n,) are the radii y of its corners, rising, in (0, drawn.end): depth and load are monotone between them.
-    """
-    corners = line.points(np.concatenate([[0.0], places, [drawn.end]]))
-    return sample(line, corners, np.arange(corners.shape[1]) > 0, spans_of(corners))[0]
+    places = [frame.place(level, pull) for pull in pulls for level in levels]
+    return np.unique(np.clip([start, *places, end], start, end))
 
 
 def _through(drawn: Drawn, line: Line, places: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return a/R, depth/R and load/(1.5 pi R w_o) of the points of `_sampled`, (points,) each."""
-    y, depth, load = _sampled(drawn, line, places)
+    """Return a/R, depth/R and load/(1.5 pi R w_o) of points of a line through places y, (points,) each."""
+    y, depth, load = sample(line, line.points(places))[0]
     return drawn.frame.radii(y, drawn.end), depth, load
 
 
 def draw_smooth(drawn: Drawn) -> tuple[Floats, ...]:
     """Return the curve of the same power without waves, at the work of opening."""
-    places = _turns(drawn.frame, (1.0,), drawn.end)
-    return _through(drawn, _smooth_line(drawn.frame, 1.0), places)
+    return _through(drawn, _smooth_line(drawn.frame, 1.0), _corners(drawn.frame, (1.0,), 0.0, drawn.end))
 
 
 def draw_asymptotic(drawn: Drawn) -> tuple[Floats, ...] | None:
@@ -95,7 +88,7 @@ def draw_asymptotic(drawn: Drawn) -> tuple[Floats, ...] | None:
             break
         need = min(3.0 * need, end)
     line = line_of(by_depth, made[1], frame.units, *waves_of(frame))
-    return _through(drawn, line, np.union1d(folds, extrema))
+    return _through(drawn, line, np.unique(np.concatenate([[0.0, end], folds, extrema])))
 
 
 def _envelopes(frame: Frame) -> tuple[float, float, float]:
@@ -115,40 +108,9 @@ def draw_envelope(drawn: Drawn) -> tuple[Floats, ...]:
     rise, fall, height = _envelopes(frame)
     rise += frame.root - 1.0
     lines = [_smooth_line(frame, pull, height) for pull in (rise, fall)]
-    corners = _turns(frame, (rise, fall), drawn.end)
-    y = np.unique(np.concatenate([_sampled(drawn, line, corners)[0] for line in lines]))
+    corners = _corners(frame, (rise, fall), 0.0, drawn.end)
+    y = np.unique(np.concatenate([sample(line, line.points(corners))[0][0] for line in lines]))
     return frame.radii(y, drawn.end), *(row for line in lines for row in line.points(y)[1:])
-
-
-def _turn_of_path(drawn: Drawn, rise: float, fall: float) -> float:
-    """Return the radius y at which the effective path turns; `rise` and `fall` are the pulls of `_envelopes`.
-
-    It is that of the cycle. For an unbounded punch that does not turn it is REACH times the a_2 of the work of
-    opening, or the radius of the pull-off from the unloading envelope if that is larger.
-    """
-    frame = drawn.frame
-    if frame.rim != np.inf or drawn.turned:
-        return drawn.turn
-    pull_off = frame.place(0.5 * (3.0 + frame.k) / frame.punch.exponent, fall)
-    return max(REACH * frame.place(1.0, rise), pull_off)
-
-
-def _loading_corners(frame: Frame, up: Line, down: Line, rise: float, turn: float, raised: float) -> Floats:
-    """Return the corners of loading, from where the jump-in lands to the turn, rows as of `Line`, (3, n).
-
-    `up` and `down` are the envelopes, `rise` is the pull of `up`, `raised` the depth/R of the mean surface.
-    """
-    landing = frame.place(1.0, rise)
-    if landing < turn:
-        places = _turns(frame, (rise,), turn)
-        corners = up.points(np.concatenate([[landing], places[places > landing], [turn]]))
-        if landing > 0.0:
-            corners[1, 0] = raised  # already so to rounding
-        return corners
-    # the jump-in reaches the rim: one point, on the line of the flat punch through the unloading envelope there
-    _, depth, load = down.points(np.array([turn]))[:, 0]
-    flat = turn ** (1.0 + frame.k) * frame.units[2] / frame.units[1]
-    return np.array([[turn], [raised], [load + flat * (raised - depth)]])
 
 
 def draw_effective(drawn: Drawn) -> tuple[NDArray[Any], ...]:
@@ -156,28 +118,36 @@ def draw_effective(drawn: Drawn) -> tuple[NDArray[Any], ...]:
 
     All are (points,), in the order of the path: without contact from depth 0 to the mean surface; jump-in to a_2 of
     the work of closing (5.34); the loading envelope up to the turn; the straight line (5.32) to the unloading
-    envelope; down that to its fold; jump-out. For chi_+ >= 1 contact grows from a point, without a jump. If the rim
-    is within a_2, the jump-in ends there, on the line (5.32). At k = 1 contact shrinks to a point, without a jump.
+    envelope; down that to its fold; jump-out. An unbounded punch that does not turn has the turn at REACH times the a_2
+    of the work of opening, or at the radius of the pull-off if that is larger. For chi_+ >= 1 contact grows from a
+    point, without a jump. If the rim is within a_2, the jump-in ends there, on the line (5.32). At k = 1 contact
+    shrinks to a point, without a jump.
     The area of the loop is the energy of solver = "envelope" with the rim at the turn, but for the chords drawn.
     """
-    frame, m, k = drawn.frame, drawn.frame.punch.exponent, drawn.frame.k
+    frame, turn = drawn.frame, drawn.turn
+    m, k = frame.punch.exponent, frame.k
     rise, fall, height = _envelopes(frame)
-    turn = _turn_of_path(drawn, rise, fall)
+    if frame.rim == np.inf and not drawn.turned:  # beyond a_2 of the work of opening and the pull-off
+        turn = max(REACH * frame.place(1.0, rise), frame.place(0.5 * (3.0 + k) / m, fall))
     rise += frame.root - 1.0  # from here on loading is at the work of closing
     up, down = (_smooth_line(frame, pull, height) for pull in (rise, fall))
     landing, left = frame.place(1.0, rise), min(turn, frame.place(0.5 * (1.0 - k) / m, fall))
     raised = height * frame.units[1]
 
-    loading = _loading_corners(frame, up, down, rise, turn, raised)
-    places = _turns(frame, (fall,), turn)[::-1]
-    unloading = down.points(np.concatenate([[turn], places[places > left], [left] if left < turn else []]))
+    unloading = down.points(_corners(frame, (fall,), left, turn)[::-1])
+    if landing < turn:
+        loading = up.points(_corners(frame, (rise,), landing, turn))
+        if landing > 0.0:
+            loading[1, 0] = raised  # already so to rounding
+    else:  # the jump-in reaches the rim: one point, on the line of the flat punch through the unloading envelope there
+        _, depth, load = unloading[:, 0]
+        flat = turn ** (1.0 + k) * frame.units[2] / frame.units[1]
+        loading = np.array([[turn], [raised], [load + flat * (raised - depth)]])
     # without contact: depth 0, then the mean surface if contact jumps in there; at the end the depth of the jump-out
     before = np.array([[0.0, 0.0], [0.0, raised], [0.0, 0.0]])[:, : 2 if landing > 0.0 and height > 0.0 else 1]
     out = np.array([[0.0], [unloading[1, -1]], [0.0]])[:, : 1 if left > 0.0 else 0]
     scales = spans_of(np.concatenate([before, loading, unloading, out], axis=1))
-    smooth = [
-        sample(line, own, np.arange(own.shape[1]) > 0, scales)[0] for line, own in ((up, loading), (down, unloading))
-    ]
+    smooth = [sample(line, own, scales)[0] for line, own in ((up, loading), (down, unloading))]
     y, depth, load = np.concatenate([before, *smooth, out], axis=1)
     jump = np.zeros(y.size)
     jump[before.shape[1]], jump[-1] = landing > 0.0, left > 0.0

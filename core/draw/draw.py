@@ -35,17 +35,9 @@ if TYPE_CHECKING:
 _TYPES: Final = {name: np.dtype(VARIABLES[name].dtype) for names in CURVES.values() for name in names}
 INTEGERS: Final = frozenset(name for name, dtype in _TYPES.items() if dtype.kind == "i")
 """The variables that are integers; the others are float64."""
-_OF_A_CYCLE: Final = ("path", "jumps", "effective")  # the curves that turn where the cycle does
 _Curves = dict[str, NDArray[Any]]
-
-
-def _blank(curve: str, value: float) -> _Curves:
-    """Return a curve of one point, or of no jump, whose variables have a value (NaN: integers are -1)."""
-    size = 0 if curve == "jumps" else 1
-    blank = {name: -1 if math.isnan(value) and name in INTEGERS else value for name in CURVES[curve]}
-    return {name: np.full(size, one, _TYPES[name]) for name, one in blank.items()}
-
-
+_OF_A_CYCLE: Final = ("path", "jumps", "effective")  # the curves that turn where the cycle does
+_OF_SIDES: Final = ("equilibrium", "closing_equilibrium", "path", "jumps")  # those that need a curve that is resolved
 _DRAWERS: Final[dict[str, Callable[[Drawn], tuple[NDArray[Any], ...] | None]]] = {
     "equilibrium": draw_equilibrium,
     "closing_equilibrium": partial(draw_equilibrium, closing=True),
@@ -58,15 +50,19 @@ _DRAWERS: Final[dict[str, Callable[[Drawn], tuple[NDArray[Any], ...] | None]]] =
 }
 
 
-def _draw(drawn: Drawn, curve: str) -> _Curves | None:
-    """Return the variables of a curve by name, as those of `draw_curves`; None where it has no value."""
-    of_sides = curve in ("equilibrium", "closing_equilibrium", "path", "jumps")
-    if (curve in _OF_A_CYCLE and math.isnan(drawn.turn)) or (of_sides and not drawn.sides):
+def _of_one_point(curve: str, value: float) -> list[NDArray[Any]]:
+    """Return the variables of a curve of one point, or of no jump, that have a value (NaN: integers are -1)."""
+    size = 0 if curve == "jumps" else 1
+    return [np.full(size, -1 if math.isnan(value) and name in INTEGERS else value) for name in CURVES[curve]]
+
+
+def _draw(drawn: Drawn, curve: str) -> tuple[NDArray[Any], ...] | None:
+    """Return the variables of a curve, None where it has no value."""
+    if (curve in _OF_A_CYCLE and math.isnan(drawn.turn)) or (curve in _OF_SIDES and not drawn.sides):
         return None
-    found = _DRAWERS[curve](drawn)
-    if found is None or not all(np.isfinite(values).all() for values in found):
-        return None
-    return {name: values.astype(_TYPES[name]) for name, values in zip(CURVES[curve], found, strict=True)}
+    with np.errstate(all="ignore"):
+        found = _DRAWERS[curve](drawn)
+    return found if found is not None and all(np.isfinite(values).all() for values in found) else None
 
 
 def _check(
@@ -188,15 +184,15 @@ def draw_curves(
     result: _Curves = {}
     failed = drawn_cycle = False
     for curve in curves:
-        variables = None
+        found: Sequence[NDArray[Any]] | None = None
         if radius == 0.0 and curve in _OF_A_CYCLE:  # the cycle turns before it makes contact
-            variables = _blank(curve, 0.0)
+            found = _of_one_point(curve, 0.0)
             if curve == "path":
-                variables["path_indentation"][:] = scene["indentation_max_over_R"]
+                found[1][:] = scene["indentation_max_over_R"]
         elif drawn is not None:
-            with np.errstate(all="ignore"):
-                variables = _draw(drawn, curve)
-        failed |= variables is None
-        drawn_cycle |= variables is not None and curve in ("path", "jumps")
-        result |= _blank(curve, math.nan) if variables is None else variables
+            found = _draw(drawn, curve)
+        failed |= found is None
+        drawn_cycle |= found is not None and curve in ("path", "jumps")
+        found = _of_one_point(curve, math.nan) if found is None else found
+        result |= {name: one.astype(_TYPES[name]) for name, one in zip(CURVES[curve], found, strict=True)}
     return result, (status & ~FAILED if drawn_cycle else 0) | (NO_VALUE if failed else 0)

@@ -2,11 +2,10 @@
 
 The corners of a path come first: where it starts, where it jumps to, where depth or load turns, where a branch ends.
 Flags mark how they are reached: along the curve or by a straight line, by a jump or not, on which branch, loading or
-unloading. The curve between them is sampled (sampling.py). Jumps keep what is prescribed. Under load control the punch
-falls without end once contact is lost: the path ends there, with radius 0 at the depth and the load of the last fold.
+unloading. The curve between them is sampled (sampling.py). Jumps keep what is prescribed.
 """
 
-from typing import Any, Final, NamedTuple, TypeAlias
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,41 +39,16 @@ def draw_equilibrium(drawn: Drawn, *, closing: bool = False) -> tuple[NDArray[An
     where one of them is: each branch has a point in its inside.
     """
     side, end = drawn.sides[0 if closing else 1], drawn.end
-    edges = np.concatenate([[0.0], ends_of(side.trace, side.branches, end), [end]])
+    edges = np.concatenate([[0.0], ends_of(side.trace, end), [end]])
     extrema = side.extrema[side.extrema < end]
     lonely = np.searchsorted(extrema, edges[1:]) == np.searchsorted(extrema, edges[:-1])
     middles = 0.5 * (edges[1:] + edges[:-1])[lonely]
-    places = np.unique(np.concatenate([edges, extrema, middles]))
-    corners = side.line.points(places)
-    points, _ = sample(side.line, corners, np.arange(places.size) > 0, spans_of(corners))
-    y, starts, ends = points[0], side.trace[START, : side.branches], side.trace[END, : side.branches]
+    y, depth, load = sample(side.line, side.line.points(np.unique(np.concatenate([edges, extrema, middles]))))[0]
+    starts, ends = side.trace[[START, END]]
     branch = np.searchsorted(starts, y, "left") - 1  # the last one that starts below
     stable = (branch >= 0) & (y < np.append(ends, 0.0)[branch])
     stable |= (y == 0.0) & (starts[:1] == 0.0).any()
-    return drawn.frame.radii(y, end), points[1], points[2], stable
-
-
-class Corners(NamedTuple):
-    """The corners of a path, columns of the rows above, and the jumps of its cycle.
-
-    up      those of loading
-    down    those of unloading, from equilibrium at the turn on
-    pinned  whether loading ends elsewhere than there: the contact is pinned on the way between
-    jumps   (JUMP_ROWS, jumps), in the order of the corners that are reached by a jump
-    loading  the number of those of loading
-    """
-
-    up: Floats
-    down: Floats
-    pinned: bool
-    jumps: Floats
-    loading: int
-
-
-def _level_of(frame: Frame, corner: _Corner) -> float:
-    """Return what is prescribed at a corner, in its unit for opening."""
-    by_depth, by_load = frame.reduced[[at.BY_DEPTH, at.BY_LOAD], 0] / frame.units[1:]
-    return float(by_depth * corner[DEPTH] + by_load * corner[LOAD])
+    return drawn.frame.radii(y, end), depth, load, stable
 
 
 def _put_along(side: Side, corners: list[_Corner], y: float, branch: float) -> None:
@@ -93,23 +67,28 @@ def _put_jump(frame: Frame, side: Side, corners: list[_Corner], y: float, branch
     Contact there is a flat punch, pushed off equilibrium until it has what is prescribed: by nothing on a branch. A
     dead load that lets go keeps its depth.
     """
-    before = corners[-1]
-    by_depth, by_load = frame.reduced[[at.BY_DEPTH, at.BY_LOAD], 0]
+    _, before_depth, before_load, *_ = corners[-1]
+    by_depth, by_load = frame.reduced[[at.BY_DEPTH, at.BY_LOAD], 0] / frame.units[1:]
     y, depth, load = side.line.points(np.array([y]))[:, 0].tolist()
     stiffness = y ** (1.0 + frame.k) * frame.units[2] / frame.units[1]
-    softness = _level_of(frame, (y, 1.0, stiffness))
-    push = (_level_of(frame, before) - _level_of(frame, (y, depth, load))) / softness if softness > 0.0 else 0.0
-    depth = before[DEPTH] if by_load == 0.0 or softness == 0.0 else depth + push
-    load = before[LOAD] if by_depth == 0.0 else load + stiffness * push
+    softness = by_depth + by_load * stiffness
+    push = (by_depth * (before_depth - depth) + by_load * (before_load - load)) / softness if softness > 0.0 else 0.0
+    depth = before_depth if by_load == 0.0 or softness == 0.0 else depth + push
+    load = before_load if by_depth == 0.0 else load + stiffness * push
     corners.append((y, depth, load, 0.0, branch, 1.0))
 
 
-def find_corners(drawn: Drawn) -> Corners:
-    """Return the corners of the path of a cycle."""
+def _corners_of(drawn: Drawn) -> tuple[Floats, Floats, int, Floats, int]:
+    """Return the corners of a path, columns of the rows above, and the jumps of its cycle.
+
+    These are the corners of loading; those of unloading, from equilibrium at the turn on; the first of them that is not
+    the last of loading: 0 if the contact is pinned on the way between, else 1; the jumps (JUMP_ROWS, jumps), in the
+    order of the corners that are reached by one; the number of those of loading.
+    """
     frame, turn, (closing, opening) = drawn.frame, drawn.turn, drawn.sides
-    jumps = np.empty((JUMP_ROWS, 2 * (closing.trace.shape[1] + opening.trace.shape[1])))
+    jumps = np.empty((JUMP_ROWS, closing.trace.shape[1] + opening.trace.shape[1] + 2))
     loading = list_loading_jumps(closing.curve, turn, closing.trace, closing.visited, closing.visited.size, jumps)
-    total = list_unloading_jumps(opening.curve, turn, opening.trace, opening.branches, jumps, loading)
+    total = list_unloading_jumps(opening.curve, turn, opening.trace, opening.trace.shape[1], jumps, loading)
     frozen_loss(closing.curve, jumps, 0, loading)
     frozen_loss(opening.curve, jumps, loading, total)
     ways = jumps[[LEFT, LANDED, LANDED_BRANCH], :total].T.tolist()
@@ -120,12 +99,12 @@ def find_corners(drawn: Drawn) -> Corners:
             _put_along(closing, up, left, branch)
         branch = to + 1.0
         if to < 0.0:  # flat against the rim: on none of the branches within it
-            branch, pinned = 1.0 + np.count_nonzero(closing.trace[START, : closing.branches] <= turn), True
+            branch, pinned = 1.0 + np.count_nonzero(closing.trace[START] <= turn), True
         _put_jump(frame, closing, up, landed, branch)
     _put_along(closing, up, turn, branch)
 
     down: list[_Corner] = [(*opening.line.points(np.array([turn]))[:, 0].tolist(), 0.0, branch, 0.0)]
-    branch = float(np.searchsorted(opening.trace[START, : opening.branches], turn, "right"))
+    branch = float(np.searchsorted(opening.trace[START], turn, "right"))
     for left, landed, to in ways[loading:]:
         if left != turn:
             _put_along(opening, down, left, branch)
@@ -135,7 +114,7 @@ def find_corners(drawn: Drawn) -> Corners:
         _put_along(opening, down, 0.0, branch)
     if drawn.grows:
         up[1] = (*up[1][:JUMP], 0.0)
-    return Corners(np.array(up).T, np.array(down).T, pinned, jumps[:, :total], loading)
+    return np.array(up).T, np.array(down).T, 0 if pinned else 1, jumps[:, :total], loading
 
 
 def draw_path(drawn: Drawn) -> tuple[NDArray[Any], ...]:
@@ -145,14 +124,13 @@ def draw_path(drawn: Drawn) -> tuple[NDArray[Any], ...]:
     equilibrium of opening at the turn is not as deep as loading comes there. The path of an unbounded punch turns at
     the end of the drawn range. The sum of P d(delta) over its lines is the energy of a cycle but for the chords.
     """
-    corners = find_corners(drawn)
-    scales = spans_of(np.concatenate([corners.up[:3], corners.down[:3]], axis=1))
+    up, down, first, _, _ = _corners_of(drawn)
+    scales = spans_of(np.concatenate([up[:3], down[:3]], axis=1))
     rows = []
-    for unloading, (own, side) in enumerate(zip((corners.up, corners.down), drawn.sides, strict=True)):
-        points, owner = sample(side.line, np.ascontiguousarray(own[:3]), own[JOINED] > 0.0, scales)
-        found = np.array([*points, own[BRANCH, owner], own[JUMP, owner], np.full(owner.size, unloading)])
-        rows.append(found if corners.pinned or not unloading else found[:, 1:])
-    y, *others = np.concatenate(rows, axis=1)
+    for unloading, (own, side) in enumerate(zip((up, down), drawn.sides, strict=True)):
+        points, owner = sample(side.line, np.ascontiguousarray(own[:3]), scales, own[JOINED] > 0.0)
+        rows.append([*points, own[BRANCH, owner], own[JUMP, owner], np.full(owner.size, unloading)])
+    y, *others = (np.concatenate([of_up, of_down[first:]]) for of_up, of_down in zip(*rows, strict=True))
     return drawn.frame.radii(y, drawn.turn), *others
 
 
@@ -163,10 +141,9 @@ def draw_jumps(drawn: Drawn) -> tuple[NDArray[Any], ...]:
     is no single disc then. The jump-out under load control has no bounded energy and is left out, as in
     `dissipated_energy`.
     """
-    frame, corners = drawn.frame, find_corners(drawn)
-    all_corners = np.concatenate([corners.up, corners.down[:, 0 if corners.pinned else 1 :]], axis=1)
-    after = np.flatnonzero(all_corners[JUMP])
-    jumps, unloading = corners.jumps, np.arange(corners.jumps.shape[1]) >= corners.loading
+    frame, (up, down, first, jumps, loading) = drawn.frame, _corners_of(drawn)
+    corners = np.concatenate([up, down[:, first:]], axis=1)
+    after, unloading = np.flatnonzero(corners[JUMP]), np.arange(jumps.shape[1]) >= loading
     if drawn.grows:
         jumps, unloading = jumps[:, 1:], unloading[1:]
     kept = (jumps[LANDED] > 0.0) | (frame.reduced[at.BY_DEPTH, 0] > 0.0)
@@ -174,12 +151,12 @@ def draw_jumps(drawn: Drawn) -> tuple[NDArray[Any], ...]:
     before, rim = after - 1, drawn.turn if drawn.turn == frame.rim else np.nan
     work = 2.0 * np.pi * frame.units[0] ** 2 * np.where(unloading, 1.0, frame.root**2)
     return (
-        all_corners[DEPTH, before],
+        corners[DEPTH, before],
         frame.radii(jumps[LEFT], drawn.turn),
         frame.radii(jumps[LANDED], drawn.turn),
         work * jumps[LOSS],
-        all_corners[LOAD, before],
-        all_corners[LOAD, after],
+        corners[LOAD, before],
+        corners[LOAD, after],
         unloading,
         (jumps[LEFT] == rim) | (jumps[LANDED] == rim),
     )

@@ -87,14 +87,17 @@ def _across(step: Floats, chord: Floats) -> Truths:
     return far
 
 
-def sample(line: Line, corners: Floats, joined: Truths, scales: Floats) -> tuple[Floats, Integers]:
+def sample(
+    line: Line, corners: Floats, scales: Floats | None = None, joined: Truths | None = None
+) -> tuple[Floats, Integers]:
     """Return points of a line through corners, and the corner that each leads up to.
 
-    `corners` are points in the order of the path, which may go in- or outwards, (3, n); `joined` says whether the path
-    comes to each along the curve (else by a straight line), (n,); `scales` are those of `spans_of`, of all that is
-    drawn.
+    `corners` are points in the order of the path, which may go in- or outwards, (3, n); `scales` are those of
+    `spans_of`, of all that is drawn if that is more; `joined` says whether the path comes to each along the curve (else
+    by a straight line), (n,): to all but the first if not given.
     """
-    ends = np.flatnonzero(joined)
+    scales = spans_of(corners) if scales is None else scales
+    ends = np.arange(1, corners.shape[1]) if joined is None else np.flatnonzero(joined)
     first, last = corners[:, ends - 1], corners[:, ends]  # of each piece
     start, width = ends.astype(np.float64) - 1.0, np.ones(ends.size)  # its place: corners have their numbers
     places, points = [np.arange(corners.shape[1], dtype=np.float64)], [corners]

@@ -92,7 +92,7 @@ class Side(NamedTuple):
 
     line      as it is drawn
     curve     in its own units
-    trace     its branches, ends to rounding; `branches` of them
+    trace     its branches, ends to rounding
     extrema   radii at which depth or load is extremal without an end of a branch, in order
     visited   columns of the branches that loading visits
     """
@@ -100,7 +100,6 @@ class Side(NamedTuple):
     line: Line
     curve: Curve
     trace: Floats
-    branches: int
     extrema: Floats
     visited: Integers
 
@@ -134,7 +133,7 @@ def frame_of(request: Request) -> Frame | None:
 
 
 @kernel
-def trace_curve(curve: Curve, y_end: float, trace: Floats) -> int:
+def _trace(curve: Curve, y_end: float, trace: Floats) -> int:
     """Fill the trace of a curve, the ends of its branches to rounding; return as `find_folds`."""
     count = find_folds(curve, y_end, trace)
     for j in range(count):
@@ -143,17 +142,23 @@ def trace_curve(curve: Curve, y_end: float, trace: Floats) -> int:
     return count
 
 
-def ends_of(trace: Floats, branches: int, end: float) -> Floats:
+def _trace_of(curve: Curve, y_end: float) -> Floats | None:
+    """Return the trace of a curve, a column for each branch; None if its table is too short."""
+    trace = room_for(curve.table.bins)
+    count = _trace(curve, y_end, trace)
+    return None if count < 0 else np.ascontiguousarray(trace[:, :count])
+
+
+def ends_of(trace: Floats, end: float) -> Floats:
     """Return where branches of a trace start or end, in order, between 0 and `end` (excluded)."""
-    ends = np.sort(trace[[START, END], :branches].ravel())
+    ends = np.sort(trace[[START, END]].ravel())
     return ends[(ends > 0.0) & (ends < end)]
 
 
 def extrema_of(curve: Curve, y_end: float) -> Floats | None:
     """Return the radii at which what a curve prescribes is extremal, in order; None if its table is too short."""
-    trace = room_for(curve.table.bins)
-    count = trace_curve(curve, y_end, trace)
-    return None if count < 0 else ends_of(trace, count, min(y_end, span_of(curve.table)))
+    trace = _trace_of(curve, y_end)
+    return None if trace is None else ends_of(trace, min(y_end, span_of(curve.table)))
 
 
 def waves_of(frame: Frame) -> tuple[float, float]:
@@ -185,32 +190,27 @@ def _side(frame: Frame, root: float, made: tuple[Table, Source, float], y_end: f
         end, room = min(y_end, span_of(table)), room_of(table.bins, LANES + 1)
         table, g = patterned_table(table, crest, g, pattern, end, *room), 1.0
     curve = Curve(table, B, g, by_depth, by_load)
-    trace, visited = room_for(table.bins), np.empty(table.bins + 8, dtype=np.int64)
-    count = trace_curve(curve, y_end, trace)
-    if count < 0:
+    weights = [(1.0, 0.0)] * (by_load != 0.0) + [(0.0, 1.0)] * (by_depth != 0.0)
+    extrema = [found for by in weights if (found := extrema_of(Curve(table, B, g, *by), y_end)) is not None]
+    trace, visited = _trace_of(curve, y_end), np.empty(table.bins + 8, dtype=np.int64)
+    if trace is None or len(extrema) < len(weights):
         return None
-    others = [(1.0, 0.0)] * (by_load != 0.0) + [(0.0, 1.0)] * (by_depth != 0.0)
-    extrema = [extrema_of(Curve(table, B, g, *weights), y_end) for weights in others]
-    known = [found for found in extrema if found is not None]
-    if len(known) < len(extrema):
+    count = trace.shape[1]
+    visited = visited[: walk_loading(curve, trace, count, visited)]
+    if count > 0 and trace[END, -1] == math.inf and count - 1 not in visited and span_of(table) < y_end:
         return None
-    visits = walk_loading(curve, trace, count, visited)
-    missed = count > 0 and trace[END, count - 1] == math.inf and count - 1 not in visited[:visits]
-    if missed and span_of(table) < y_end:
-        return None
-    units = frame.units * np.array([1.0, root, root])
-    line = line_of(curve, source, units, *waves_of(frame))
-    return Side(line, curve, trace, count, np.sort(np.concatenate(known)), visited[:visits])
+    line = line_of(curve, source, frame.units * np.array([1.0, root, root]), *waves_of(frame))
+    return Side(line, curve, trace, np.sort(np.concatenate(extrema)), visited)
 
 
-def _end_of(frame: Frame, sides: tuple[Side, ...]) -> float:
-    """Return how far an unbounded punch is drawn; without sides, as far as the pull-off of its envelope."""
-    m = frame.punch.exponent
+def _end_of(frame: Frame, y_end: float, sides: tuple[Side, ...]) -> float:
+    """Return how far a punch is drawn: an unbounded one, without sides, as far as the pull-off of its envelope."""
+    if y_end < math.inf:
+        return y_end
     pull = 1.0 + waves_of(frame)[1] if not sides else 0.0
-    last = [frame.place(0.5 * (3.0 + frame.k) / m, pull)]
+    last = [frame.place(0.5 * (3.0 + frame.k) / frame.punch.exponent, pull)]
     for side in sides:
-        trace = side.trace[:, : side.branches]
-        last += [trace[START, -1], trace[LANDING, side.visited[-1]], *side.extrema[-1:]]
+        last += [side.trace[START, -1], side.trace[LANDING, side.visited[-1]], *side.extrema[-1:]]
     return max(_BEYOND_SMOOTH * frame.place(1.0, 1.0), BEYOND * max(last))
 
 
@@ -220,27 +220,26 @@ def draw_scene(frame: Frame, turn: float | None, pulled: float) -> Drawn:
     `turn` is a/R where its cycle turns, None if that is the rim; 0 without contact, NaN if it is not known. `pulled` is
     a/R of the pull-off, if an unbounded punch turns.
     """
-    length, y_end, sides, complete = frame.units[0], frame.rim, tuple[Side, ...](), False
-    turned = frame.rim if turn is None else turn / length
+    length, y_end, sides = frame.units[0], frame.rim, tuple[Side, ...]()
+    turned = y_end if turn is None else turn / length
     if y_end == math.inf and turn is not None:
         y_end = BEYOND * float(np.fmax(turned, pulled / length))
-    end, need = y_end, min(max(frame.reduced[at.WINDOW, 0], frame.reduced[at.PULL, 0]), y_end)
+    need = min(max(frame.reduced[at.WINDOW, 0], frame.reduced[at.PULL, 0]), y_end)
     if frame.is_patterned and y_end < math.inf:
         need = y_end
-    while not complete and (made := table_for(frame, EXACT, need)) is not None:
-        roots = (frame.root, 1.0) if frame.root != 1.0 else (1.0,)
+    roots = (frame.root, 1.0) if frame.root != 1.0 else (1.0,)
+    while (made := table_for(frame, EXACT, need)) is not None:
         found = [side for root in roots if (side := _side(frame, root, made, y_end)) is not None]
-        if len(found) == len(roots):
-            sides = found[0], found[-1]
-            end = y_end if y_end < math.inf else _end_of(frame, sides)
-            complete = not (frame.is_patterned and end > span_of(sides[1].curve.table))
+        sides = (found[0], found[-1]) if len(found) == len(roots) else ()
+        if sides and not (frame.is_patterned and _end_of(frame, y_end, sides) > span_of(sides[1].curve.table)):
+            break
         need = min(3.0 * need, y_end)
-    if not complete:
-        end = y_end if y_end < math.inf else _end_of(frame, ())
-        return Drawn(frame, end, turned if turned < math.inf else end, turn is not None, ())
+    else:
+        sides = ()
+    end = _end_of(frame, y_end, sides)
     turned = end if turned == math.inf else turned
-    landings = sides[0].trace[LANDING, sides[0].visited]
-    near = landings[np.abs(landings - turned) <= _SAME * turned]
-    if turned < frame.rim and near.size:
-        turned = float(near[0])
+    if sides and turned < frame.rim:
+        landings = sides[0].trace[LANDING, sides[0].visited]
+        near = landings[np.abs(landings - turned) <= _SAME * turned]
+        turned = float(near[0]) if near.size else turned
     return Drawn(frame, end, turned, turn is not None, sides)

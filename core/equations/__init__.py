@@ -20,16 +20,13 @@ import sys
 from gradhesion.core.equations import effective, envelopes, general, hertz, jkr, quadrature, short_waves
 from gradhesion.core.equations._arguments import describe
 
-for _file in (effective, envelopes, general, hertz, jkr, quadrature, short_waves):
-    describe(_file)
-
 # Names of smaller modules that scripts use, also as `import gradhesion.core.equations.gap`.
 any_profile = gap = pressure = quadrature
 early_unloading = energy = effective
 fourier = profile = stress_intensity = general
 pair = hertz
 saturation = short_waves
-for _file in (effective, general, hertz, quadrature, short_waves):
-    sys.modules |= {
-        f"{__name__}.{name}": module for name, module in globals().items() if module is _file and name != "_file"
-    }
+for _file in (effective, envelopes, general, hertz, jkr, quadrature, short_waves):
+    describe(_file)
+    _names = [name for name, module in globals().items() if module is _file and name != "_file"]
+    sys.modules |= {f"{__name__}.{name}": _file for name in _names}

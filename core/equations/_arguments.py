@@ -3,6 +3,7 @@
 import inspect
 import math
 from collections.abc import Sequence
+from functools import partial
 from types import ModuleType
 from typing import Final, TypeAlias
 
@@ -66,21 +67,11 @@ def _within(values: Real, low: float, high: float = math.inf) -> Array:
     return np.where((array >= low) & (array <= high), array, np.nan)
 
 
-def exponent_of(k: Real) -> Array:
-    """Return k as an array, NaN outside [0, 1]."""
-    return _within(k, 0.0, 1.0)
-
-
-def power_of(exponent: Real) -> Array:
-    """Return the power m of a smooth profile as an array, NaN below 1."""
-    return _within(exponent, 1.0)
-
-
-def not_negative(values: Real) -> Array:
-    """Return an array, NaN where it is not 0 or more."""
-    return _within(values, 0.0)
-
-
-def positive(values: Real) -> Array:
-    """Return an array, NaN where it is not above 0."""
-    return _within(values, math.ulp(0.0))
+exponent_of: Final = partial(_within, low=0.0, high=1.0)
+"""Return k as an array, NaN outside [0, 1]."""
+power_of: Final = partial(_within, low=1.0)
+"""Return the power m of a smooth profile as an array, NaN below 1."""
+not_negative: Final = partial(_within, low=0.0)
+"""Return an array, NaN where it is not 0 or more."""
+positive: Final = partial(_within, low=math.ulp(0.0))
+"""Return an array, NaN where it is not above 0."""

@@ -192,20 +192,10 @@ def parameters_in(group: str) -> tuple[str, ...]:
 
 
 def setting(about: str, example: str, *, default: Any = MISSING, choices: Sequence[str] = (), **bounds: float) -> Any:
-    """Declare a field.
+    """Declare a field: what it is and a value that would do, as TOML has it, for schema and manual.
 
-    Parameters
-    ----------
-    about
-        What it is, for schema and manual.
-    example
-        A value that would do, as TOML has it.
-    default
-        What it is where it is left out.
-    choices
-        The words that it may be.
-    **bounds
-        Of a number, by the names of the comparisons of `operator`: gt, ge, le.
+    It may be left out if it has a default. Words are one of its choices; numbers have bounds by the names of the
+    comparisons of `operator`: gt, ge, le.
     """
     return field(
         default=default, metadata={"about": about, "example": example, "choices": tuple(choices), "bounds": bounds}

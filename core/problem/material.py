@@ -44,19 +44,9 @@ def _fill_thetas(k: Floats, nu: Floats, out: Floats) -> None:
 def theta(k: ArrayLike, nu: ArrayLike) -> NDArray[np.float64]:
     """Return theta(k, nu), the stiffness of the graded half-space relative to E*/c0^k (3.3).
 
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    nu
-        Poisson's ratio, -1 < nu <= 0.5; 0.5 where k = 1.
+    `k` is the gradient exponent, 0 to 1, and `nu` Poisson's ratio, -1 < nu <= 0.5; 0.5 where k = 1. An array of the
+    broadcast shape; NaN outside the ranges. Accurate to a few units in the last place.
 
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges. Accurate to a few units in the last place.
-
-    Examples
-    --------
     >>> theta([0.0, 1.0], [0.3, 0.5]).round(12).tolist()
     [1.0, 3.14159265359]
     """

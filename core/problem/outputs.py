@@ -185,14 +185,22 @@ class Curve:
         object.__setattr__(self, "names", tuple(one.name for one in self.variables))
 
 
-def _of_equilibrium(name: str, ends: tuple[str, str, str, str], radius: str = "a/R", of: str = "") -> Curve:
+def _states(name: str, where: str) -> tuple[Variable, ...]:
+    """Declare radius, depth and load of a curve; `where` ends the words for them."""
+    return (
+        Variable(f"{name}_contact_radius", f"contact radius a/R {where}", "m"),
+        Variable(f"{name}_indentation", f"indentation depth delta/R {where}", "m"),
+        Variable(f"{name}_load", f"load P/(1.5 pi R dgamma) {where}", "N"),
+    )
+
+
+def _of_equilibrium(name: str, point: str, start: str = "", of: str = "") -> Curve:
     """Declare a curve of equilibria: radius, depth and load, and whether they are stable."""
-    a, depth, load, stable = ends
-    return Curve(name, "closing_point" if of else "point", (
-        Variable(a, f"contact radius {radius}{of}", "m"),
-        Variable(depth, f"indentation depth delta/R in equilibrium{of}", "m"),
-        Variable(load, f"load P/(1.5 pi R dgamma) in equilibrium{of or ', negative if it pulls'}", "N"),
-        Variable(stable, f"whether the equilibrium{of} is stable under the control of the study", dtype="i1",
+    return Curve(name, point, (
+        Variable(f"{start}contact_radius", f"contact radius a/R{of}", "m"),
+        Variable(f"{start}indentation", f"indentation depth delta/R in equilibrium{of}", "m"),
+        Variable(f"{start}load", f"load P/(1.5 pi R dgamma) in equilibrium{of or ', negative if it pulls'}", "N"),
+        Variable(f"{start}stable", f"whether the equilibrium{of} is stable under the control of the study", dtype="i1",
                  meanings="unstable stable"),
     ), knows_pattern=True)  # fmt: skip
 
@@ -200,23 +208,16 @@ def _of_equilibrium(name: str, ends: tuple[str, str, str, str], radius: str = "a
 _WAYS: Final = "loading unloading"
 
 CURVES: Final = {one.name: one for one in (
-    _of_equilibrium("equilibrium", ("contact_radius", "indentation", "load", "stable")),
-    _of_equilibrium("closing_equilibrium", ("closing_contact_radius", "closing_indentation", "closing_load",
-                    "closing_stable"), of=" of an edge that closes"),
+    _of_equilibrium("equilibrium", "point"),
+    _of_equilibrium("closing_equilibrium", "closing_point", "closing_", " of an edge that closes"),
     Curve("path", "path_point", (
-        Variable("path_contact_radius", "contact radius a/R on the path of a loading cycle", "m"),
-        Variable("path_indentation", "indentation depth delta/R on the path of a loading cycle", "m"),
-        Variable("path_load", "load P/(1.5 pi R dgamma) on the path of a loading cycle", "N"),
+        *_states("path", "on the path of a loading cycle"),
         Variable("path_branch", "stable branch of the path, counted from inside (0: out of contact)", dtype="i4"),
         Variable("path_jump", "whether the point is reached by a jump", dtype="i1",
                  meanings="along_a_branch by_a_jump"),
         Variable("path_unloading", "whether the path is loading or unloading", dtype="i1", meanings=_WAYS),
     ), depends_on="loading", knows_pattern=True),
-    Curve("asymptotic", "asymptotic_point", (
-        Variable("asymptotic_contact_radius", "contact radius a/R of the asymptotic curve", "m"),
-        Variable("asymptotic_indentation", "indentation depth delta/R of the asymptotic curve", "m"),
-        Variable("asymptotic_load", "load P/(1.5 pi R dgamma) of the asymptotic curve", "N"),
-    ), needs_depth=True),
+    Curve("asymptotic", "asymptotic_point", _states("asymptotic", "of the asymptotic curve"), needs_depth=True),
     Curve("envelope", "envelope_point", (
         Variable("envelope_contact_radius", "contact radius a/R of the envelopes", "m"),
         Variable("loading_envelope_indentation", "indentation depth delta/R of the loading envelope", "m"),
@@ -225,17 +226,11 @@ CURVES: Final = {one.name: one for one in (
         Variable("unloading_envelope_load", "load P/(1.5 pi R dgamma) of the unloading envelope", "N"),
     ), needs_depth=True),
     Curve("effective", "effective_point", (
-        Variable("effective_contact_radius", "contact radius a/R on the effective path between the envelopes", "m"),
-        Variable("effective_indentation", "indentation depth delta/R on the effective path", "m"),
-        Variable("effective_load", "load P/(1.5 pi R dgamma) on the effective path", "N"),
+        *_states("effective", "on the effective path between the envelopes"),
         Variable("effective_jump", "whether the point of the effective path is reached by a jump", dtype="i1",
                  meanings="along_an_envelope by_a_jump"),
     ), needs_depth=True),
-    Curve("smooth", "smooth_point", (
-        Variable("smooth_contact_radius", "contact radius a/R of the punch without waviness", "m"),
-        Variable("smooth_indentation", "indentation depth delta/R of the punch without waviness", "m"),
-        Variable("smooth_load", "load P/(1.5 pi R dgamma) of the punch without waviness", "N"),
-    )),
+    Curve("smooth", "smooth_point", _states("smooth", "of the punch without waviness")),
     Curve("jumps", "jump", (
         Variable("jump_count", "number of jumps of a loading cycle; those of all scenes follow one another",
                  dtype="i4"),

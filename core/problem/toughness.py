@@ -152,13 +152,8 @@ def series_at(rows: NDArray[np.float64], u: NDArray[np.float64]) -> NDArray[np.f
     return total
 
 
-def lowest(rows: NDArray[np.float64], end: float = 1.0) -> float:
-    """Return the lowest value of a series from 0 to `end` wavelengths, 1 at most."""
-    return _searched(rows, end, -math.inf)[0]
-
-
-def _searched(rows: NDArray[np.float64], end: float, limit: float) -> tuple[float, float]:
-    """Return the lowest value of a series up to `end` wavelengths, or the first one below a limit; and its place.
+def lowest(rows: NDArray[np.float64], end: float = 1.0, limit: float = -math.inf) -> tuple[float, float]:
+    """Return the lowest value of a series up to `end` wavelengths, 1 at most, or the first below a limit; its place.
 
     Parts of the wavelength are halved as long as the bound of the curvature allows the series to be lower in them than
     the lowest value so far, or before that lower than the limit: no minimum is missed, up to rounding.
@@ -191,17 +186,9 @@ def _searched(rows: NDArray[np.float64], end: float, limit: float) -> tuple[floa
 def violation(toughness: Toughness, amplitude: float, wavelength: float, rim: float) -> float | None:
     """Return the first radius up to a rim at which a pattern has the wrong sign, None if there is none.
 
-    Parameters
-    ----------
-    toughness
-        The pattern: t < 0 is no toughness, t <= 0 no work of adhesion.
-    amplitude, wavelength
-        `toughness_amplitude`, any finite number, and `toughness_wavelength_over_R` > 0.
-    rim
-        a_max/R > 0, which may be inf; in the unit of the wavelength.
+    t < 0 is no toughness, t <= 0 no work of adhesion. The amplitude is finite; wavelength and rim are > 0, in one unit,
+    and the rim may be inf.
 
-    Examples
-    --------
     >>> pattern = Toughness((ToughnessHarmonic(n=1, sin=1.0),))
     >>> violation(pattern, 1.0, 0.1, 1.0), round(violation(pattern, 1.25, 0.1, 1.0), 6)
     (None, 0.064758)
@@ -215,5 +202,5 @@ def first_violation(toughness: Toughness, amplitude: float, end: float = 1.0) ->
     rows = rows_of_pattern(toughness) * np.array([1.0, amplitude, amplitude])
     error = _ROUNDING * (1.0 + float(np.hypot(rows[:, 1], rows[:, 2]).sum()))
     limit = -1.0 + (error if toughness.of == "work" else -error)
-    value, place = _searched(rows, end, limit)
+    value, place = lowest(rows, end, limit)
     return place if value < limit else math.inf

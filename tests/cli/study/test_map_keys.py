@@ -12,8 +12,7 @@ from gradhesion.cli.dataset import compute
 from gradhesion.cli.study import study_from
 from gradhesion.core import FAILED, FLAGS, PARAMETERS, draw_curves, solve
 from gradhesion.core.answers.spectrum import random_profile
-from gradhesion.core.closed.reduced import parameters_from
-from gradhesion.core.closed.similarity import jump_in_radius_of_envelope
+from gradhesion.core.closed.reduced import jump_in_radius_of_envelope, parameters_from
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.profile import Harmonic, Profile
 from tests.cli.conftest import Call, Run

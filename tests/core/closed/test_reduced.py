@@ -9,8 +9,14 @@ import numpy as np
 import pytest
 
 from gradhesion.core import PARAMETERS, solve
-from gradhesion.core.closed.reduced import parameters_from, scales_in_si, sources_of
-from gradhesion.core.closed.similarity import amplitude_of_ratio, jump_in_radius_of_envelope, similarity_length
+from gradhesion.core.closed.reduced import (
+    amplitude_of_ratio,
+    jump_in_radius_of_envelope,
+    parameters_from,
+    scales_in_si,
+    similarity_length,
+    sources_of,
+)
 from gradhesion.core.problem.material import stiffness
 from tests.core.scene import EPS, scene_of
 

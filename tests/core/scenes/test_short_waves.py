@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core import FAILED, OUTPUTS, Loading, Profile, solve
-from gradhesion.core.closed.similarity import amplitude_of_ratio
+from gradhesion.core.closed.reduced import amplitude_of_ratio
 from gradhesion.core.equations import short_waves
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
