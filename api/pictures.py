@@ -216,7 +216,7 @@ def _wishes(wishes: Mapping[str, Any] | None) -> list[str]:
 def _show_later(picture: Any) -> None:
     """Show a picture when the cell that runs has ended, unless it is shown before; outside a notebook do nothing."""
     ipython = sys.modules.get("IPython")
-    shell = ipython.get_ipython() if ipython else None
+    shell: Any = ipython.get_ipython() if ipython else None
     if getattr(shell, "kernel", None) is None:  # a script, or a terminal
         return
     if _show_all not in shell.events.callbacks["post_execute"]:

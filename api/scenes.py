@@ -231,7 +231,7 @@ def _solved(study: Study, parameters: Arrays, threads: int | None = None) -> xar
             own, values = [*front, *sizes, *last, *filter(None, [labels_of(name)])], found[name]
         elif name in scenes or name in arrays:
             sources = [name] if name in arrays else sources_of(name, parameters)
-            varying = {dim for source in sources for dim in _dims(parameters[source])}
+            varying = {dim for source in sources for dim in getattr(parameters[source], "dims", ())}
             own = [dim for dim in sizes if dim in varying]
             values = (arrays if name in arrays else scenes)[name].reshape([sizes[dim] for dim in own])
         made[name] = _as_read(variable, own, np.asarray(values), beside if name in found else [])
@@ -273,11 +273,6 @@ def _sizes_of(parameters: Arrays) -> dict[str, int]:
     met = {str(dim): size for array in arrays for dim, size in array.sizes.items()}
     others = {dim: size for dim, size in met.items() if dim not in INPUTS}
     return others | {key: met[key] for key in INPUTS if key in met}
-
-
-def _dims(value: float | xarray.DataArray) -> tuple[Any, ...]:
-    """Name the dimensions of a parameter."""
-    return () if isinstance(value, float) else value.dims
 
 
 def _along(sizes: Mapping[str, int], value: float | xarray.DataArray) -> NDArray[np.float64]:

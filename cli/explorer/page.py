@@ -72,8 +72,11 @@ def page(dataset: xarray.Dataset, file: str, variables: Sequence[str], places: S
         "ranges": shared,
         "maps": [_map_of(i, shared) for i in range(count if maps else 0)],
         "sections": [{side: _section_of(i, side, BAR if maps else BARE) for side in sides} for i in range(count)],
-        "planes": [_plane_of(i, *plane) for i, plane in enumerate(planes)],
+        "planes": [],
     }
+    for i, (x, y) in enumerate(planes):
+        plot = _figure(f"plane{i}", f"plane{i}", _ranges(), BARE)
+        parts["planes"].append({"figure": plot, "lines": _lines(plot), "x": x, "y": y})
     document = Document(title=str(dataset.attrs["title"]))
     sections = [section for both in parts["sections"] for section in both.values()]
     for part in (*parts["maps"], *sections, *parts["planes"]):
@@ -192,12 +195,6 @@ def _section_of(number: int, side: str, right: int) -> Part:
     plot.scatter("x", "y", source=here, size=10, fill_color="#d62728", line_color="white", line_width=1.5)
     _listen(plot, f"'{side}', {number}")
     return {"figure": plot, "lines": lines, "dots": dots, "here": here}
-
-
-def _plane_of(number: int, x: str, y: str) -> Part:
-    """Make a plane of curves, one variable over another."""
-    plot = _figure(f"plane{number}", f"plane{number}", _ranges(), BARE)
-    return {"figure": plot, "lines": _lines(plot), "x": x, "y": y}
 
 
 def _source(*columns: str) -> ColumnDataSource:

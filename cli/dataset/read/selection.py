@@ -101,7 +101,11 @@ def selection_of(
             continue
         values = np.asarray(dataset[axis].values, dtype=float)
         if ":" in text:
-            left = _within(option, values, axis, text)
+            low, high = ends_in(text, axis, option)
+            left = np.flatnonzero((low - SLACK * abs(low) <= values) & (values <= high + SLACK * abs(high)))
+            if not left.size:
+                least, most = values.min(), values.max()
+                raise DatasetError(f"{option}: no value of the axis is within; it has {least:g} to {most:g}")
         else:
             value = value_in(text, axis, option)
             nearest = _nearest(option, values, axis, value)
@@ -208,16 +212,6 @@ def ends_in(text: str, name: str, option: str) -> tuple[float, float]:
     """Read a range of a variable such as 0.1:0.5, either end of which may be left out."""
     low, _, high = (end.strip() for end in text.partition(":"))
     return value_in(low or "-inf", name, option), value_in(high or "inf", name, option)
-
-
-def _within(option: str, values: NDArray[np.float64], axis: str, text: str) -> NDArray[np.intp]:
-    """Find the items of an axis within a range."""
-    low, high = ends_in(text, axis, option)
-    low, high = low - SLACK * abs(low), high + SLACK * abs(high)
-    left: NDArray[np.intp] = np.flatnonzero((low <= values) & (values <= high))
-    if not left.size:
-        raise DatasetError(f"{option}: no value of the axis is within; it has {values.min():g} to {values.max():g}")
-    return left
 
 
 def _nearest(option: str, values: NDArray[np.float64], axis: str, value: float) -> int:
