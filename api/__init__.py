@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from gradhesion.cli.errors import DatasetError, GradhesionError, MissingExtraError, OutputError, StudyError
     from gradhesion.cli.names.curves import CURVES
     from gradhesion.cli.names.outputs import OUTPUTS
+    from gradhesion.cli.names.scenes import PARAMETERS
     from gradhesion.cli.study.study import Study
     from gradhesion.core.answers.flags import FLAGS
     from gradhesion.core.problem.control import CONTROLS
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
     from gradhesion.core.problem.profile import Harmonic, Profile
     from gradhesion.datasets import open_dataset as open  # noqa: A004 (gr.open)
     from gradhesion.datasets import verify
-    from gradhesion.names import PARAMETERS
     from gradhesion.pictures import explore, plot
     from gradhesion.scenes import curves, solve
     from gradhesion.studies import load, run
@@ -42,13 +42,13 @@ _HOMES: Final = {
     "cli.errors": "DatasetError GradhesionError MissingExtraError OutputError StudyError",
     "cli.names.curves": "CURVES",
     "cli.names.outputs": "OUTPUTS",
+    "cli.names.scenes": "PARAMETERS",
     "cli.study.study": "Study",
     "core.answers.flags": "FLAGS",
     "core.problem.control": "CONTROLS",
     "core.problem.names": "SOLVERS",
     "core.problem.profile": "Harmonic Profile",
     "datasets": "open verify",
-    "names": "PARAMETERS",
     "pictures": "explore plot",
     "scenes": "curves solve",
     "studies": "load run",

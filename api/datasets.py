@@ -1,6 +1,7 @@
 """Open and verify datasets of this program."""
 
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -8,9 +9,8 @@ import xarray
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
 from gradhesion.cli.dataset.read.reader import check_form, check_ours, found, in_own_units, opened
-from gradhesion.cli.errors import DatasetError, StudyError
+from gradhesion.cli.errors import DatasetError, GradhesionError, StudyError
 from gradhesion.cli.installation import checked
-from gradhesion.names import as_keywords
 
 if TYPE_CHECKING:
     from gradhesion.cli.dataset.verify import Recomputed
@@ -102,3 +102,14 @@ def data_of(dataset: Data) -> AbstractContextManager[xarray.Dataset]:
     raise DatasetError(
         f"a {type(dataset).__name__} is neither a dataset nor the path of one; a variable alone has no status"
     )
+
+
+@contextmanager
+def as_keywords() -> Iterator[None]:
+    """Have mistakes of what is done within name the keyword `at` where a command has the option `--at`."""
+    try:
+        yield
+    except GradhesionError as error:
+        error.mistakes = tuple(sentence.replace("--", "") for sentence in error.mistakes)
+        error.args = (error.mistakes,)
+        raise

@@ -1,7 +1,9 @@
 """Pictures and pages of datasets."""
 
 import io
+import sys
 from collections.abc import Mapping, Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import Any, Final, Literal
 
@@ -10,25 +12,21 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
-from gradhesion.cli.dataset.read.reader import is_fit, refuse_fit
-from gradhesion.cli.disk import replacement, writing
-from gradhesion.cli.errors import DatasetError, OutputError
+from gradhesion.cli.errors import OutputError
 from gradhesion.cli.installation import checked
-from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
 from gradhesion.cli.picture.looks import Looks, looks_of
 from gradhesion.cli.picture.picture import picture_of
 from gradhesion.cli.picture.pictured import styled
 from gradhesion.cli.study.text.quantities import as_written
-from gradhesion.core.problem.inputs import INPUTS
-from gradhesion.datasets import Data, data_of
-from gradhesion.names import as_keywords
-from gradhesion.shown import is_shown, show_later
+from gradhesion.datasets import Data, as_keywords, data_of
 
 Limits = tuple[float | str | None, float | str | None]
 """Two ends of a part of an axis: numbers in SI, quantities, or None for all there is."""
 
 BAR: Final = "<colorbar>"
 """What matplotlib labels the axes of a colour bar."""
+_WAITING: Final[list[Any]] = []
+"""Pictures of this cell that have not been shown."""
 
 
 class Panels(list[Axes]):
@@ -38,7 +36,7 @@ class Panels(list[Axes]):
         super().__init__(axes for axes in figure.axes if axes.get_label() != BAR)
         self.figure = figure
         self._looks = looks
-        show_later(self)
+        _show_later(self)
 
     def savefig(self, file: Any, **options: Any) -> None:
         """Save the figure in its own style, as `matplotlib.figure.Figure.savefig`."""
@@ -47,7 +45,7 @@ class Panels(list[Axes]):
 
     def _repr_png_(self) -> bytes:
         """Draw the figure for a notebook."""
-        is_shown(self)
+        _WAITING[:] = [one for one in _WAITING if one is not self]
         content = io.BytesIO()
         self.savefig(content, format="png")
         return content.getvalue()
@@ -148,8 +146,6 @@ def plot(
             kind=kind, width=width, height=height, colour_map=colour_map, levels=levels, labels=labels, title=title,
             caption=caption, xlabel=xlabel, ylabel=ylabel, clabel=clabel, style=style, xlim=xlim, ylim=ylim, band=band,
         )  # fmt: skip
-        if not is_fit(values):
-            _check_dimensions(values)
         wishes: dict[str, Any] = {"at": _wishes(at), "over": _wishes(over), "interpolate": interpolate, "x": x, "y": y}
         figure = picture_of(values, _listed(variables), looks, **wishes, data=None if data is None else Path(data))
     return Panels(figure, looks)
@@ -193,7 +189,7 @@ def explore(
         Bokeh is not installed, or too old.
     """
     with checked():
-        from gradhesion.cli.explorer.page import page  # noqa: PLC0415 (Bokeh)
+        from gradhesion.cli.explorer.page import write_page  # noqa: PLC0415 (Bokeh)
     if file is None and isinstance(dataset, xarray.Dataset):
         raise OutputError(
             'a page of a dataset in memory needs a name; write for example gr.explore(dataset, "map.html")'
@@ -201,24 +197,10 @@ def explore(
     path = Path(dataset).with_suffix(".html") if file is None else Path(file)
     if path.suffix.lower() not in {".html", ".htm"}:
         raise OutputError(f"{path}: the name of a page ends in .html")
-    with as_keywords(), data_of(dataset) as values, replacement(path, overwrite=overwrite) as temporary:
-        refuse_fit(values, "a page")
-        _check_dimensions(values)
+    with as_keywords(), data_of(dataset) as values:
         name = str(values.attrs["title"]) if isinstance(dataset, xarray.Dataset) else Path(dataset).name
-        text = page(values, name, _listed(variables), _wishes(at))
-        with writing(path):
-            temporary.write_text(text, encoding="utf-8")
+        write_page(values, name, _listed(variables), _wishes(at), path, overwrite=overwrite)
     return path
-
-
-def _check_dimensions(dataset: xarray.Dataset) -> None:
-    """Refuse dimensions that no picture knows."""
-    others = [str(dim) for dim in dataset["status"].dims if dim not in (*INPUTS, REALISATION, SCENE, SOLVER)]
-    if others:
-        raise DatasetError(
-            f"the dataset: its dimension {others[0]} is no parameter, and pictures are drawn over parameters; draw it "
-            f'with xarray, as in dataset["pull_off_force"].plot(x="{others[0]}"), or name a list of points "{SCENE}"'
-        )
 
 
 def _listed(names: Sequence[str] | str | None) -> list[str]:
@@ -229,3 +211,22 @@ def _listed(names: Sequence[str] | str | None) -> list[str]:
 def _wishes(wishes: Mapping[str, Any] | None) -> list[str]:
     """Write wishes as a command takes them."""
     return [f"{axis}={as_written(value)}" for axis, value in (wishes or {}).items()]
+
+
+def _show_later(picture: Any) -> None:
+    """Show a picture when the cell that runs has ended, unless it is shown before; outside a notebook do nothing."""
+    ipython = sys.modules.get("IPython")
+    shell: Any = ipython.get_ipython() if ipython else None
+    if getattr(shell, "kernel", None) is None:  # a script, or a terminal
+        return
+    if _show_all not in shell.events.callbacks["post_execute"]:
+        shell.events.register("post_execute", _show_all)
+    _WAITING.append(picture)
+
+
+def _show_all() -> None:
+    """Show what waits; each picture notes that it is shown."""
+    display = import_module("IPython.display").display  # there in a notebook, and needed nowhere else
+    for picture in [*_WAITING]:
+        display(picture)
+    _WAITING.clear()

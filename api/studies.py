@@ -15,7 +15,7 @@ from gradhesion.cli.study.reading import any_from, load_any
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.text.quantities import as_written
 from gradhesion.cli.study.text.written import value_of
-from gradhesion.names import as_keywords
+from gradhesion.datasets import as_keywords
 
 
 def load(

@@ -29,9 +29,9 @@ from gradhesion.cli.names.outputs import (
     SI,
     SPREAD,
     SPREADABLE,
+    UNITS,
 )
 from gradhesion.cli.names.scenes import SCENE, SOLVER, STATUS, STEEP, STEEP_CONTACT
-from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.reading import study_from
 from gradhesion.core import DOUBTFUL, FAILED, REPORTS, SENSITIVITIES
 from gradhesion.core.answers import flags as flags_module

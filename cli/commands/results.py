@@ -138,16 +138,12 @@ def explore(
     path = output or file.parent / f"{file.stem or 'dataset'}.html"
     shared.ending_of(path, "page", (".html", ".htm"))
 
-    from gradhesion.cli.dataset.read.reader import opened, refuse_fit
+    from gradhesion.cli.dataset.read.reader import opened
     from gradhesion.cli.dataset.read.selection import selection_of
-    from gradhesion.cli.disk import replacement, writing
-    from gradhesion.cli.explorer.page import page
+    from gradhesion.cli.explorer.page import write_page
 
-    with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary:
-        refuse_fit(dataset, "a page", file)
-        text = page(dataset, file.name, shared.listed(variables), at)
-        with writing(path):
-            temporary.write_text(text, encoding="utf-8")
+    with opened(file) as dataset:
+        write_page(dataset, file.name, shared.listed(variables), at, path, overwrite=overwrite)
         notes = selection_of(dataset, at).notes
     if not quiet:
         shared.say_written(path, notes)

@@ -19,7 +19,7 @@ from gradhesion.cli.study.shape_words import profile_table, rate_in_words, shape
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Tiling
 from gradhesion.cli.terminal import messages
-from gradhesion.cli.terminal.amounts import counted, percent
+from gradhesion.cli.terminal.amounts import counted, share_of
 from gradhesion.cli.work.compiling import prepare
 from gradhesion.cli.work.solve.blocks import in_threads, within
 from gradhesion.cli.work.solve.scenes import Arrays, blank_of
@@ -170,8 +170,7 @@ def cautions(study: Study, flagged: Mapping[str, int], steep: int = 0) -> Iterat
         counts[_NOT_ONE_DISC] = 0
     for name, sentence in _SAID.items():
         if count := counts.get(name):
-            share = f"{count:,} of {counted(study.scenes, 'scene')} ({percent(count, study.scenes)})"
-            yield sentence.format(share=share, resolution=study.search.resolution)
+            yield sentence.format(share=share_of(count, study.scenes), resolution=study.search.resolution)
 
 
 def _steep_waves(study: Study) -> int:

@@ -7,10 +7,9 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.names import curves
-from gradhesion.cli.names.outputs import BEST, OF_PHYSICAL, ON_BOUND, OUTPUTS, PARETO_POINT, SI, SPREADS, labels_of
+from gradhesion.cli.names import curves, outputs
+from gradhesion.cli.names.outputs import BEST, OF_PHYSICAL, ON_BOUND, PARETO_POINT, SI, labels_of, unit_of
 from gradhesion.cli.names.scenes import IDLE, REALISATION, SOLVER, SOLVERS, STATUS, STEEP_CONTACT
-from gradhesion.cli.names.units import unit_of
 from gradhesion.cli.study.files import COMMENT
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of
@@ -48,16 +47,16 @@ def variables(study: Study) -> dict[str, Variable]:
     found = _labels(study) | _parameters(study)
     apart = (*study.sizes, *study.labels, curves.STATE)
     beside = " ".join(name for name in found if name not in apart)
-    outputs = {name: _output(study, name) for name in study.variables}
+    results = {name: _output(study, name) for name in study.variables}
     own = ALL_FLAGS if study.has_answers else FLAGS if study.turn == TURNS[0] else OF_EVERY_MAP
     flags = {name: bit for name, bit in own.items() if bit != TOO_MANY_WAVES}
     flags |= {name: bit for name, bit in FLAGS.items() if bit == TOO_MANY_WAVES and study.follows_waves}
     attributes = {"units": "1", "long_name": STATUS} | flags_of(flags, study.status_type)
-    outputs["status"] = Variable(tuple(study.sizes), study.status_type, attributes)
-    for name, variable in outputs.items():
+    results["status"] = Variable(tuple(study.sizes), study.status_type, attributes)
+    for name, variable in results.items():
         if beside and not curves.is_ragged(name):
             variable.attributes["coordinates"] = beside
-    return found | outputs
+    return found | results
 
 
 def flags_of(bits: Mapping[str, int], dtype: str) -> dict[str, Any]:
@@ -166,7 +165,7 @@ def _long_name(study: Study, name: str) -> str:
     plain = name.removeprefix(BEST)
     if plain in INPUTS:
         return f"best {INPUTS[plain].about}"
-    meaning = (OUTPUTS | SPREADS)[plain.removesuffix(OF_PHYSICAL)]
+    meaning = (outputs.OUTPUTS | outputs.SPREADS)[plain.removesuffix(OF_PHYSICAL)]
     if plain.endswith(OF_PHYSICAL):
         meaning = meaning.split(" to each parameter")[0] + " in SI units to each quantity q with a unit: d ln/d ln q"
     if study.search:

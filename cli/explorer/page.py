@@ -18,9 +18,10 @@ from bokeh.resources import INLINE
 from jinja2 import Environment
 
 from gradhesion.cli.dataset.read.model_range import slope_warnings
-from gradhesion.cli.dataset.read.reader import has_curves
+from gradhesion.cli.dataset.read.reader import has_curves, is_fit
 from gradhesion.cli.dataset.read.selection import selection_of
-from gradhesion.cli.dataset.read.sensitivities import parts_of, spread
+from gradhesion.cli.dataset.read.sensitivities import spread
+from gradhesion.cli.disk import replacement, writing
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.data import Entry, lines_of, study_data, words
 from gradhesion.cli.names.curves import RAGGED, STATE_CURVES, curve_of
@@ -28,7 +29,7 @@ from gradhesion.cli.names.outputs import PARETO_POINT, SI
 from gradhesion.cli.names.scenes import SCENE, SOLVER
 from gradhesion.cli.picture.curves import JUMPS, wants_si
 from gradhesion.cli.picture.labels import given
-from gradhesion.cli.picture.looks import check_names
+from gradhesion.cli.picture.looks import check_dimensions, check_names
 from gradhesion.cli.study.text.written import toml_of
 from gradhesion.core.problem.inputs import INPUTS
 
@@ -46,8 +47,21 @@ _SCRIPTS: Final = ("numbers", "scene", "controls", "maps", "sections", "curves",
 """The script of a page, in the order in which its parts need each other."""
 
 
+def write_page(
+    dataset: xarray.Dataset, file: str, variables: Sequence[str], places: Sequence[str], path: Path, *, overwrite: bool
+) -> None:
+    """Write the page of a dataset into a file (DatasetError, OutputError); the rest is as for `page`."""
+    with replacement(path, overwrite=overwrite) as temporary:
+        if is_fit(dataset):
+            raise DatasetError(f"{file}: contains a fit, and a page needs scenes; `gradhesion plot` draws it")
+        check_dimensions(dataset)
+        text = page(dataset, file, variables, places)
+        with writing(path):
+            temporary.write_text(text, encoding="utf-8")
+
+
 def page(dataset: xarray.Dataset, file: str, variables: Sequence[str], places: Sequence[str]) -> str:
-    """Write a dataset, whose name is `file`, as a page: some variables (all if none), at AXIS=VALUE of some axes."""
+    """Make a dataset, whose name is `file`, a page: some variables (all if none), at AXIS=VALUE of some axes."""
     cut = chosen(dataset, variables, places)
     planes, units, tracks = lines_of(cut) if has_curves(dataset) else ([], {}, {})
     study, shown = study_data(cut, units)
@@ -58,8 +72,11 @@ def page(dataset: xarray.Dataset, file: str, variables: Sequence[str], places: S
         "ranges": shared,
         "maps": [_map_of(i, shared) for i in range(count if maps else 0)],
         "sections": [{side: _section_of(i, side, BAR if maps else BARE) for side in sides} for i in range(count)],
-        "planes": [_plane_of(i, *plane) for i, plane in enumerate(planes)],
+        "planes": [],
     }
+    for i, (x, y) in enumerate(planes):
+        plot = _figure(f"plane{i}", f"plane{i}", _ranges(), BARE)
+        parts["planes"].append({"figure": plot, "lines": _lines(plot), "x": x, "y": y})
     document = Document(title=str(dataset.attrs["title"]))
     sections = [section for both in parts["sections"] for section in both.values()]
     for part in (*parts["maps"], *sections, *parts["planes"]):
@@ -88,8 +105,8 @@ def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[s
     """Cut a dataset down to some variables and to some values of axes; `status` stays."""
     if PARETO_POINT in dataset.dims:
         raise DatasetError("Pareto fronts have no page; draw them with `gradhesion plot`")
-    parts = [str(name) for name in dataset.data_vars if parts_of(dataset, str(name))]
-    dataset = spread(dataset).drop_vars(parts)
+    dataset, parts = spread(dataset)
+    dataset = dataset.drop_vars([*parts])  # the strongest, which readers can see
     scenes = dataset["status"].dims
     names = [name for name in map(str, dataset.data_vars) if curve_of(name) not in (*RAGGED, *STATE_CURVES)]
     known = [name for name in names if name != "status" and dataset[name].dims[: len(scenes)] == scenes]
@@ -178,12 +195,6 @@ def _section_of(number: int, side: str, right: int) -> Part:
     plot.scatter("x", "y", source=here, size=10, fill_color="#d62728", line_color="white", line_width=1.5)
     _listen(plot, f"'{side}', {number}")
     return {"figure": plot, "lines": lines, "dots": dots, "here": here}
-
-
-def _plane_of(number: int, x: str, y: str) -> Part:
-    """Make a plane of curves, one variable over another."""
-    plot = _figure(f"plane{number}", f"plane{number}", _ranges(), BARE)
-    return {"figure": plot, "lines": _lines(plot), "x": x, "y": y}
 
 
 def _source(*columns: str) -> ColumnDataSource:

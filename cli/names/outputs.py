@@ -1,8 +1,9 @@
-"""The outputs of maps and of optima: what each is called in a dataset, and what it is."""
+"""The outputs of maps and of optima: what each is called in a dataset, what it is, and its unit."""
 
 from typing import Final
 
 from gradhesion.core.problem import outputs
+from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.names import SENSITIVITIES
 
 SI: Final = "_si"
@@ -61,3 +62,20 @@ def value_of(variable: str) -> str:
     """
     plain = variable.removesuffix(SI).removeprefix(BEST)
     return _SPREAD_OF.get(plain, plain)
+
+
+_OWN: Final = {name: one.unit for name, one in (outputs.OUTPUTS | outputs.VARIABLES).items() if one.unit}
+UNITS: Final = _OWN | {name: _OWN[value_of(name)] for name in SPREADS if value_of(name) in _OWN}
+"""The unit in SI of each output that has one, and of its spread."""
+
+
+def unit_of(name: str) -> str:
+    """Give the unit of a variable of a dataset, as UDUNITS writes it.
+
+    >>> unit_of("R"), unit_of("chi"), unit_of("dissipated_energy"), unit_of("dissipated_energy_si")
+    ('m', '1', '1', 'J')
+    """
+    name = name.removeprefix(BEST)
+    if name in INPUTS:
+        return INPUTS[name].unit
+    return UNITS.get(name.removesuffix(SI), "1") if name.endswith(SI) else "1"

@@ -1,7 +1,12 @@
-"""The scenes of a dataset: its dimensions, the flags of its status, and where its values come from."""
+"""The scenes of a dataset: its parameters and dimensions, the flags of its status, and where its values come from."""
 
 from typing import Final
 
+from gradhesion.core.problem import names
+from gradhesion.core.problem.inputs import INPUTS
+
+PARAMETERS: Final = {name: INPUTS[name].about for name in names.PARAMETERS}
+"""Every parameter of a scene, in the order of a dataset's dimensions, with its `long_name`."""
 SCENE: Final = "scene"
 """The one dimension of a dataset with `layout = "points"`."""
 SOLVER: Final = "solver"

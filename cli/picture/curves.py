@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.curves import RAGGED, STATE, STATE_CURVES, variables_of_curves
-from gradhesion.cli.names.outputs import SI
-from gradhesion.cli.names.units import UNITS
+from gradhesion.cli.names.outputs import SI, UNITS
 from gradhesion.cli.picture.labels import fixed, number, suit
 from gradhesion.cli.picture.looks import Looks, check_names
 from gradhesion.cli.picture.pictured import finish, make_room, stacked, styled

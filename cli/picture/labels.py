@@ -12,9 +12,9 @@ from matplotlib.ticker import EngFormatter, Formatter, FuncFormatter, Locator, L
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read.selection import is_log
+from gradhesion.cli.names.outputs import unit_of
 from gradhesion.cli.names.scenes import IDLE
 from gradhesion.cli.names.symbols import CURVE_SYMBOLS, SYMBOLS
-from gradhesion.cli.names.units import unit_of
 from gradhesion.cli.picture.looks import limits_of
 from gradhesion.core.problem.inputs import INPUTS
 

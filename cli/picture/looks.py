@@ -3,20 +3,21 @@
 import math
 import re
 from collections.abc import Callable, Iterable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
-from decimal import Decimal
 from typing import Any, Final, Literal
 
 import matplotlib.style
 import numpy as np
+import xarray
 from matplotlib import colormaps
 from matplotlib.colors import Colormap
 
+from gradhesion.cli.dataset.read.selection import QUANTITY, ends_in, in_unit
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names.units import unit_of
-from gradhesion.cli.study.text.quantities import factor_between
+from gradhesion.cli.names.outputs import unit_of
+from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
+from gradhesion.core.problem.inputs import INPUTS
 
 STYLE: Final = "gradhesion.style"
 """The style of the project, as matplotlib knows it: `plt.style.use("gradhesion.style")`."""
@@ -25,8 +26,6 @@ LEAST, MOST = 1.0, 100.0
 """Sides of a picture, in inches: a smaller one has no room for its labels, a larger one no paper."""
 FINEST: Final = 100
 """Contour levels: more would be one colour."""
-_QUANTITY: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\D.*)?")
-"""A number, and its unit if it has one."""
 _BETWEEN: Final = re.compile(r"\s*,\s*|\s+(?=[-+.\d])")
 """What stands between two numbers: a comma, or a space."""
 
@@ -88,9 +87,7 @@ def limits_of(
     >>> limits_of("--xlim 50 nm:2e-6", "R"), limits_of("", "R")
     ((5e-08, 2e-06), (-inf, inf))
     """
-    start, _, stop = span.partition(" ")[2].partition(":")
-    low = value_in(start, name, span) if start else -math.inf
-    high = value_in(stop, name, span) if stop else math.inf
+    low, high = ends_in(span.partition(" ")[2], name, span)
     if low >= high:
         raise DatasetError(f"{span}: the lower limit comes first and is below the upper one; exchange or change them")
     if log and (high <= 0.0 or -math.inf < low <= 0.0):
@@ -106,17 +103,14 @@ def between(least: float, greatest: float, name: str) -> str:
     return f"which is {least:.4g} to {greatest:.4g} {unit_of(name)}".removesuffix(" 1")
 
 
-def value_in(text: str, name: str, option: str) -> float:
-    """Read a value of a variable, a number in SI or a quantity; `option` is what has it, for a refusal.
-
-    >>> value_in("10 mJ", "dissipated_energy_si", "--levels"), value_in("0.5", "A", "--levels")
-    (0.01, 0.5)
-    """
-    value = _in_unit(text, unit_of(name))
-    if math.isnan(value):
-        wanted = "has no unit" if unit_of(name) == "1" else f"is in {unit_of(name)}"
-        raise DatasetError(f'{option}: "{text}" is not a value of {name}, which {wanted}; write a number or a quantity')
-    return value
+def check_dimensions(dataset: xarray.Dataset) -> None:
+    """Refuse dimensions that no picture knows."""
+    others = [str(dim) for dim in dataset["status"].dims if dim not in (*INPUTS, REALISATION, SCENE, SOLVER)]
+    if others:
+        raise DatasetError(
+            f"the dataset: its dimension {others[0]} is no parameter, and pictures are drawn over parameters; draw it "
+            f'with xarray, as in dataset["pull_off_force"].plot(x="{others[0]}"), or name a list of points "{SCENE}"'
+        )
 
 
 def check_names(option: str, names: Iterable[str], known: Sequence[str], what: str) -> None:
@@ -124,15 +118,6 @@ def check_names(option: str, names: Iterable[str], known: Sequence[str], what: s
     for name in names:
         if name not in known:
             raise DatasetError(f"--{option} {name}: {what}; {did_you_mean(name, known)}")
-
-
-def _in_unit(text: str, unit: str) -> float:
-    """Read a number, or a quantity as so many of a unit; NaN where it is neither."""
-    with suppress(ValueError):
-        return float(text)
-    parts = _QUANTITY.fullmatch(text)
-    factor = factor_between(parts[2], unit) if parts else None
-    return float(Decimal(parts[1]) * factor) if parts and factor else math.nan
 
 
 def _one_of(option: str, value: Any, known: Sequence[str]) -> str:
@@ -159,7 +144,7 @@ def _side(option: str, value: float | str) -> float:
     text = str(value).strip().lower()
     if option == "width" and text in WIDTHS:
         return WIDTHS[text]
-    inches = _in_unit(text, "inch")
+    inches = in_unit(text, "inch")
     if not LEAST <= inches <= MOST:
         raise DatasetError(
             f"--{option} {value}: not a size of {LEAST:g} to {MOST:g} inches; write for example 3.5, or 9 cm, "
@@ -174,7 +159,7 @@ def _levels(option: str, value: Any) -> int | tuple[str, ...]:
     a_number = len(words) == 1 and words[0].isdecimal()
     if a_number and 1 <= int(words[0]) <= FINEST:
         return int(words[0])
-    if words and not a_number and all(map(_QUANTITY.fullmatch, words)):
+    if words and not a_number and all(map(QUANTITY.fullmatch, words)):
         return tuple(words)
     raise DatasetError(
         f"--{option} {', '.join(words)}: neither a number of levels, 1 to {FINEST}, nor a list of them; "

@@ -17,13 +17,13 @@ from matplotlib.ticker import NullLocator
 
 from gradhesion.cli.dataset.read.reader import has_curves, is_fit
 from gradhesion.cli.dataset.read.selection import Selection, selection_of
-from gradhesion.cli.dataset.read.sensitivities import parts_of, spread, with_influence
+from gradhesion.cli.dataset.read.sensitivities import part_of, spread
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import BEST, ON_BOUND, PARETO_POINT, SI
 from gradhesion.cli.picture.curves import drawn_curves
 from gradhesion.cli.picture.fits import drawn_fits
 from gradhesion.cli.picture.labels import Scale, Unit, effective, equations, locator, numbers, scale, suit
-from gradhesion.cli.picture.looks import Looks, check_names
+from gradhesion.cli.picture.looks import Looks, check_dimensions, check_names
 from gradhesion.cli.picture.panels import FEW, LIGHT, MARKS, draw_density, draw_lines, draw_map, number_contours
 from gradhesion.cli.picture.pictured import MARKERS, finish, stacked, styled
 from gradhesion.cli.picture.plan import Plan, caption_of, planned, some_of, within
@@ -53,6 +53,7 @@ def picture_of(
     if is_fit(dataset):
         choices = {"--over": over, "--variable": variables, "--x": x, "--y": y, "--data": data}
         return drawn_fits(dataset, looks, [word for word, value in choices.items() if value], at)
+    check_dimensions(dataset)
     if x and x == y:
         raise DatasetError(f"--x {x} --y {y}: one axis cannot be both sides; choose another for one of them")
     selection = selection_of(dataset, at, over, interpolate=interpolate)
@@ -111,17 +112,16 @@ def _drawn_values(
 
 def _chosen(dataset: xarray.Dataset, requested: Sequence[str]) -> tuple[xarray.Dataset, list[str]]:
     """Check the variables asked for, else take force and energy, or what is best and where; spread sensitivities."""
-    of_each = {str(name): parts_of(dataset, str(name)) for name in dataset.data_vars}
-    dataset = spread(dataset)
+    dataset, parts = spread(dataset)
     known = [str(name) for name in dataset.data_vars]
-    parts = {name: with_influence(dataset, name, [*own]) if own else [name] for name, own in of_each.items()}
-    chosen = [one for name in requested for one in parts.get(name, [name])]
-    check_names("variable", chosen, known, "not in this dataset")
-    if not chosen and ON_BOUND in parts:
-        chosen = [name for name in parts if name.startswith(BEST) and not of_each[name] and name + SI not in parts]
     usual = [name + SI if name + SI in known else name for name in ("pull_off_force", "dissipated_energy")]
-    chosen = chosen or [name for name in usual if name in known] or next(iter(parts.values()))
-    return dataset, [*dict.fromkeys(chosen)]
+    chosen = requested or [name for name in usual if name in known] or known[:1]
+    if not requested and ON_BOUND in known:
+        plain = [name for name in known if name.startswith(BEST) and name not in parts and not part_of(name)]
+        chosen = [name for name in plain if name + SI not in known]
+    check_names("variable", chosen, known, "not in this dataset")
+    own = {name: [one for one in parts.get(name, []) if np.any(np.nan_to_num(dataset[one].values))] for name in chosen}
+    return dataset, [*dict.fromkeys(one for name in chosen for one in (name, *own[name]))]  # parts with an influence
 
 
 def _check(looks: Looks, names: Sequence[str], plan: Plan) -> None:

@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read import model_range
 from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by, doubts_of
-from gradhesion.cli.dataset.read.selection import Selection
+from gradhesion.cli.dataset.read.selection import Selection, value_in
 from gradhesion.cli.dataset.read.sensitivities import parameters_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import BEST, ON_BOUND, SI, SPREADS
 from gradhesion.cli.names.symbols import SYMBOLS
 from gradhesion.cli.picture.labels import Unit, label, unit_for
-from gradhesion.cli.picture.looks import Looks, between, limits_of, value_in
+from gradhesion.cli.picture.looks import Looks, between, limits_of
 from gradhesion.cli.picture.plan import Plan
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.answers.flags import FLAG_WORDS, FLAGS

@@ -10,9 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.names import outputs as names
-from gradhesion.cli.names.outputs import PARAMETER, PHYSICAL_PARAMETER, SI, labels_of
+from gradhesion.cli.names.outputs import PARAMETER, PHYSICAL_PARAMETER, SI, UNITS, labels_of
 from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
-from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.files import FromFile
 from gradhesion.cli.study.rules.asked import Values
 from gradhesion.cli.study.rules.form import Optimum, Uncertainty

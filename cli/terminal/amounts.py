@@ -20,14 +20,14 @@ def bytes_in_words(number: float) -> str:
     return f"{number / size:,.1f} {unit}"
 
 
-def percent(count: int, whole: int) -> str:
-    """Give a share with two digits.
+def share_of(count: int, scenes: int) -> str:
+    """Write how many of some scenes, with their share to two digits.
 
-    >>> percent(1, 6), percent(6, 6), percent(1, 3000)
-    ('17 %', '100 %', '0.033 %')
+    >>> share_of(1, 6), share_of(6, 6), share_of(1, 3000)
+    ('1 of 6 scenes (17 %)', '6 of 6 scenes (100 %)', '1 of 3,000 scenes (0.033 %)')
     """
-    share = 100.0 * count / whole
-    return f"{share:.2g} %" if share < 99.5 else f"{share:.0f} %"
+    share = 100.0 * count / scenes
+    return f"{count:,} of {counted(scenes, 'scene')} ({share:.{3 if share >= 99.5 else 2}g} %)"
 
 
 def duration(seconds: float) -> str:

@@ -10,7 +10,7 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read.reader import tiling_of
-from gradhesion.cli.dataset.read.sensitivities import parts_of, spread
+from gradhesion.cli.dataset.read.sensitivities import spread
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.curves import EXTENTS, INTEGERS, RAGGED, STATE_CURVES, variables_of_curves
 from gradhesion.cli.names.fits import LOOP, PARAMETER_UNITS
@@ -38,10 +38,9 @@ def tabled(dataset: xarray.Dataset, file: Path, chosen: Sequence[str]) -> Iterat
 
     Numbers have all their digits. `chosen` are variables, or curves, of a dataset that has several curves one.
     """
-    parts = {name: parts_of(dataset, str(name)) for name in dataset.data_vars}
-    chosen = [one for name in chosen for one in (parts.get(name) or [name])]
-    dataset = spread(dataset)
-    dataset = dataset.drop_vars([name for name, own in parts.items() if own])  # which is the strongest, readers can see
+    dataset, parts = spread(dataset)
+    chosen = [one for name in chosen for one in parts.get(name, [name])]
+    dataset = dataset.drop_vars([*parts])  # which is the strongest, readers can see
     names = _variables(dataset, file, chosen)
     beside = [name for name in (SOLVER, *INPUTS, REALISATION) if name in dataset.coords]
     columns = [*beside, *names, "status"]

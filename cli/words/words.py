@@ -18,7 +18,7 @@ from gradhesion.cli.dataset.read.sensitivities import parts_of, strongest
 from gradhesion.cli.names.outputs import ON_BOUND, PARETO_POINT, SI, labels_of
 from gradhesion.cli.names.scenes import IDLE, REALISATION, SCENE, SOLVER
 from gradhesion.cli.study.shape_words import CONTROLS
-from gradhesion.cli.terminal.amounts import bytes_in_words, counted, percent
+from gradhesion.cli.terminal.amounts import bytes_in_words, counted, share_of
 from gradhesion.cli.terminal.wording import shown
 from gradhesion.cli.words.table import about, columns_of, curve_lines, jump_lines, number_range, told, unit_behind
 from gradhesion.core import FAILED
@@ -63,7 +63,7 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
         yield "  whether the contact is one disc was not tested: nothing but the pull-off was asked for"
     cone = {CONTACT_SLOPE: "1 at every radius of a cone"} if is_cone(dataset) else {}
     beyond = [
-        told(name, _share(count, scenes), f"{cone.get(name, limit.condition)}: {limit.words}")
+        told(name, share_of(count, scenes), f"{cone.get(name, limit.condition)}: {limit.words}")
         for name, limit in LIMITS.items()
         if (count := count_beyond(name, dataset))
     ]
@@ -221,12 +221,7 @@ def _flag_counts(variable: xarray.DataArray) -> list[str]:
         values = variable[block].values.astype(int)
         counts += [np.count_nonzero(values & mask) for mask in masks]
     found = zip(str(variable.attrs["flag_meanings"]).split(), counts, strict=True)
-    return [told(name, _share(count, variable.size), FLAG_WORDS.get(name, "")) for name, count in found if count]
-
-
-def _share(count: int, scenes: int) -> str:
-    """Write how many of some scenes."""
-    return f"{count:,} of {counted(scenes, 'scene')} ({percent(count, scenes)})"
+    return [told(name, share_of(count, variable.size), FLAG_WORDS.get(name, "")) for name, count in found if count]
 
 
 def origin_lines(dataset: xarray.Dataset) -> Iterator[str]:

@@ -35,10 +35,12 @@ def test_a_figure_is_that_of_the_command(grid: xarray.Dataset, tmp_path: Path, g
     assert len({tuple(axes.get_ylabel() for axes in panels) for panels in both}) == 1
 
 
-def test_named_dimensions_are_for_xarray() -> None:
+def test_named_dimensions_are_for_xarray(tmp_path: Path, gradhesion: Any) -> None:
     named = gr.solve(PUNCH, k=0.3, lambda_over_R=xarray.DataArray([0.1, 0.2], dims="x"))
     with pytest.raises(gr.DatasetError, match="dimension x is no parameter, and pictures are drawn over parameters"):
         named.gr.plot()
+    named.to_netcdf(tmp_path / "x.nc")
+    assert "its dimension x is no parameter" in gradhesion("plot", tmp_path / "x.nc", code=2).output
     points = gr.solve(PUNCH, k=0.3, lambda_over_R=xarray.DataArray([0.1, 0.2], dims="scene"))
     assert points.gr.plot("pull_off_force", x="lambda_over_R")
 

@@ -11,9 +11,8 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.files import kind_of
 from gradhesion.cli.names.curves import EXTENTS, RAGGED, variables_of_curves
 from gradhesion.cli.names.fits import FIT, FIT_POINTS, PARAMETER_UNITS
-from gradhesion.cli.names.outputs import BEST, OUTPUTS, SI
+from gradhesion.cli.names.outputs import BEST, OUTPUTS, SI, unit_of
 from gradhesion.cli.names.scenes import REALISATION, SOLVER
-from gradhesion.cli.names.units import unit_of
 from gradhesion.cli.study.text.quantities import apart, factor_between, filled, scaled
 from gradhesion.cli.study.tiling import CHUNK, Tiling
 from gradhesion.core.problem.inputs import INPUTS
@@ -107,12 +106,6 @@ def _faults(dataset: "xarray.Dataset") -> Iterator[str]:
 def is_fit(dataset: "xarray.Dataset") -> bool:
     """Report whether a dataset is that of a fit."""
     return "chi_square" in dataset.variables
-
-
-def refuse_fit(dataset: "xarray.Dataset", what: str, path: Path | str = "the dataset") -> None:
-    """Refuse a fit where scenes are wanted (DatasetError)."""
-    if is_fit(dataset):
-        raise DatasetError(f"{path}: contains a fit, and {what} needs scenes; `gradhesion plot` draws it")
 
 
 def has_curves(dataset: "xarray.Dataset") -> bool:

@@ -3,8 +3,11 @@
 The words of `--at` and `--over` become a `Selection` here; it narrows a dataset without loading it.
 """
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from decimal import Decimal
 from typing import Any, Final
 
 import numpy as np
@@ -14,8 +17,9 @@ from numpy.typing import NDArray
 from gradhesion.cli.dataset.read.reductions import REDUCTIONS, Between, Taken, interpolated, reduced
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.curves import EXTENTS, RAGGED
+from gradhesion.cli.names.outputs import unit_of
 from gradhesion.cli.names.scenes import SCENE, SOLVER
-from gradhesion.cli.study.text.quantities import si_value
+from gradhesion.cli.study.text.quantities import factor_between
 from gradhesion.cli.terminal.wording import did_you_mean
 from gradhesion.core import FAILED
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
@@ -24,6 +28,8 @@ SLACK: Final = 1e-9
 """How far beyond an end of an axis a value may be, over the end: it is typed with fewer digits than it has."""
 SAME: Final = 1e-12
 """Values this near to each other, over their size, are one: ends of ranges are rounded."""
+QUANTITY: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\D.*)?")
+"""A number, and its unit if it has one."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -95,9 +101,13 @@ def selection_of(
             continue
         values = np.asarray(dataset[axis].values, dtype=float)
         if ":" in text:
-            left = _within(option, values, axis, text)
+            low, high = ends_in(text, axis, option)
+            left = np.flatnonzero((low - SLACK * abs(low) <= values) & (values <= high + SLACK * abs(high)))
+            if not left.size:
+                least, most = values.min(), values.max()
+                raise DatasetError(f"{option}: no value of the axis is within; it has {least:g} to {most:g}")
         else:
-            value = _number(option, axis, text)
+            value = value_in(text, axis, option)
             nearest = _nearest(option, values, axis, value)
             near = float(values[nearest])
             left = np.flatnonzero(values == near)
@@ -176,31 +186,32 @@ def check_axis(dataset: xarray.Dataset, option: str, axis: str) -> None:
     raise DatasetError(f"{option}: not an axis of this dataset; {remedy}")
 
 
-def _number(option: str, axis: str, text: str) -> float:
-    """Read a value of an axis, in SI or with its unit."""
-    try:
-        value = float(text)
-    except ValueError:
-        try:
-            value = si_value(text, axis) if axis in PHYSICAL else np.nan
-        except ValueError as error:
-            raise DatasetError(f"{option}: {error}") from None
+def in_unit(text: str, unit: str) -> float:
+    """Read a number, or a quantity as so many of a unit; NaN where it is neither."""
+    with suppress(ValueError):
+        return float(text)
+    parts = QUANTITY.fullmatch(text)
+    factor = factor_between(parts[2], unit) if parts and parts[2] else None
+    return float(Decimal(parts[1]) * factor) if parts and factor else np.nan
+
+
+def value_in(text: str, name: str, option: str) -> float:
+    """Read a value of a variable, a number in SI or a quantity; `option` is what has it, for a refusal.
+
+    >>> value_in("10 mJ", "dissipated_energy_si", "--levels"), value_in("0.5", "A", "--levels")
+    (0.01, 0.5)
+    """
+    value = in_unit(text, unit_of(name))
     if np.isnan(value):
-        raise DatasetError(f"{option}: {text} is not a number; write for example --at {axis}=0.1")
+        wanted = "has no unit" if unit_of(name) == "1" else f"is in {unit_of(name)}"
+        raise DatasetError(f'{option}: "{text}" is not a value of {name}, which {wanted}; write a number or a quantity')
     return value
 
 
-def _within(option: str, values: NDArray[np.float64], axis: str, text: str) -> NDArray[np.intp]:
-    """Find the items of an axis within a range such as 0.1:0.5, either end of which may be left out."""
-    low, high = (
-        _number(option, axis, end.strip()) if end.strip() else open_end
-        for end, open_end in zip(text.split(":", 1), (-np.inf, np.inf), strict=True)
-    )
-    low, high = low - SLACK * abs(low), high + SLACK * abs(high)
-    left: NDArray[np.intp] = np.flatnonzero((low <= values) & (values <= high))
-    if not left.size:
-        raise DatasetError(f"{option}: no value of the axis is within; it has {values.min():g} to {values.max():g}")
-    return left
+def ends_in(text: str, name: str, option: str) -> tuple[float, float]:
+    """Read a range of a variable such as 0.1:0.5, either end of which may be left out."""
+    low, _, high = (end.strip() for end in text.partition(":"))
+    return value_in(low or "-inf", name, option), value_in(high or "inf", name, option)
 
 
 def _nearest(option: str, values: NDArray[np.float64], axis: str, value: float) -> int:

@@ -1,6 +1,5 @@
 """Sensitivities of a dataset, one variable for each thing that they are to, and which of them is the strongest."""
 
-from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -36,38 +35,30 @@ def part_of(name: str) -> tuple[str, str] | None:
     return None
 
 
-def spread(dataset: xarray.Dataset) -> xarray.Dataset:
+def spread(dataset: xarray.Dataset) -> tuple[xarray.Dataset, dict[str, list[str]]]:
     """Give each sensitivity as variables over the scenes alone: the strongest, by its place, and one a parameter.
 
     The first has the name of the sensitivity and numbers the parameters from 0 on in the order of its `parameters`;
-    the others have the name of the parameter added. A dataset without sensitivities comes back as it is.
+    the others have the name of the parameter added, and are listed by that of the sensitivity as well.
     """
-    names = [str(name) for name in dataset.data_vars if parts_of(dataset, str(name))]
-    if not names:
-        return dataset
+    parts = {str(name): own for name in dataset.data_vars if (own := parts_of(dataset, str(name)))}
     made: dict[str, xarray.DataArray] = {}
     for name, variable in ((str(name), one) for name, one in dataset.data_vars.items()):
-        if name not in names:
+        own = parts.get(name, {})
+        if not own:
             made[name] = variable
             continue
-        own = parts_of(dataset, name)
         place = strongest(variable.values, [*own.values()])
         first = variable.isel({labels_of(name): 0}, drop=True)
         made[name] = first.copy(data=np.where(place < 0, np.nan, place)).assign_attrs(parameters=" ".join(own.values()))
         made |= {part: variable.isel({labels_of(name): i}, drop=True) for i, part in enumerate(own)}
-    dimensions = {labels_of(name) for name in names}
-    return dataset.drop_vars([*names, *dimensions]).assign(made)[list(made)]
+    whole = dataset.drop_vars([*parts, *map(labels_of, parts)]).assign(made)[list(made)] if parts else dataset
+    return whole, {name: [*own] for name, own in parts.items()}
 
 
 def parameters_of(variable: xarray.DataArray) -> list[str]:
     """List what the values of a variable number, if they say which parameter is the strongest; else nothing."""
     return str(variable.attrs.get("parameters", "")).split()
-
-
-def with_influence(dataset: xarray.Dataset, name: str, parts: Sequence[str]) -> list[str]:
-    """Name the variables of a spread sensitivity that say something: the strongest, and parts not 0 everywhere."""
-    values = {part: np.asarray(dataset[part].values) for part in parts}
-    return [name, *(part for part, own in values.items() if bool(np.any(np.nan_to_num(own))))]
 
 
 def strongest(values: NDArray[np.float64], labels: list[str]) -> NDArray[np.int64]:

@@ -7,8 +7,7 @@ from typing import Final
 import numpy as np
 
 from gradhesion.cli.names import curves
-from gradhesion.cli.names.outputs import OF_LINEAR, SI, SPREADABLE
-from gradhesion.cli.names.units import UNITS
+from gradhesion.cli.names.outputs import OF_LINEAR, SI, SPREADABLE, UNITS
 from gradhesion.cli.study.rules.asked import Asked, Found, home, repeated
 from gradhesion.cli.study.rules.form import OUTPUTS_OF, Optimum
 from gradhesion.cli.study.rules.inputs import inputs, rate, shape_of, together, toughness, waves, works

@@ -9,9 +9,8 @@ from numpy.typing import NDArray
 
 from gradhesion import core
 from gradhesion.cli.names.curves import CURVES, INTEGERS, RAGGED, STATE_CURVES, is_ragged
-from gradhesion.cli.names.outputs import OF_PHYSICAL, PARAMETER, PHYSICAL_PARAMETER, SI
+from gradhesion.cli.names.outputs import OF_PHYSICAL, PARAMETER, PHYSICAL_PARAMETER, SI, UNITS
 from gradhesion.cli.names.scenes import STEEP
-from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.core import PARAMETERS, RANGE, SENSITIVITIES, VALIDITY

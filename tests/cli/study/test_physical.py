@@ -11,8 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gradhesion.cli.dataset import compute
-from gradhesion.cli.names.outputs import SI
-from gradhesion.cli.names.units import UNITS
+from gradhesion.cli.names.outputs import SI, UNITS
 from gradhesion.cli.study import study_from
 from gradhesion.cli.study.text.quantities import WORDS, si_value
 from gradhesion.core import OUTPUTS
