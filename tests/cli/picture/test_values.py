@@ -109,6 +109,7 @@ def test_panels_have_some_values_of_their_axes() -> None:
     panels = gr.plot(scenes, kind="lines", x="lambda_over_R", y="k")
     titles = [axes.get_title() for axes in panels]
     assert titles == ["$A$ = 0.01", "$A$ = 0.03", "$A$ = 0.04", "", "", ""], "waves of no height have no length"
+    assert len({(axes.get_xlim(), axes.get_ylim()) for axes in panels}) == 1, "they are compared at a glance"
     rows = [text.get_text() for axes in panels for text in axes.texts if "a_" in text.get_text()]
     assert rows == [r"$a_{\max}/R$ = 0.5", r"$a_{\max}/R$ = 1"]
 

@@ -203,6 +203,8 @@ def test_the_schema_is_that_of_validation(gradhesion: Call, root: Path) -> None:
     told = json.loads(gradhesion("schema").stdout)
     assert told.pop("$schema").startswith("https://json-schema.org/")
     assert told == Form.model_json_schema()
+    types = re.findall(r'"type": "(\w+)"', json.dumps(told))
+    assert {*types} <= {"array", "boolean", "integer", "null", "number", "object", "string"}
     own = told["$defs"]["Parameters"]
     assert set(own["properties"]) == {"points", *(name for name, one in INPUTS.items() if one.table == "parameters")}
     assert own["additionalProperties"] is False

@@ -190,6 +190,13 @@ def test_it_is_an_axis_behind_the_radius_with_the_values_of_the_solver(key: str)
     assert dataset["status"].dtype == (np.int8 if key in ("load_max", "closing_ratio") else np.int16)
 
 
+def test_at_a_speed_as_many_waves_are_followed_as_the_page_says() -> None:
+    scene = SCENE | {"a_max_over_R": 0.5, "speed_over_reference": 0.1, "lambda_over_R": 0.5 / 15_900}
+    assert study_from(LAW | {"outputs": OUTPUTS, "parameters": scene}).sizes == {}
+    with pytest.raises(gr.StudyError, match=r"parameters\.a_max_over_R"):
+        study_from(LAW | {"outputs": OUTPUTS, "parameters": scene | {"lambda_over_R": 0.5 / 16_100}})
+
+
 def test_a_speed_has_no_independent_twin(gradhesion: Call, ran: Run) -> None:
     data = LAW | {"outputs": OUTPUTS, "parameters": SCENE | {"a_max_over_R": 0.5, "speed_over_reference": [0.05, 0.1]}}
     _, _, path = ran(data)
