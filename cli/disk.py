@@ -43,11 +43,7 @@ def read_at_most(path: Path, most: int) -> bytes:
 
 
 def kind_of(path: Path) -> str:
-    """Say what stands at a path, by how it begins and by its name; "" where nothing is known of it.
-
-    >>> kind_of(Path("/"))
-    'a directory'
-    """
+    """Say what stands at a path, by how it begins and by its name; "" where nothing is known of it."""
     try:
         if path.is_dir():
             return "a directory"
@@ -61,11 +57,7 @@ def kind_of(path: Path) -> str:
 
 
 def kind_by_content(begins: bytes) -> str:
-    r"""Say what a file is by how it begins; "" where that may be anything.
-
-    >>> kind_by_content(b"PK\x03\x04 and so on")
-    'an archive (ZIP, or a workbook)'
-    """
+    """Say what a file is by how it begins; "" where that may be anything."""
     return next((kind for magic, kind in _MAGIC.items() if begins.startswith(magic)), "")
 
 

@@ -245,3 +245,14 @@ def range_mistakes(name: str, entry: Entry) -> Iterator[tuple[str, str]]:
     elif entry.spacing == "log" and entry.ends[0] <= 0.0:
         end = "start" if entry.start <= 0.0 else "stop"
         yield f"{at}.{end}", 'log spacing needs values > 0; raise it, or use spacing = "linear"'
+
+
+def repeated(name: str, values: Values) -> Iterator[tuple[str, str]]:
+    """Check that an axis has no value twice."""
+    unique, counts = np.unique(values, return_counts=True)
+    if counts.max(initial=1) > 1:
+        value = float(unique[counts.argmax()])
+        first, second, *_ = np.flatnonzero(values == value).tolist()
+        unit = "" if INPUTS[name].unit == "1" else f" {INPUTS[name].unit}"
+        words = f"the axis repeats the value {value!r}{unit} (items {first} and {second}); remove one"
+        yield home(name), words

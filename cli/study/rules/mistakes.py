@@ -94,7 +94,8 @@ def _sentence(detail: ErrorDetails, path: Key) -> str:
     if own and own.infinite and kind == "finite_number":
         return "a range must end at finite values; write a list where inf is one of the values"
     if own and kind in ("greater_than", "greater_than_equal", "less_than_equal", "finite_number"):
-        return f"out of range; choose a value with {own.allowed}"
+        unpressed = "; for a turn at zero depth write indentation_max_over_R = 0.0" if own.name == "load_max" else ""
+        return f"out of range; choose a value with {own.allowed}{unpressed}"
     words = re.sub(r"^(Input|String|List) should (.*?)( or instance of.*| after .*)?$", r"this must \2", detail["msg"])
     limits = f", with {own.allowed}" if own else ""
     return f"{words.replace('dictionary', 'table')}{limits}; write for example {line_of(*path)}"

@@ -9,7 +9,7 @@ import numpy as np
 from gradhesion.cli.names import curves
 from gradhesion.cli.names.outputs import OF_LINEAR, SI, SPREADABLE
 from gradhesion.cli.names.units import UNITS
-from gradhesion.cli.study.rules.asked import Asked, Found, home
+from gradhesion.cli.study.rules.asked import Asked, Found, home, repeated
 from gradhesion.cli.study.rules.form import OUTPUTS_OF, Optimum
 from gradhesion.cli.study.rules.inputs import inputs, rate, shape_of, together, toughness, waves, works
 from gradhesion.cli.study.rules.mistakes import line_of, required
@@ -39,13 +39,7 @@ def _axes(asked: Asked) -> Found:
     """Check the axes of a grid, or the lists of points: no value twice, or one length."""
     if not asked.points:
         for name, values in asked.values.items():
-            unique, counts = np.unique(values, return_counts=True)
-            if counts.max(initial=1) > 1:
-                value = float(unique[counts.argmax()])
-                first, second, *_ = np.flatnonzero(values == value).tolist()
-                unit = "" if INPUTS[name].unit == "1" else f" {INPUTS[name].unit}"
-                words = f"the axis repeats the value {value!r}{unit} (items {first} and {second}); remove one"
-                yield home(name), words
+            yield from repeated(name, values)
         return
     lengths = {name: values.size for name, values in asked.axes.items() if isinstance(values, np.ndarray)}
     first = next(iter(lengths), "")

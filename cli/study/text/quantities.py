@@ -67,7 +67,8 @@ def si_value(value: object, name: str) -> float:
         raise ValueError(f"{_NO_COMMA}; {_expected(name)}")
     result = float(Decimal(number) * (factor_of(written, name) if written else 1)) + 0.0
     if not key.admits(result):
-        raise ValueError(f"out of range; choose {WORDS[key.unit]} with {key.allowed}")
+        unpressed = '; for a turn at zero depth write indentation_max = "0 nm"' if name == "preload" else ""
+        raise ValueError(f"out of range; choose {WORDS[key.unit]} with {key.allowed}{unpressed}")
     return result
 
 
