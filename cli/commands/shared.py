@@ -9,7 +9,6 @@ from typing import Any, Final
 
 import click
 
-from gradhesion.cli.disk import kind_of
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.terminal.amounts import bytes_in_words
@@ -46,7 +45,12 @@ def given_up(option: str, instead: str) -> Callable[[Any], Any]:
 
 def _of_a_dataset(_context: click.Context, _option: click.Parameter, path: Path | None) -> Path | None:
     """Check the name of a dataset: another ending, or none, promises another kind of file."""
-    if path is None or path.suffix.lower() in OF_DATASETS or kind_of(path) in ("a directory", "no regular file"):
+    if path is None or path.suffix.lower() in OF_DATASETS:
+        return path
+    try:
+        if path.exists() and not path.is_file():
+            return path
+    except OSError:  # no such name can be: whoever writes there says why
         return path
     name = path.with_suffix(".nc") if path.suffix[1:].isalpha() else f"{path}.nc"
     raise StudyError(f"-o {path}: a dataset is a NetCDF file, and its name ends in .nc; write -o {name}")
