@@ -10,8 +10,7 @@ from typing import Any, Final, NoReturn
 
 import click
 
-from gradhesion.cli.commands.init import init
-from gradhesion.cli.commands.plan import plan, validate
+from gradhesion.cli.commands.plan import init, plan, validate
 from gradhesion.cli.commands.profile import profile
 from gradhesion.cli.commands.results import explore, info, plot, select, verify
 from gradhesion.cli.commands.run import run

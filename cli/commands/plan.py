@@ -1,15 +1,74 @@
-"""`gradhesion validate` and `plan`: whether a study is valid, and what a run of it would do and cost."""
+"""`gradhesion init`, `validate` and `plan`: a study to start from, whether one is valid, and what a run would cost."""
 
 import json
+import re
 from collections.abc import Iterable, Iterator
+from importlib import resources
 from pathlib import Path
 from typing import Any
 
 import click
+from click.shell_completion import CompletionItem
 
 from gradhesion.cli.commands import shared
+from gradhesion.cli.disk import replacement, writing
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted, duration
 from gradhesion.cli.terminal.messages import say, show
+
+
+def studies() -> dict[str, str]:
+    """Read the studies that come with the program, by name."""
+    files = sorted(resources.files("gradhesion.configs").iterdir(), key=lambda file: file.name)
+    return {file.name.removesuffix(".toml"): file.read_text("utf-8") for file in files if file.name.endswith(".toml")}
+
+
+def beside(text: str) -> dict[str, str]:
+    """Read the files that a study names, which come with the program too."""
+    files = resources.files("gradhesion.configs")
+    named = re.findall(r'^\s*(?:file|points)\s*=\s*"([^"]+)"', text, re.MULTILINE)
+    return {name: (files / name).read_text("utf-8") for name in named}
+
+
+def _names(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Complete the name of a study."""
+    return [CompletionItem(name) for name in studies() if name.startswith(incomplete)]
+
+
+@click.command(epilog=shared.example("init", "init curve -o tip.toml"))
+@click.argument("name", default="map", shell_complete=_names)
+@click.option("-o", "--output", type=shared.A_PATH, help="File to write [NAME.toml].")
+@shared.overwriting
+@click.option("--list", "listed", is_flag=True, help="List the studies and write nothing.")
+@click.option("--paper", is_flag=True, help="With --list: the studies of the figures of the paper instead.")
+def init(name: str, output: Path | None, overwrite: bool, listed: bool, paper: bool) -> None:
+    """Write a commented study to start from.
+
+    NAME is map (the default), curve, optimum, fit, points, physical, or another that --list shows; --list --paper shows
+    those of figures, such as fig4a.
+    """
+    known = studies()
+    if paper and not listed:
+        raise click.UsageError("--paper goes with --list; a figure has its name: gradhesion init fig4a")
+    if listed:
+        those = {one: text for one, text in known.items() if one.startswith(("fig", "extra_")) == paper}
+        width = max(map(len, those))
+        for one, text in those.items():
+            show(f"{one:{width}}  {text.splitlines()[0].removeprefix('# ')}")
+        return
+    if name not in known:
+        if name.endswith(".toml"):
+            study = Path(name).stem if Path(name).stem in known else "map"
+            raise click.UsageError(f'"{name}" is not a study; -o names the file: gradhesion init {study} -o {name}')
+        from gradhesion.cli.terminal.wording import did_you_mean
+
+        raise click.UsageError(f'there is no study "{name}"; {did_you_mean(name, list(known))}')
+    path = output or Path(f"{name}.toml")
+    others = {path.with_name(file): text for file, text in beside(known[name]).items()}
+    for each, content in (others | {path: known[name]}).items():
+        with replacement(each, overwrite=overwrite) as temporary, writing(each):
+            temporary.write_text(content, encoding="utf-8")
+    and_others = "".join(f", with {each}" for each in others)
+    say(f"{path}: written{and_others}; gradhesion run {path}")
 
 
 @click.command(epilog=shared.example("validate study.toml", "validate study.toml --set parameters.A=0.02"))
@@ -96,9 +155,9 @@ def _in_words(found: dict[str, Any]) -> Iterator[str]:
     yield f"blocks    {found['blocks']:,}; {found['blocks_kept']:,} kept from an earlier run"
     if found["refusal"]:
         yield f"          run would refuse: {found['refusal']}"
-    free = f"; {bytes_in_words(found['bytes_free'])} free" if found["bytes_free"] is not None else ""
     beside = ", and as much beside it until it is complete" if found["blocks"] > 1 else ""
-    yield f"disk      at most {bytes_in_words(found['bytes_of_values'])}, less by compression{beside}{free}"
+    disk = f"{bytes_in_words(found['bytes_of_values'])}, less by compression{beside}"
+    yield f"disk      at most {disk}; {bytes_in_words(found['bytes_free'])} free"
     yield f"memory    about {bytes_in_words(found['bytes_of_memory'])}"
     if found["seconds"] is None:
         yield "time      only that of writing: every block is kept"

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -10,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from gradhesion.cli.study.rules.asked import MOST_VALUES, REQUIRED, Values, value_at
-from gradhesion.cli.study.rules.keys import File
+from gradhesion.cli.study.rules.asked import REQUIRED, Values, value_at
+from gradhesion.cli.study.rules.form import ProfileTable
+from gradhesion.cli.study.rules.keys import MOST_VALUES, File
 from gradhesion.cli.study.rules.mistakes import Mistake, line_of
 from gradhesion.cli.study.text.quantities import factor_of_column, scaled, si_value
 from gradhesion.cli.study.text.written import Key, value_of
@@ -27,6 +29,8 @@ COMMENT: Final = "a column of "
 """How the comment of a coordinate begins that is a column of a file."""
 HEIGHTS: Final = ("r", "height")
 """The columns of a measured profile."""
+FILE_KEYS: Final = {"file", "sha256", "terms", "exponent", "up_to"}
+"""The keys of a profile that say how it is fitted to a file."""
 TERMS: Final = 16
 """Harmonics that are fitted where a study does not say how many."""
 
@@ -123,31 +127,33 @@ def measured_in(data: Mapping[str, Any], folder: Path) -> FromFile:
     table, physical = data.get("profile"), data.get("physical")
     if not isinstance(table, Mapping) or not isinstance(file := table.get("file"), str) or not file:
         return FromFile()
-    up_to = _up_to(table, physical.get("a_max") if isinstance(physical, Mapping) else None)
+    form, reach = None, math.inf
+    with suppress(ValueError):  # it has no one length
+        reach = si_value(physical.get("a_max") if isinstance(physical, Mapping) else None, "a_max")
+    with suppress(ValidationError):  # it is refused
+        form = ProfileTable.model_validate({key: table[key] for key in FILE_KEYS & table.keys()})
     mistakes = [
         ((key.table, key.name), "this comes from the fit of the profile; remove it, or remove file under [profile]")
         for key in INPUTS.values()
         if (key.gives in ("lambda_over_R", "A") or key.name == "R")
         and value_at(data, (key.table, key.name)) is not None
     ]
-    if "up_to" not in table and up_to is None:
+    if "up_to" not in table and reach == math.inf:
         words = "unless a_max is one finite length, a profile needs the distance up to which it is fitted"
         mistakes.append((("profile", "up_to"), f"{words}; write for example {line_of('profile', 'up_to')}"))
     told = {INPUTS[str(path[-1])].gives for path, _ in mistakes if path[-1] in INPUTS} - {"modulus"}
     names = ("R", "wavelength", "amplitude") if isinstance(physical, Mapping) else ("lambda_over_R", "A")
     gives = tuple(name for name in names if INPUTS[name].gives not in told)
-    terms, exponent, expected = table.get("terms", TERMS), table.get("exponent", 2.0), table.get("sha256", "")
-    numbers = isinstance(terms, int) and (exponent == "fit" or isinstance(exponent, int | float))
     fit: FittedProfile | None = None
     try:
-        if up_to is not None and numbers and isinstance(expected, str):  # else refused by its form, or missing
+        if form is not None and (reach := form.up_to or reach) < math.inf:
             from gradhesion.core.answers.profile_fit import fit_profile  # noqa: PLC0415 (500 ms for SciPy)
 
             r, heights, sha256, dropped = read_profile(folder / file)
-            if expected not in ("", sha256):
-                raise ColumnsError(changed(sha256, expected, "remove sha256"))
-            power = None if exponent == "fit" else float(exponent)
-            fit = fit_profile(r, heights, up_to=up_to, terms=terms, exponent=power)
+            if form.sha256 not in ("", sha256):
+                raise ColumnsError(changed(sha256, form.sha256, "remove sha256"))
+            power = None if form.exponent == "fit" else form.exponent
+            fit = fit_profile(r, heights, up_to=reach, terms=form.terms or TERMS, exponent=power)
     except ValueError as error:
         mistakes.append((("profile", "file"), str(error)))
     if mistakes or fit is None:
@@ -156,15 +162,6 @@ def measured_in(data: Mapping[str, Any], folder: Path) -> FromFile:
     found |= {"lambda_over_R": fit.wavelength / fit.radius, "A": fit.amplitude / fit.wavelength}
     inputs = {name: found[name] for name in gives}
     return FromFile(key=("profile",), file=file, sha256=sha256, inputs=inputs, fit=fit, dropped=dropped)
-
-
-def _up_to(table: Mapping[str, Any], rim: object) -> float | None:
-    """Find the distance up to which a profile is fitted: that of its table, or the radius of the punch."""
-    try:
-        value = si_value(table.get("up_to", rim), "up_to" if "up_to" in table else "a_max")
-    except ValueError:
-        return None
-    return value if math.isfinite(value) else None
 
 
 def read_profile(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float64], str, int]:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.files import measured_in, points_of
+from gradhesion.cli.study.fit.columns import LoopFileError
 from gradhesion.cli.study.fit.loop_file import LoopFile
 from gradhesion.cli.study.fit.study import FitStudy, fit_of, loops_of
 from gradhesion.cli.study.fit.study import broken as broken_in_fit
@@ -107,8 +108,10 @@ def _of_any(source: Source) -> Study | FitStudy:
     mistakes = [*asked.mistakes, *_between(asked, source.data, broken_in_fit(asked))]
     loops: tuple[LoopFile, ...] = ()
     if asked.form.data and not any("data" in path[:1] for path in (*asked.misspelt, *(path for path, _ in mistakes))):
-        loops, more = loops_of(source.folder, asked)
-        mistakes += more
+        try:
+            loops = loops_of(source.folder, asked.form, asked.form.data)
+        except LoopFileError as error:
+            mistakes.append((("data", error.key), str(error)))
     _refuse(source, mistakes)
     return fit_of(source, asked.form, loops)
 
@@ -139,7 +142,7 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
     return Study(
         **given_by(source, form, {one.key: one.sha256 for one in (points, measured) if one.file}),
         layout=form.layout,
-        outputs=() if form.kind == "optimum" else variables_of(form.kind, form.outputs),
+        outputs=() if form.kind == "optimum" else _variables_of(form.kind, form.outputs),
         parameters=parameters,
         method=Method(solver=solver, check_contact=form.method.check_contact),
         profile=measured.fit.profile if measured.fit else profile,
@@ -156,12 +159,8 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
     )
 
 
-def variables_of(kind: str, requested: Iterable[str]) -> tuple[str, ...]:
-    """Give the variables that are asked for, in the order of the dataset: a curve stands for all of its own.
-
-    >>> variables_of("curve", ["jump_energy", "smooth"])[-2:]
-    ('jump_count', 'jump_energy')
-    """
+def _variables_of(kind: str, requested: Iterable[str]) -> tuple[str, ...]:
+    """Give the variables that are asked for, in the order of the dataset: a curve stands for all of its own."""
     requested = {*requested}
     if kind == "map":
         return tuple(name for name in OUTPUTS_OF["map"] if name in requested)

@@ -16,11 +16,7 @@ CONTROLS: Final = {
 
 
 def shape_in_words(profile: Profile, spectrum: Spectrum | None = None) -> str:
-    """Write the shape of a punch as a formula; of random roughness what it is drawn from.
-
-    >>> shape_in_words(Profile())
-    'r^2/(2 R) + lambda A [1 - cos(2 pi x)], x = r/lambda'
-    """
+    """Write the shape of a punch as a formula; of random roughness what it is drawn from."""
     m = profile.exponent
     power = {1.0: "", 2.0: " R"}.get(m, f" R^{m - 1.0:.15g}")
     own = f"r^{m:.15g}/({m:.15g}{power})" if m != 1.0 else "r"

@@ -40,17 +40,7 @@ class Method:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Study(Given):
-    """A valid study of scenes, its parameters expanded: a float is fixed, an array is an axis (or, in points, a list).
-
-    >>> from gradhesion.cli.study import study_from
-    >>> study = study_from({
-    ...     "outputs": ["pull_off_force"],
-    ...     "parameters": {"k": [0.0, 0.5], "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1,
-    ...                    "A": {"start": 0.0, "stop": 0.1, "num": 3}, "a_max_over_R": float("inf")},
-    ... })
-    >>> study.sizes
-    {'k': 2, 'A': 3}
-    """
+    """A valid study of scenes, its parameters expanded: a float is fixed, an array is an axis, or in points a list."""
 
     layout: str
     outputs: tuple[str, ...]

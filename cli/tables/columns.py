@@ -63,11 +63,9 @@ def word(cell: str, words: Mapping[str, float]) -> float:
 def whole_number(cell: str) -> float:
     """Give the whole number in a cell; NaN if there is none."""
     value = number(cell)
-    if math.isinf(value) or (math.isfinite(value) and value != math.floor(value)):
-        raise ValueError("is not a whole number; write one")
-    if abs(value) >= _LARGEST:
-        raise ValueError("is a whole number of more than 15 digits; write a smaller one")
-    return value
+    if math.isnan(value) or (value.is_integer() and abs(value) < _LARGEST):
+        return value
+    raise ValueError("is not a whole number of at most 15 digits; write one")
 
 
 class ColumnsError(ValueError):

@@ -8,14 +8,12 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.files import kind_by_content, kind_of, read_at_most
+from gradhesion.cli.disk import kind_by_content, kind_of, read_at_most
 from gradhesion.cli.tables.columns import Columns, ColumnsError, Wanted, number, tidy
 from gradhesion.cli.tables.text import of_text
 
 MOST_BYTES: Final = 2**29
 """The largest file that is read: ten million rows of some columns."""
-_MAGIC: Final = (b"\x89HDF\r\n\x1a\n", b"CDF")
-"""How such files begin."""
 
 
 def read_columns(
@@ -47,9 +45,10 @@ def read_columns(
     if not content.strip():
         raise ColumnsError("the file is empty; name a table with a header and a row of numbers")
     sha256 = hashlib.sha256(content).hexdigest()
-    if content.startswith(_MAGIC):
+    kind = kind_by_content(content)
+    if kind.startswith("a dataset"):
         return _of_netcdf(content, sha256, wanted)
-    if kind := kind_by_content(content):
+    if kind:
         raise ColumnsError(f"the file is {kind}, not a table; name a table of numbers in CSV or NetCDF")
     return of_text(content, sha256, wanted)
 

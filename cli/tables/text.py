@@ -18,8 +18,6 @@ from gradhesion.cli.terminal.wording import shown
 
 LONGEST: Final = 2**15
 """Characters of a header: above any that is meant as one."""
-SHOWN: Final = 24
-"""Characters of a cell that is shown."""
 _HEAD: Final = re.compile(r"\s*(.*?)\s*(?:[\[(]\s*([^\])]*?)\s*[\])])?\s*")
 """A name, and in brackets its unit."""
 _UNIT: Final = re.compile(r"[\[(]?\s*([^\W\d_][^\[\]()]{0,19}?|[%°\u2126-])\s*[\])]?")
@@ -209,14 +207,8 @@ def _read(text: str, header: Header, readers: Mapping[int, Callable[[str], float
             try:
                 found[i].append(read(cell))
             except ValueError as error:
-                raise ColumnsError(f"line {place}: {_shown(header, i, cells[i])} {error}") from None
+                raise ColumnsError(f"line {place}: {header.names[i]} = {shown(cells[i])} {error}") from None
     return {i: np.array(values) for i, values in found.items()}
-
-
-def _shown(header: Header, column: int, cell: str) -> str:
-    """Name a column and show a cell of it."""
-    cell = cell if len(cell) <= SHOWN else f"{cell[:SHOWN]}..."
-    return f"{header.names[column]} = {shown(cell)}"
 
 
 def _has_decimal_commas(text: str, header: Header, columns: list[int]) -> bool:
@@ -228,7 +220,7 @@ def _has_decimal_commas(text: str, header: Header, columns: list[int]) -> bool:
             if "." in cells[i] and is_number(cells[i]):
                 points = points or place
             elif "," in cells[i] and _COMMA.fullmatch(cells[i]):
-                commas, first = commas or place, first or _shown(header, i, cells[i])
+                commas, first = commas or place, first or f"{header.names[i]} = {shown(cells[i])}"
                 sure = sure or not _THOUSANDS.fullmatch(cells[i])
     remedy = "write points for the decimals, and nothing between thousands"
     if commas and points:

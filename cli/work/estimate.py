@@ -1,9 +1,9 @@
 """What a run would do and cost: blocks, what is kept of them, bytes, and the time by a few scenes that are solved."""
 
 import math
+import os
 import shutil
 import time
-from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
 
@@ -42,10 +42,7 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> dict[str
     scenes_left = sum(size_of(study.tiling[number]) for number in left)
     values = 8 * sum(math.prod(study.shape_of(name, ())) for name in study.variables) if numbers else 0
     largest = size_of(study.tiling[0])
-    free = None
-    for folder in reversed(output.absolute().parents):  # the nearest that is there
-        with suppress(OSError):
-            free = shutil.disk_usage(folder).free
+    nearest = next(folder for folder in output.absolute().parents if os.path.isdir(folder))  # noqa: PTH112 (no error)
     return {
         "output": str(output),
         "output_exists": output.exists(),
@@ -59,7 +56,7 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> dict[str
         "blocks": len(numbers),
         "blocks_kept": len(numbers) - len(left),
         "bytes_of_values": values * study.scenes,
-        "bytes_free": free,
+        "bytes_free": shutil.disk_usage(nearest).free,
         "bytes_of_memory": round(BASE + COPIES * values * largest),
         "seconds": of_scene * scenes_left / (threads or processors()) if of_scene else None,
         "seconds_of_block": of_scene * largest if of_scene else None,

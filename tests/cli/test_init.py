@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from gradhesion.cli.commands.init import studies
+from gradhesion.cli.commands.plan import studies
 from gradhesion.cli.errors import MissingExtraError
 from gradhesion.cli.installation import checked, misfit, refuse_without_threads, unmet
 from tests.cli.conftest import Call, Called, Patch

@@ -14,7 +14,7 @@ import pytest
 from click.testing import CliRunner
 
 from gradhesion.cli import errors
-from gradhesion.cli.files import kind_of
+from gradhesion.cli.disk import kind_of
 from gradhesion.cli.main import cli
 from gradhesion.cli.terminal.progress import progress
 from tests.cli.conftest import Call, Patch

@@ -53,7 +53,7 @@ TABLES: dict[str, tuple[str, str]] = {
     "a comment of other words": ("# one two three\n1,2\n", "line 2 has numbers where the names of the columns are expected; add a header line"),
     "one name twice": ("@x,@y,@x\n1,2,3\n", 'columns 1 and 3 of the header on line 1 have one name, "@x"; rename one'),
     "long cell": ('@x,@y\n1,"' + 140_000 * "9" + '"\n', "line 2 has a cell of more than 131,072 characters; shorten it"),
-    "long line": ("@x,@y\n1," + 10**6 * "x" + "\n", 'line 2: @y = "xxxxxxxxxxxxxxxxxxxxxxxx..." is not a number; write one'),
+    "long line": ("@x,@y\n1," + 10**6 * "x" + "\n", f'line 2: @y = "{75 * "x"} ... is not a number; write one'),
     "row of units and no more": ("@x,@y\n" * 2, "is not a number; write one"),
 }  # fmt: skip
 """Texts with @x and @y in the place of the columns that a reader wants, and what is said."""

@@ -7,8 +7,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from gradhesion.cli.disk import kind_of
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.files import kind_of
 from gradhesion.cli.names.curves import EXTENTS, RAGGED, variables_of_curves
 from gradhesion.cli.names.fits import FIT, FIT_POINTS, PARAMETER_UNITS
 from gradhesion.cli.names.outputs import BEST, OUTPUTS, SI, unit_of

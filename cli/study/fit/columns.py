@@ -88,19 +88,16 @@ def is_force_file(table: DataTable) -> bool:
 def _of_curve(curve: Any, table: DataTable, *, through_machine: bool) -> Rows:
     """Give depth (or displacement), load and branch of a force curve."""
 
-    def known(name: str) -> NDArray[np.float64]:
+    def known(name: str, key: str = "file") -> NDArray[np.float64]:
         if name not in curve:
-            there = ", ".join(map(shown, curve.columns))
-            raise LoopFileError("file", f"the curve has no column {shown(name)}, only {there}; export it with that one")
+            near = did_you_mean(name, curve.columns)
+            raise LoopFileError(key, f"the file has no column {shown(name)}; {near}, or export it with that one")
         return np.asarray(curve[name], dtype=np.float64)
 
     def column(key: str) -> NDArray[np.float64]:
         requested = getattr(table, key)
-        if requested.column not in curve:
-            near = did_you_mean(requested.column, curve.columns)
-            raise LoopFileError(key, f"the file has no column {shown(requested.column)}; {near}")
         unit = "N" if requested.column == "force" else "m"  # afmformats has SI units
-        found = {requested.column: known(requested.column)}
+        found = {requested.column: known(requested.column, key)}
         return _in_si(Columns(values=found, units=dict.fromkeys(found, unit), sha256="", place=str), key, requested)
 
     load = column("load") if table.load else known("force")

@@ -2,6 +2,7 @@
 
 import hashlib
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from glob import glob
 from pathlib import Path
@@ -10,8 +11,10 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.cli.disk import read_at_most
 from gradhesion.cli.study.fit.columns import PAUSE, LoopFileError, Rows, read_raw
 from gradhesion.cli.study.rules.fit_form import DataTable
+from gradhesion.cli.tables.reading import MOST_BYTES
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.loops.measured import points as loop_points
 from gradhesion.core.loops.measured.features import fault_of
@@ -96,7 +99,10 @@ def read_loops(
             loops += [_loop(rows, file, sha256, table, fitted, average=average) for file, rows in files]
         except LoopFileError as error:
             errors.append(error)
-            loops.append(LoopFile(file=name, problem=str(error), sha256=_digest(folder / name)))
+            sha256 = ""
+            with suppress(OSError):
+                sha256 = hashlib.sha256(read_at_most(folder / name, MOST_BYTES)).hexdigest()
+            loops.append(LoopFile(file=name, problem=str(error), sha256=sha256))
     if errors and all(loop.problem for loop in loops):
         several = f" (and so with each of the {counted(len(loops), 'loop')})"
         words = str(errors[0]) if len(loops) == 1 else f"{loops[0].file}: {errors[0]}{several}"
@@ -110,14 +116,6 @@ def _names_of(folder: Path, file: str) -> list[str]:
         return [file]
     found = glob(file, root_dir=folder, recursive=True)  # noqa: PTH207 (patterns may be absolute)
     return sorted(name for name in found if (folder / name).is_file())
-
-
-def _digest(path: Path) -> str:
-    """Give the fingerprint of a file that is no loop; empty where it cannot be read."""
-    try:  # to open a pipe would wait for who writes into it
-        return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
-    except OSError:
-        return ""
 
 
 def fingerprint(loops: Iterable[LoopFile]) -> str:

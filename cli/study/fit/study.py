@@ -10,11 +10,12 @@ import numpy as np
 from gradhesion.cli.study.fit.columns import LoopFileError, is_force_file
 from gradhesion.cli.study.fit.loop_file import LoopFile, fingerprint, read_loops
 from gradhesion.cli.study.rules.asked import Asked, Found, home
+from gradhesion.cli.study.rules.fit_form import DataTable
 from gradhesion.cli.study.rules.form import Form
 from gradhesion.cli.study.rules.given import Given, given_by
 from gradhesion.cli.study.rules.inputs import inputs, rate, shape_of, together, toughness, waves, works
 from gradhesion.cli.study.rules.keys import Range
-from gradhesion.cli.study.rules.mistakes import Mistake, line_of, required
+from gradhesion.cli.study.rules.mistakes import line_of, required
 from gradhesion.cli.study.text.source import Source
 from gradhesion.cli.tables.columns import changed
 from gradhesion.cli.terminal.amounts import counted
@@ -90,21 +91,15 @@ class FitStudy(Given):
         return tuple(sentences)
 
 
-def loops_of(folder: Path, asked: Asked) -> tuple[tuple[LoopFile, ...], list[Mistake]]:
-    """Read the loops that a fit names in its table [data], which is right; and what is wrong with them."""
-    table, form = asked.form.data, asked.form
-    assert table is not None  # noqa: S101 (it is right)
+def loops_of(folder: Path, form: Form, table: DataTable) -> tuple[LoopFile, ...]:
+    """Read the loops that a fit names in its table [data], which is right; LoopFileError says what is wrong."""
     fitted = [name for name, entry in given_in(form).items() if isinstance(entry, Range)]
     fitted += Offsets(**dict(form.fit.offsets)).names
     through_machine = control_of(form) == "machine"
-    try:
-        loops = read_loops(folder, table, fitted, average=form.fit.average, through_machine=through_machine)
-    except LoopFileError as error:
-        return (), [(("data", error.key), str(error))]
-    sha256 = fingerprint(loops)
-    if table.sha256 in ("", sha256):
-        return loops, []
-    return loops, [(("data", "file"), changed(sha256, table.sha256, "remove sha256"))]
+    loops = read_loops(folder, table, fitted, average=form.fit.average, through_machine=through_machine)
+    if table.sha256 not in ("", sha256 := fingerprint(loops)):
+        raise LoopFileError("file", changed(sha256, table.sha256, "remove sha256"))
+    return loops
 
 
 def fit_of(source: Source, form: Form, loops: tuple[LoopFile, ...]) -> FitStudy:

@@ -21,8 +21,6 @@ Found = Iterator[tuple[str, str]]
 """Dotted keys, and what is wrong with each."""
 Values = float | NDArray[np.float64]
 """The values of a parameter: a float is fixed, an array is an axis."""
-MOST_VALUES: Final = 10_000_000
-"""Values of one axis: it is held in memory, and so are its kin."""
 _DIGITS: Final = 12
 """Significant digits of the decimals that the values of a range are moved to, where these are within rounding."""
 REQUIRED: Final = {"k": 0.5, "nu": 0.3}
@@ -236,15 +234,11 @@ def _shortest(values: NDArray[np.float64], size: NDArray[np.float64] | float) ->
 
 
 def range_mistakes(name: str, entry: Entry) -> Iterator[tuple[str, str]]:
-    """Check that a range makes sense as a whole, and that an axis can be held in memory."""
+    """Check that a range makes sense as a whole."""
     at = home(name)
-    if isinstance(entry, list) and len(entry) > MOST_VALUES:
-        yield at, f"more than {MOST_VALUES:,} values in one list; split the study"
     if not isinstance(entry, Range):
         return
-    if entry.num and entry.num > MOST_VALUES:
-        yield f"{at}.num", f"more than {MOST_VALUES:,} values in one axis; split the study"
-    elif entry.num == 1 and entry.start != entry.stop:
+    if entry.num == 1 and entry.start != entry.stop:
         yield f"{at}.num", "one value cannot be at both start and stop; use num = 2 or more, or a list of one value"
     elif entry.start == entry.stop and entry.num != 1:
         yield at, "start and stop are the same; write another stop, or a number"

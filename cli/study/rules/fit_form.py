@@ -1,6 +1,5 @@
 """The form of a fit: the columns of measured loops, and what is fitted beside the parameters."""
 
-from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
@@ -75,12 +74,8 @@ class OffsetsTable(Table):
 
 def _offsets(value: object) -> object:
     """Read whether all zeros are fitted, or none."""
-    if isinstance(value, bool):
-        return dict.fromkeys(("indentation", "load"), "free" if value else False)
-    if not isinstance(value, Mapping):
-        what = "this must be true or false, or a table; write for example offsets = { slope = true }"
-        raise ValueError(what)  # noqa: TRY004 (pydantic hears no other)
-    return value
+    both = dict.fromkeys(("indentation", "load"), "free" if value else False)
+    return both if isinstance(value, bool) else value
 
 
 class Noise(Table):

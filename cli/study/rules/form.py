@@ -9,7 +9,7 @@ from dataclasses import fields
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, get_args
 
-from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, create_model
+from pydantic import AfterValidator, Field, WithJsonSchema, create_model
 
 from gradhesion.cli.names.outputs import OF_LINEAR, SI
 from gradhesion.cli.study.rules.fit_form import DataTable, FitTable
@@ -44,15 +44,9 @@ OUTPUTS_OF: Final = {
 """What can be asked for, by the kind of study; studies of the other kinds have no outputs."""
 Entry = float | list[float] | Range | Literal["data"]
 """What a study gives for an input: a number, a list, or a range; quantities in SI units."""
-Words = Annotated[
-    list[str],
-    Field(min_length=1),
-    BeforeValidator(lambda value: [value] if isinstance(value, str) else value),
-    WithJsonSchema({"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 1}]}),
-]
-"""One word, or a list of some."""
 
 if TYPE_CHECKING:  # made when this is run, which the types cannot show
+    Words = list[str]
     Parameters = Any
     Physical = Any
     Deviations = Any
@@ -62,6 +56,10 @@ if TYPE_CHECKING:  # made when this is run, which the types cannot show
     LoadingTable = Any
     RateTable = Any
 else:
+    Words = Annotated[
+        tagged(plain=str, list=Annotated[list[str], Field(min_length=1)]),
+        AfterValidator(lambda value: [value] if isinstance(value, str) else value),
+    ]
     _power = Annotated[Finite, Field(ge=EXPONENTS[0], le=EXPONENTS[1])]
     _powers = Annotated[
         tagged(plain=_power, table=range_of(Input("exponent", "", "", "0.3"), _power)),

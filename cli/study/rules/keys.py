@@ -13,6 +13,8 @@ from gradhesion.core.problem.inputs import Input
 from gradhesion.core.problem.profile import MOST_HARMONICS
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
+MOST_VALUES: Final = 10_000_000
+"""Values of one axis: it is held in memory, and so are its kin."""
 _PERCENTAGE: Final = re.compile(r"\s*([+-]?(?:\d{1,20}\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*%\s*")
 
 
@@ -85,7 +87,8 @@ class Range(Table):
         "50",
         None,
         ge=1,
-        json_schema_extra={"type": "integer", "minimum": 1},
+        le=MOST_VALUES,
+        json_schema_extra={"type": "integer", "minimum": 1, "maximum": MOST_VALUES},
     )
     spacing: Literal["linear", "log"] = said("whether differences or ratios of neighbours are equal", '"log"', "linear")
 
@@ -109,7 +112,8 @@ def tagged(**forms: Any) -> Any:
     """Make the type of a value of several forms (plain, list, table), told apart before any is tried."""
 
     def form_of(value: object) -> str:
-        return "table" if isinstance(value, Mapping) else "list" if isinstance(value, list) else "plain"
+        own = "table" if isinstance(value, Mapping) else "list" if isinstance(value, list) else "plain"
+        return own if own in forms else "plain"
 
     own: Any = Union[tuple(Annotated[form, Tag(name)] for name, form in forms.items())]  # noqa: UP007 (at run time)
     return Annotated[own, Discriminator(form_of)]
@@ -132,7 +136,7 @@ def input_key(own: Input) -> tuple[Any, Any]:
         read = BeforeValidator(lambda value: value if value == "data" else si_value(value, own.name))
         plain = Annotated[float | Literal["data"], read]
     ends = range_of(own, Annotated[number, Field(allow_inf_nan=False)])
-    forms = tagged(plain=plain, list=Annotated[list[number], Field(min_length=1)], table=ends)
+    forms = tagged(plain=plain, list=Annotated[list[number], Field(min_length=1, max_length=MOST_VALUES)], table=ends)
     return forms, said(own.about, own.value, ... if own.name in ("k", "nu") else None)
 
 

@@ -10,8 +10,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Final
 
+from gradhesion.cli.disk import kind_of
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.files import kind_of
 from gradhesion.cli.study.text.written import Key, lines_of
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, FAILED, POOR_FIT

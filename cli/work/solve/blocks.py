@@ -62,14 +62,7 @@ def in_threads(study: Study, numbers: Sequence[int], threads: int | None = None)
 
 
 def within(name: str, block: Block, part: NDArray[Any], begun: int = 0) -> Block:
-    """Report where a part goes that may have further dimensions than its block, or none of it, after `begun` items.
-
-    >>> import numpy as np
-    >>> within("path_load", (slice(2, 3),), np.zeros((1, 5)))
-    (slice(2, 3, None), slice(0, 5, None))
-    >>> within("jump_energy", (slice(2, 3),), np.zeros(4), 7)
-    (slice(7, 11, None),)
-    """
+    """Report where a part goes that may have further dimensions than its block, or none of it, after `begun` items."""
     if is_ragged(name):
         return (slice(begun, begun + part.size),)
     return (*block, *(slice(0, length) for length in part.shape[len(block) :]))
