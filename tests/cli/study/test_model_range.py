@@ -128,6 +128,14 @@ def test_a_cone_says_it_once(gradhesion: Call, ran: Run) -> None:
     assert "a cone" in gradhesion("info", path).stdout.partition("outside the range")[2]
 
 
+def test_steep_waves_are_counted_of_harmonics_and_not_of_random_ones(ran: Run, gradhesion: Call) -> None:
+    steep = asked(A=0.5, a_max_over_R=0.3)
+    random = steep | {"profile": {"spectrum": {"hurst": 0.8, "first": 1, "last": 4, "realisations": 2, "seed": 3}}}
+    for study, counted in ((steep, True), (random, False)):
+        _, _, path = ran(study, "--overwrite")
+        assert ("wave_slope" in gradhesion("info", path).stdout.partition("outside the range")[2]) == counted
+
+
 def test_pictures_hatch_them_and_pages_say_it(ran: Run, gradhesion: Call, tmp_path: Path) -> None:
     waves = {"start": 0.05, "stop": 0.8, "num": 10, "spacing": "log"}
     study = asked(k={"start": 0.0, "stop": 0.3, "num": 12}, lambda_over_R=waves)
