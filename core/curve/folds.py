@@ -9,6 +9,7 @@ from gradhesion.core.curve.values import (
     bin_of,
     coordinate_of,
     depth_and_load,
+    depth_at_centre,
     radius_of,
     slope_at,
     slope_in,
@@ -16,7 +17,7 @@ from gradhesion.core.curve.values import (
     slope_terms_at,
 )
 from gradhesion.core.jit import kernel, leaf
-from gradhesion.core.table.layout import BE, BP, BV, HALF, KE, QPOW, QUP, RLOW, RPOW, SLOPE, E, P, U, V, Y, end_of
+from gradhesion.core.table.layout import BE, BP, BV, HALF, QPOW, QUP, RLOW, RPOW, Y, end_of
 from gradhesion.core.types import Floats
 
 _CHUNK: Final = 32
@@ -264,22 +265,6 @@ def close_end(curve: Curve, last: int, count: int, trace: Floats) -> None:
         trace[at.END_LEVEL, count - 1] = coordinate_of(curve, depth, load)
 
 
-@leaf
-def _depth_at_centre(curve: Curve) -> float:
-    """Return the depth at a first fold below the table, where B y^m + g U is a straight line and the toughness kappa.
-
-    The line rises there as fast as kappa q y^(eta-1), eta = (1-k)/2. Where k is almost 1, much of the stretch kappa
-    y^eta is left at that radius, however small it is.
-    """
-    k, nodes = curve.table.k, curve.table.nodes
-    y, eta, kappa = nodes[Y, 0], 0.5 * (1.0 - k), max(nodes[KE, 0] / nodes[E, 0], 0.0)
-    q = eta if curve.by_depth > 0.0 else eta + 1.0 + k
-    excess = (kappa - 1.0) * nodes[E, 0]  # which the row U of a pattern has taken off
-    rise = curve.B * nodes[SLOPE, 0] + curve.g * nodes[V, 0] + eta * excess
-    flat = curve.B * nodes[P, 0] + curve.g * nodes[U, 0] + y * excess
-    return flat - y * rise - (1.0 - q) * kappa * (kappa * q / rise) ** (eta / (1.0 - eta))
-
-
 @kernel
 def find_folds(curve: Curve, y_end: float, trace: Floats) -> int:
     """Fill the trace with all branches that begin below a radius, and return their number, FULL or TOO_SHORT.
@@ -291,7 +276,7 @@ def find_folds(curve: Curve, y_end: float, trace: Floats) -> int:
         last = bin_of(curve.table, y_end) + 1
     count, trace[at.CLOSE_PAIR, 0] = 0, math.inf
     if slope_at(curve, first) > 0.0:  # k = 1, or a first fold below the table: the first branch begins at 0
-        depth = _depth_at_centre(curve)
+        depth = depth_at_centre(curve)
         trace[at.START, 0], trace[at.START_DEPTH, 0], trace[at.START_LOAD, 0] = 0.0, depth, 0.0
         trace[at.START_LEVEL, 0] = coordinate_of(curve, depth, 0.0)
         trace[at.END, 0], trace[at.END_LEVEL, 0], trace[at.UNLOADED, 0] = math.inf, math.inf, math.nan

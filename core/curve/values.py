@@ -129,6 +129,22 @@ def slope_at(curve: Curve, i: int) -> float:
 
 
 @leaf
+def depth_at_centre(curve: Curve) -> float:
+    """Return the depth at a first fold below the table, where B y^m + g U is a straight line and the toughness kappa.
+
+    The line rises there as fast as kappa q y^(eta-1), eta = (1-k)/2. Where k is almost 1, much of the stretch kappa
+    y^eta is left at that radius, however small it is.
+    """
+    k, nodes = curve.table.k, curve.table.nodes
+    y, eta, kappa = nodes[at.Y, 0], 0.5 * (1.0 - k), max(nodes[at.KE, 0] / nodes[at.E, 0], 0.0)
+    q = eta if curve.by_depth > 0.0 else eta + 1.0 + k
+    excess = (kappa - 1.0) * nodes[at.E, 0]  # which the row U of a pattern has taken off
+    rise = curve.B * nodes[at.SLOPE, 0] + curve.g * nodes[at.V, 0] + eta * excess
+    flat = curve.B * nodes[at.P, 0] + curve.g * nodes[at.U, 0] + y * excess
+    return flat - y * rise - (1.0 - q) * kappa * (kappa * q / rise) ** (eta / (1.0 - eta))
+
+
+@leaf
 def slope_in(curve: Curve, i: int, t: float) -> tuple[float, float, float, float]:
     """Return D and its first two derivatives by t, times the half width of bin i, and the depth, at a place in it.
 

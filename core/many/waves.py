@@ -176,12 +176,9 @@ def mix_wave(waves: Waves, number: float, column: int, nodes: Floats, polys: Flo
 
 @kernel
 def waves_from(waves: Waves, number: float, nodes: Floats, polys: Floats) -> Table:
-    """Return a table of as many waves, from one on, as the given room holds.
-
-    Its integrals from 0 are NaN until `fill_from_zero` knows them, and not those of whatever stood there before.
-    """
+    """Return a table of as many waves, from one on, as the given room holds."""
     bins, room = len(polys), np.empty((3, SIZE))
-    nodes[at.HM, 0] = math.nan
+    nodes[at.HM, 0] = math.nan  # until `fill_from_zero`: what stands there is of other waves
     for j in range(bins // waves.per):
         mix_wave(waves, number + j, j * waves.per, nodes, polys, room)
     start = start_of(waves, number)

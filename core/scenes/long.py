@@ -48,7 +48,7 @@ _WALKED_BINS: Final = 40_000
 _BINS_OF_A_WAVE: Final = 1024
 """Bins of a wave at most, where waves are summed: 5 MB for each doubling of their number."""
 _KEPT_WAVES: Final = 64e6
-"""Bytes of all waves (many/waves.py) that are kept with_limits calls."""
+"""Bytes of all waves (many/waves.py) that are kept between calls."""
 
 
 @leaf
