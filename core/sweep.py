@@ -306,7 +306,7 @@ def solve(
         with np.errstate(all="ignore"):
             found |= {name: found[_GAINS[name]] / smooth[_GAINS[name]] for name in gains}
     if slopes:
-        from gradhesion.core.scenes.slopes import sensitivities  # noqa: PLC0415 (kernels of their own)
+        from gradhesion.core.slopes.sensitivities import sensitivities  # noqa: PLC0415 (kernels of their own)
 
         given = [name for name in (*_COLUMNS, *TURNS) if name in parameters]
         found |= sensitivities(request, slopes, given, threads)

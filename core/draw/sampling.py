@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from gradhesion.core.curve.values import Curve, state_at
+from gradhesion.core.curve.values import Curve, depth_at_centre, slope_at, state_at
 from gradhesion.core.jit import kernel
 from gradhesion.core.table.filling import waves_at
 from gradhesion.core.table.layout import EXACT, Source
@@ -45,8 +45,8 @@ def _fill_states(curve: Curve, source: Source, points: Floats) -> None:
             points[1, i], points[2, i] = state_at(curve, source, points[0, i])
         else:  # without contact
             points[1, i] = points[2, i] = 0.0
-            if curve.table.k == 1.0:
-                points[1, i] = curve.g * curve.table.zero - 1.0
+            if curve.table.k == 1.0 or slope_at(curve, 0) > 0.0:  # the first branch begins at a point
+                points[1, i] = depth_at_centre(curve)
             elif source.form != EXACT:
                 points[1, i] = curve.g * waves_at(source, 0.0)[0]
 

@@ -14,7 +14,7 @@ from gradhesion.core.curve.energy import GAUSS, GAUSS_WEIGHTS
 from gradhesion.core.curve.values import bin_of
 from gradhesion.core.jit import kernel, quadrature
 from gradhesion.core.table import layout as at
-from gradhesion.core.table.filling import bend_of, fit, with_bounds
+from gradhesion.core.table.filling import bend_of, fill_bounds, fit
 from gradhesion.core.table.layout import POINTS, WEIGHTS, N, Table
 from gradhesion.core.types import Floats
 
@@ -137,13 +137,8 @@ def patterned_table(
             nodes[at.V, i + edge] -= slope / half
             nodes[at.KE, i + edge] = nodes[at.E, i + edge] + value / nodes[at.Y, i + edge]
     lowest = g * plain.lowest - (pattern.most - 1.0)
-    table = with_bounds(
-        Table(
-            k, plain.exponent, plain.share, plain.start, plain.width, lowest, 0.0, plain.geometric, bins, nodes, polys
-        ),
-        g * crest + pattern.steep,
-        bins,
-    )
+    table = Table(k, plain.exponent, plain.share, plain.start, plain.width, lowest, plain.geometric, bins, nodes, polys)
+    fill_bounds(table, g * crest + pattern.steep)
     for i in range(bins + 1):  # the share of the load in D is (1+k) kappa E at most, which the scan takes for (1+k) E
         nodes[at.RLOW, i] -= (1.0 + k) * (pattern.most - 1.0) / nodes[at.Y, i]
     return table

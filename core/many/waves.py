@@ -182,7 +182,7 @@ def waves_from(waves: Waves, number: float, nodes: Floats, polys: Floats) -> Tab
     for j in range(bins // waves.per):
         mix_wave(waves, number + j, j * waves.per, nodes, polys, room)
     start = start_of(waves, number)
-    return Table(waves.k, waves.exponent, waves.share, start, waves.width, waves.lowest, 0.0, 0, bins, nodes, polys)
+    return Table(waves.k, waves.exponent, waves.share, start, waves.width, waves.lowest, 0, bins, nodes, polys)
 
 
 @kernel

@@ -8,85 +8,27 @@ traces; what each of them gets does not depend on the others.
 import math
 from typing import NamedTuple
 
-import numpy as np
-
 from gradhesion.core.borrowed import borrowed
-from gradhesion.core.curve.folds import CLOSE, find_folds
+from gradhesion.core.curve.folds import find_folds
 from gradhesion.core.curve.levels import polished
-from gradhesion.core.curve.trace import END, END_LEVEL, LANDING, START, room_for
-from gradhesion.core.curve.values import Curve, load_curve, softness, state_in
-from gradhesion.core.cycle.disc import RULE, Disc, gap_is_open, loading_is_one_disc
-from gradhesion.core.cycle.path import Loaded, Unloaded, load_to, snap_in, unload_from, visited_within, walk_loading
+from gradhesion.core.curve.trace import END, END_LEVEL, LANDING, START
+from gradhesion.core.curve.values import Curve, load_curve, state_in
+from gradhesion.core.cycle.disc import gap_is_open, loading_is_one_disc
+from gradhesion.core.cycle.path import Loaded, load_to, snap_in, unload_from, visited_within, walk_loading
 from gradhesion.core.cycle.pull_off import Lowest, lowest_load, serves
 from gradhesion.core.cycle.residual import work_of_cycle
 from gradhesion.core.cycle.ties import loading_is_tied, rim_is_tied, target_is_tied, unloading_is_tied
 from gradhesion.core.cycle.turning import turning_radius
-from gradhesion.core.edge.pattern import Pattern, edge_area, patterned_table, toughness_at
+from gradhesion.core.edge.pattern import Pattern, patterned_table
 from gradhesion.core.jit import inlined, kernel, leaf
-from gradhesion.core.problem.status import (
-    CLOSE_TO_A_JUMP,
-    JUMP_IN_TO_RIM,
-    LOADING_NOT_ONE_DISC,
-    NO_CONTACT,
-    NO_VALUE,
-    PULL_OFF_AT_RIM,
-)
+from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.scenes import rows as at
-from gradhesion.core.scenes.reduced import AT_A_LOAD, AT_DEPTH, AT_RIM, UNIT_OF_FORCE, Punch
+from gradhesion.core.scenes.reduced import AT_A_LOAD, AT_DEPTH, AT_RIM, Punch
 from gradhesion.core.scenes.requests import Wanted
-from gradhesion.core.table.basis import room_of
-from gradhesion.core.table.layout import LANES, Table, end_of
+from gradhesion.core.scenes.results import Cycle, no_value, put_force, put_losses, put_no_contact, put_pull_off
+from gradhesion.core.scenes.tables import Task
+from gradhesion.core.table.layout import Table, end_of
 from gradhesion.core.types import Floats, Integers
-
-
-class Rooms(NamedTuple):
-    """Room for the curves of one task, so that little is allocated in its loops.
-
-    traces      of closing, of opening, and of what is measured for the turn, (3, ROWS, branches)
-    columns     those that loading visits, and a stack of unloading, (2, branches)
-    nodes       of the tables of closing and of opening of interfaces with a pattern, (2, ROWS, bins + 1)
-    polys       their polynomials, (2, bins, LANES + 1, N)
-    limits      those of `loading_is_one_disc` of the last curve, (2,)
-    weights     of the rule of `Task.disc`, (RULE,)
-    """
-
-    traces: Floats
-    columns: Integers
-    nodes: Floats
-    polys: Floats
-    limits: Floats
-    weights: Floats
-
-
-def rooms_for(bins: int, patterned: bool) -> Rooms:
-    """Return room for tables of that many bins."""
-    nodes, polys = room_of(bins if patterned else 0, LANES + 1)
-    traces = np.empty((3, *room_for(bins).shape))
-    columns = np.empty((2, traces.shape[2]), dtype=np.int64)
-    return Rooms(traces, columns, np.stack((nodes, nodes)), np.stack((polys, polys)), np.empty(2), np.empty(RULE))
-
-
-class Task(NamedTuple):
-    """What scenes of one exponent are solved with.
-
-    punch     what all scenes share
-    wanted    what is wanted of them
-    table     without pattern
-    by_load   the table of the pull-off: the same, but for the leading terms of short waves
-    crest     a bound of -U' y^((k-1)/2) beyond the table
-    disc      what the tests of the contact need
-    rooms     room
-    reach     scenes that must be known beyond it are left as SHORT
-    """
-
-    punch: Punch
-    wanted: Wanted
-    table: Table
-    by_load: Table
-    crest: float
-    disc: Disc
-    rooms: Rooms
-    reach: float
 
 
 class Walked(NamedTuple):
@@ -233,90 +175,6 @@ def _is_tied(walked: Walked, opened: int, y: float, at_rim: bool) -> bool:
     tied = rim_is_tied(closing, y) or loading_is_tied(closing, y, at_rim, walked.loading, walked.branches)
     tied = tied or (walked.ratio < 1.0 and rim_is_tied(opening, y))
     return tied or unloading_is_tied(opening, y, walked.unloading, opened)
-
-
-@leaf
-def no_value(out: Floats, i: int, status: float) -> None:
-    """Store that a scene has no value."""
-    out[:, i] = math.nan
-    out[at.STATUS, i] = status
-
-
-@kernel
-def put_no_contact(scenes: Floats, i: int, out: Floats) -> None:
-    """Store a cycle that turns before contact is made."""
-    out[:, i] = 0.0
-    out[at.PULL_OFF_RADIUS, i] = out[at.JUMP_OUT, i] = out[at.SNAP, i] = math.nan
-    out[at.DEEPEST, i], out[at.STATUS, i] = scenes[at.TARGET, i], NO_CONTACT
-
-
-@kernel
-def put_pull_off(lowest: Lowest, y: float, reduced: Floats, i: int, out: Floats) -> int:
-    """Store the pull-off of a cycle that turns at y; return its bits of status."""
-    if not lowest.load < 0.0:  # a centre without toughness: the contact shrinks to a point, and never pulls
-        out[at.FORCE, i], out[at.PULL_OFF_RADIUS, i] = 0.0, math.nan
-        return 0
-    out[at.FORCE, i] = -lowest.load * reduced[at.LOAD, i] * UNIT_OF_FORCE
-    out[at.PULL_OFF_RADIUS, i] = lowest.y * reduced[at.LENGTH, i]
-    tied = lowest.second < lowest.load * (1.0 - CLOSE) and lowest.second_y != lowest.y
-    return (PULL_OFF_AT_RIM if lowest.y == y else 0) | (CLOSE_TO_A_JUMP if tied else 0)
-
-
-@kernel
-def _put_edge(opening: Curve, pattern: Pattern, ratio: float, y: float, reduced: Floats, i: int, out: Floats) -> None:
-    """Store what it costs scene i, which turns at y, that its edge opens at more work than it closes at.
-
-    FRONT, in R^2 dgamma: the difference of the two works over the contact area, (1 - ratio) int kappa^2 2 pi a da.
-    PINNED, in R: how far the punch (or the far end of its spring) moves back at the turn, at constant radius, before
-    the edge opens: the difference of the two stretches, times 1 + the stiffness of the contact over that of the
-    machine. `ratio` is w_c/w_o: at 1 both are 0. A cycle that never turns, y = inf, has inf.
-    """
-    root, k = math.sqrt(ratio), opening.table.k
-    out[at.FRONT, i] = out[at.PINNED, i] = 0.0
-    if ratio == 1.0:
-        return
-    out[at.FRONT, i] = out[at.PINNED, i] = math.inf
-    if y < math.inf:
-        area = 2.0 * math.pi * reduced[at.LENGTH, i] ** 2
-        out[at.FRONT, i] = (1.0 - ratio) * area * edge_area(opening.table, pattern, y)
-        stretch = toughness_at(pattern, y) * y ** (0.5 * (1.0 - k)) * reduced[at.DEPTH, i]
-        by_machine = softness(opening, y ** (1.0 + k)) if opening.by_depth > 0.0 else 1.0
-        out[at.PINNED, i] = (1.0 - root) * stretch * by_machine
-
-
-class Cycle(NamedTuple):
-    """What a cycle has lost, in the units of its curves.
-
-    turn      the radius at which it turns
-    reach     of the last landing of loading
-    snap      the pull after the jump-in
-    """
-
-    loaded: Loaded
-    unloaded: Unloaded
-    turn: float
-    reach: float
-    snap: float
-
-
-@kernel
-def put_losses(
-    cycle: Cycle, opening: Curve, pattern: Pattern, ratio: float, reduced: Floats, i: int, out: Floats
-) -> int:
-    """Store what the cycle of scene i loses; return its bits of status."""
-    area, root = 2.0 * math.pi * reduced[at.LENGTH, i] ** 2, math.sqrt(ratio)
-    loaded, unloaded = cycle.loaded, cycle.unloaded
-    out[at.LOADING, i], out[at.UNLOADING, i] = loaded.lost * area * ratio, unloaded.lost * area
-    out[at.LOADING_JUMPS, i], out[at.UNLOADING_JUMPS, i] = loaded.jumps, unloaded.jumps
-    out[at.DEEPEST, i], out[at.JUMP_OUT, i] = (
-        loaded.deepest * reduced[at.DEPTH, i] * root,
-        unloaded.last * reduced[at.DEPTH, i],
-    )
-    out[at.SNAP, i] = cycle.snap * root * reduced[at.LOAD, i] * UNIT_OF_FORCE if opening.by_depth > 0.0 else 0.0
-    _put_edge(opening, pattern, ratio, cycle.turn, reduced, i, out)
-    out[at.ENERGY, i] = out[at.LOADING, i] + out[at.UNLOADING, i] + out[at.FRONT, i]
-    out[at.TURN, i], out[at.REACH, i] = cycle.turn * reduced[at.LENGTH, i], cycle.reach * reduced[at.LENGTH, i]
-    return JUMP_IN_TO_RIM if loaded.in_to_rim and cycle.turn == reduced[at.RIM_Y, i] else 0
 
 
 @leaf
@@ -475,13 +333,6 @@ def curve_end(reach: float, scenes: Floats, reduced: Floats, start: int, last: i
         else:
             no_value(out, end, at.SHORT if reduced[at.VALID, end] > 0.0 else NO_VALUE)
     return end
-
-
-@kernel
-def put_force(lowest: Lowest, reduced: Floats, i: int, out: Floats) -> None:
-    """Store the pull-off of scene i, whose cycle ends at its rim; the rest of its column is left as it is."""
-    out[at.TURN, i] = reduced[at.RIM_Y, i] * reduced[at.LENGTH, i]
-    out[at.STATUS, i] = put_pull_off(lowest, reduced[at.RIM_Y, i], reduced, i, out) if lowest.known else at.SHORT
 
 
 @leaf

@@ -18,21 +18,11 @@ from gradhesion.core.many.search import MOST, NEAR, Long, end_of_folds, from_bir
 from gradhesion.core.many.waves import Waves, reach_of, start_of, waves_of
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.scenes import rows as at
-from gradhesion.core.scenes.cycles import (
-    Cycle,
-    Task,
-    measured_curve,
-    no_value,
-    pattern_of,
-    put_force,
-    put_losses,
-    put_no_contact,
-    put_pull_off,
-    rooms_for,
-)
+from gradhesion.core.scenes.cycles import measured_curve, pattern_of
 from gradhesion.core.scenes.reduced import AT_DEPTH, AT_RIM, Punch, depth_factor_of
 from gradhesion.core.scenes.requests import Wanted
-from gradhesion.core.scenes.tables import MOST_BINS, long_table
+from gradhesion.core.scenes.results import Cycle, no_value, put_force, put_losses, put_no_contact, put_pull_off
+from gradhesion.core.scenes.tables import MOST_BINS, Task, long_table, rooms_for
 from gradhesion.core.table.filling import width_of
 from gradhesion.core.table.layout import BY_LOAD as OF_PULL_OFF
 from gradhesion.core.table.layout import EXACT, GEOMETRIC, PER_WAVE, end_of

@@ -1,4 +1,4 @@
-"""The tables on which scenes are solved, kept between calls: near ones of any exponent, and long ones of one.
+"""What scenes are solved with: tables kept between calls, near ones of any exponent and long ones of one, and room.
 
 Near scenes, within 64 of the shortest waves, are solved on bins interpolated in k (table/basis.py), the others on
 longer tables of their exponent. Which one it is depends on the scene alone.
@@ -13,18 +13,18 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from gradhesion.core.cycle.disc import disc_of
+from gradhesion.core.curve.trace import room_for
+from gradhesion.core.cycle.disc import RULE, Disc, disc_of
 from gradhesion.core.jit import kernel
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.scenes import rows as at
-from gradhesion.core.scenes.cycles import Rooms, Task, rooms_for
 from gradhesion.core.scenes.reduced import Punch, depth_factor_of
 from gradhesion.core.scenes.requests import Wanted
 from gradhesion.core.table.basis import Basis, Kept, basis_of, between, is_interpolated, kept_for, kept_table, room_of
-from gradhesion.core.table.filling import fill_bins, source_of, width_of, with_bounds
-from gradhesion.core.table.layout import BY_LOAD, EXACT, FIRST, GEOMETRIC, U1, E, Source, Table, U, Y, span_of
+from gradhesion.core.table.filling import fill_bins, fill_bounds, source_of, width_of
+from gradhesion.core.table.layout import BY_LOAD, EXACT, FIRST, GEOMETRIC, LANES, U1, E, Source, Table, U, Y, span_of
 from gradhesion.core.table.leading import crests_of
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Integers
 
 MOST_BINS: Final = 130_000
 """Bins of a table, at most: 76 MB."""
@@ -36,6 +36,56 @@ _KEPT: Final = 14
 """Punches of which near tables are kept: the bins of patterns have up to 13 widths."""
 _LENT: Final = 4
 """Threads for which those of a punch are kept between calls."""
+
+
+class Rooms(NamedTuple):
+    """Room for the curves of one task, so that little is allocated in its loops.
+
+    traces      of closing, of opening, and of what is measured for the turn, (3, ROWS, branches)
+    columns     those that loading visits, and a stack of unloading, (2, branches)
+    nodes       of the tables of closing and of opening of interfaces with a pattern, (2, ROWS, bins + 1)
+    polys       their polynomials, (2, bins, LANES + 1, N)
+    limits      those of `loading_is_one_disc` of the last curve, (2,)
+    weights     of the rule of `Task.disc`, (RULE,)
+    """
+
+    traces: Floats
+    columns: Integers
+    nodes: Floats
+    polys: Floats
+    limits: Floats
+    weights: Floats
+
+
+def rooms_for(bins: int, patterned: bool) -> Rooms:
+    """Return room for tables of that many bins."""
+    nodes, polys = room_of(bins if patterned else 0, LANES + 1)
+    traces = np.empty((3, *room_for(bins).shape))
+    columns = np.empty((2, traces.shape[2]), dtype=np.int64)
+    return Rooms(traces, columns, np.stack((nodes, nodes)), np.stack((polys, polys)), np.empty(2), np.empty(RULE))
+
+
+class Task(NamedTuple):
+    """What scenes of one exponent are solved with.
+
+    punch     what all scenes share
+    wanted    what is wanted of them
+    table     without pattern
+    by_load   the table of the pull-off: the same, but for the leading terms of short waves
+    crest     a bound of -U' y^((k-1)/2) beyond the table
+    disc      what the tests of the contact need
+    rooms     room
+    reach     scenes that must be known beyond it are left as SHORT
+    """
+
+    punch: Punch
+    wanted: Wanted
+    table: Table
+    by_load: Table
+    crest: float
+    disc: Disc
+    rooms: Rooms
+    reach: float
 
 
 @kernel
@@ -114,7 +164,7 @@ def _new_near_tables(punch: Punch, form: int, finer: int, k: float) -> Tables:
     kept = kept_for(basis)
     bins = basis.values.shape[0] - 1
     reach = basis.start + (bins - 2 - GEOMETRIC) * basis.width
-    none = Table(0.5, punch.exponent, 0.5, basis.start, basis.width, 0.0, 0.0, GEOMETRIC, 0, *room_of(0))
+    none = Table(0.5, punch.exponent, 0.5, basis.start, basis.width, 0.0, GEOMETRIC, 0, *room_of(0))
     rooms = rooms_for(bins, punch.rows.shape[1] > 0)
     pulls = kept if by_load is basis else kept_for(by_load)
     return Tables(basis, kept, by_load, pulls, none, none, 0.0, reach, rooms)
@@ -171,9 +221,10 @@ def long_table(
         fill_bins(source, FIRST, GEOMETRIC, bins, nodes, polys)
         lowest = _lowest(nodes, -wave)
         share = (1.0 + k) / (1.0 + k + punch.exponent)
-        empty = Table(k, punch.exponent, share, source.start, width, lowest, 0.0, GEOMETRIC, bins, nodes, polys)
+        table = Table(k, punch.exponent, share, source.start, width, lowest, GEOMETRIC, bins, nodes, polys)
+        fill_bounds(table, crest)
         _long.pop(key, None)
-        _long[key] = with_bounds(empty, crest, bins), source, crest
+        _long[key] = table, source, crest
         while len(_long) > 1 and sum(table.bins for table, _, _ in _long.values()) > _KEPT_BINS:
             _long.popitem(last=False)
         return _long[key]

@@ -15,7 +15,7 @@ from gradhesion.core.edge.pattern import bins_of_wave, bounds_of
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.scenes import rows as at
-from gradhesion.core.scenes.cycles import curve_end, put_force, solve_exponent
+from gradhesion.core.scenes.cycles import curve_end, solve_exponent
 from gradhesion.core.scenes.long import solve_summed
 from gradhesion.core.scenes.reduced import AT_RIM, Punch, reduced_of
 from gradhesion.core.scenes.requests import (
@@ -27,6 +27,7 @@ from gradhesion.core.scenes.requests import (
     scenes_by_exponent,
     set_lengths,
 )
+from gradhesion.core.scenes.results import put_force
 from gradhesion.core.scenes.tables import (
     MOST_BINS,
     Tables,
@@ -36,16 +37,7 @@ from gradhesion.core.scenes.tables import (
     solve_far,
     task_of,
 )
-from gradhesion.core.table.basis import (
-    Basis,
-    Kept,
-    basis_of,
-    empty_table,
-    fill_kept,
-    is_interpolated,
-    mix_bins,
-    place_for,
-)
+from gradhesion.core.table.basis import Basis, Kept, basis_of, fill_kept, is_interpolated, mix_bins, place_for, table_in
 from gradhesion.core.table.filling import source_of, waves_at, width_of
 from gradhesion.core.table.layout import PER_WAVE, end_of
 from gradhesion.core.types import Floats, Integers
@@ -87,7 +79,7 @@ def near_forces(basis: Basis, kept: Kept, scenes: Floats, reduced: Floats, out: 
         if scenes[at.K, first] != k:
             k = scenes[at.K, first]
             place = place_for(basis, kept, k)
-        table = empty_table(basis, k, kept.nodes[place], kept.polys[place])
+        table = table_in(basis, k, kept.polys.shape[1], kept.nodes[place], kept.polys[place])
         curve = Curve(table, reduced[at.BY_POWER, first], reduced[at.BY_WAVES, first], 0.0, 1.0)
         furthest = reduced[at.RIM_Y, first:last].max()
         lowest = _near_lowest(basis, kept, place, curve, furthest)

@@ -16,7 +16,7 @@ import numpy as np
 
 from gradhesion.core.jit import kernel, leaf, quadrature
 from gradhesion.core.table import layout as at
-from gradhesion.core.table.filling import fill_bins, source_of, width_of, with_bounds
+from gradhesion.core.table.filling import fill_bins, fill_bounds, source_of, width_of
 from gradhesion.core.table.layout import EXACT, FIRST, GEOMETRIC, LANES, N, Table
 from gradhesion.core.table.leading import crests_of
 from gradhesion.core.types import Floats, Integers
@@ -201,13 +201,12 @@ def between(basis: Basis, k: float) -> tuple[int, int]:
 
 
 @kernel
-def empty_table(basis: Basis, k: float, nodes: Floats, polys: Floats) -> Table:
-    """Return the table of an exponent of which no bin is filled yet; its room is as large as that of `room_of`."""
+def table_in(basis: Basis, k: float, bins: int, nodes: Floats, polys: Floats) -> Table:
+    """Return the table of an exponent of so many bins in the given room, whatever is in it."""
     low, high = between(basis, k)
     lowest = 1.01 * min(basis.lowest[low], basis.lowest[high])
     share = (1.0 + k) / (1.0 + k + basis.exponent)
-    bins = basis.values.shape[0] - 1
-    return Table(k, basis.exponent, share, basis.start, basis.width, lowest, 0.0, GEOMETRIC, bins, nodes, polys)
+    return Table(k, basis.exponent, share, basis.start, basis.width, lowest, GEOMETRIC, bins, nodes, polys)
 
 
 @kernel
@@ -223,7 +222,9 @@ def bounded_table(basis: Basis, k: float, bins: int, nodes: Floats, polys: Float
     """Return the table of an exponent whose first `bins` bins are filled."""
     low, high = between(basis, k)
     crest = 1.01 * max(basis.crest[low], basis.crest[high])
-    return with_bounds(empty_table(basis, k, nodes, polys), crest, bins)
+    table = table_in(basis, k, bins, nodes, polys)
+    fill_bounds(table, crest)
+    return table
 
 
 class Kept(NamedTuple):

@@ -252,12 +252,13 @@ def _bend_at_zero(nodes: Floats) -> float:
 
 
 @kernel
-def _fill_below(k: float, zero: float, nodes: Floats) -> None:
+def _fill_below(k: float, nodes: Floats) -> None:
     """Fill the integrals from 0 to the first bin, where U is zero + slope y + bend y^2/2."""
     y, unit, power = nodes[at.Y, 0], nodes[at.T, 0], nodes[at.P, 0]
     m = nodes[at.SLOPE, 0] * y / power if power > 0.0 else 1.0
     bent = 0.5 * _bend_at_zero(nodes) * y * y
     rise = nodes[at.V, 0] * y - 2.0 * bent
+    zero = nodes[at.U, 0] - rise - bent
     kappa = nodes[at.KE, 0] / nodes[at.E, 0]
     nodes[at.HM, 0] = 0.5 * (kappa * y) ** 2
     q = 1.0 + k
@@ -270,12 +271,13 @@ def _fill_below(k: float, zero: float, nodes: Floats) -> None:
 
 
 @kernel
-def fill_bounds(k: float, zero: float, crest: float, geometric: int, bins: int, nodes: Floats) -> None:
-    """Fill the running bounds over the first `bins` bins, and the integrals from 0 to the edges of the geometric ones.
+def fill_bounds(table: Table, crest: float) -> None:
+    """Fill the running bounds of a table, and its integrals from 0 to the edges of the geometric bins.
 
-    `zero` is U at y = 0, `crest` a bound of -U' y^((k-1)/2) beyond the last bin. V/E and V/(y E) are bounded within
-    bins as well, by what V can swing there.
+    `crest` is a bound of -U' y^((k-1)/2) beyond the last bin. V/E and V/(y E) are bounded within bins as well, by what
+    V can swing there.
     """
+    nodes, bins = table.nodes, table.bins
     highest, lowest = -math.inf, -crest
     for i in range(bins + 1):
         swing = nodes[at.BV, i - 1] / nodes[at.E, i] if i > 0 else 0.0
@@ -287,8 +289,8 @@ def fill_bounds(k: float, zero: float, crest: float, geometric: int, bins: int, 
         swing = nodes[at.BV, i] if i < bins else 0.0
         lowest = min(lowest, (nodes[at.V, i] - swing) / (nodes[at.E, i] * nodes[at.Y, i]))
         nodes[at.RLOW, i] = lowest
-    _fill_below(k, zero, nodes)
-    for i in range(min(geometric, bins)):
+    _fill_below(table.k, nodes)
+    for i in range(min(table.geometric, bins)):
         c = nodes[at.PC, i]
         nodes[at.HM, i + 1] = nodes[at.HM, i] + nodes[at.M0, i]
         nodes[at.HP, i + 1] = nodes[at.HP, i] + nodes[at.K1, i] + c * nodes[at.K0, i]
@@ -296,27 +298,6 @@ def fill_bounds(k: float, zero: float, crest: float, geometric: int, bins: int, 
         nodes[at.HU, i + 1] = nodes[at.HU, i] + nodes[at.KU, i]
         nodes[at.HPU, i + 1] = nodes[at.HPU, i] + nodes[at.KUU, i] + c * nodes[at.KU, i]
         nodes[at.HUU, i + 1] = nodes[at.HUU, i] + nodes[at.KV, i]
-
-
-@kernel
-def with_bounds(table: Table, crest: float, bins: int) -> Table:
-    """Return a table whose first `bins` bins are filled, with its bounds (those of `fill_bounds`) and U at 0."""
-    nodes = table.nodes
-    zero = nodes[at.U, 0] - (nodes[at.V, 0] - 0.5 * _bend_at_zero(nodes) * nodes[at.Y, 0]) * nodes[at.Y, 0]
-    fill_bounds(table.k, zero, crest, table.geometric, bins, nodes)
-    return Table(
-        table.k,
-        table.exponent,
-        table.share,
-        table.start,
-        table.width,
-        table.lowest,
-        zero,
-        table.geometric,
-        bins,
-        nodes,
-        table.polys,
-    )
 
 
 def width_of(waves: Floats, finer: int = 1) -> float:

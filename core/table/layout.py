@@ -67,7 +67,6 @@ class Table(NamedTuple):
     start       y at which the uniform bins begin
     width       of a uniform bin
     lowest      a bound below (U - U1)/(y E)
-    zero        U at y = 0
     geometric   number of geometric bins (0: a piece of uniform bins alone)
     bins        number of bins that are filled
     nodes       rows at edges and of bins, (ROWS, at least bins + 1)
@@ -80,7 +79,6 @@ class Table(NamedTuple):
     start: float
     width: float
     lowest: float
-    zero: float
     geometric: int
     bins: int
     nodes: Floats

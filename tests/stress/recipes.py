@@ -25,7 +25,7 @@ OUTPUT: Edits = [  # file, old, new
     ("core/scenes/rows.py", "SATURATION, STATUS = range(7, 17)", "SATURATION, AREA, STATUS = range(7, 18)"),
     ("core/scenes/rows.py", "RESULT_ROWS: Final = 17", "RESULT_ROWS: Final = 18"),
     ("core/scenes/rows.py", '    "saturation_radius",\n)', '    "saturation_radius",\n    "pull_off_area",\n)'),
-    ("core/scenes/cycles.py", RADIUS, f"{RADIUS}    out[at.AREA, i] = math.pi * out[at.PULL_OFF_RADIUS, i] ** 2\n"),
+    ("core/scenes/results.py", RADIUS, f"{RADIUS}    out[at.AREA, i] = math.pi * out[at.PULL_OFF_RADIUS, i] ** 2\n"),
     ("core/problem/outputs.py", '    Output("turning_radius",', f'{AREA}    Output("turning_radius",'),
 ]
 CONTROL: Edits = [

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import CURVES, draw_curves, solve
+from gradhesion.core import CURVES, Harmonic, Profile, draw_curves, solve
 from gradhesion.core.draw.draw import INTEGERS
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
 from tests.core.scene import ENDLESS, Scene, chord_error, curve_of, scene_of, strengths_of
@@ -109,6 +109,16 @@ def test_jumps_are_those_of_the_path(drawn: Curves) -> None:
         np.testing.assert_array_equal(drawn[f"jump_{name}"], drawn[f"path_{name}"][after])
     np.testing.assert_array_equal(drawn["jump_radius_after"] > drawn["jump_radius_before"], ~unloading)
     assert (drawn["jump_energy"][unloading] > 0).all(), "unloading never gains"
+
+
+@pytest.mark.parametrize("below", [1e-12, 1e-15])
+def test_a_contact_next_to_k_1_shrinks_to_a_point(below: float, scene: Scene) -> None:
+    """On a cone of waves the fold at which it ends is far smaller than they are: its depth is that of k = 1, not 0."""
+    scene, cone = scene | {"k": 1.0 - below, "nu": 0.5}, Profile(harmonics=(Harmonic(n=1, cos=0.6, sin=0.8),))
+    path, _ = draw_curves(scene, ["path"], cone)
+    for k, tolerance in ((scene["k"], 1e-14), (1.0, 1e-9)):
+        end = float(solve(scene | {"k": k}, ["delta_jump_out"], profile=cone)["delta_jump_out"])
+        assert path["path_indentation"][-1] == pytest.approx(end, rel=tolerance)
 
 
 @pytest.mark.parametrize(("wavelength", "amplitude", "whole"), [(0.002, 0.01, 4), (0.008, 0.02, 8), (0.008, 0.03, 16)])

@@ -26,7 +26,7 @@ from gradhesion.core.types import Floats
 # What is observed at frozen radii, in the units of the curves.
 PULL, LOADING, UNLOADING, GAP = range(4)
 # load of the pull-off; losses of loading (in units of closing) and of unloading; what is measured at the turn, less
-# that at the fold which a jump has left, if it has passed the target (which itself is taken off by scenes/slopes.py)
+# that at the fold which a jump has left, if it has passed the target (which itself is taken off by derivatives.py)
 OBSERVED: Final = 4
 
 

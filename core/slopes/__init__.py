@@ -1,0 +1,1 @@
+"""Derivatives of values by the parameters of scenes."""
