@@ -30,13 +30,13 @@ def need_of(study: Study | None) -> str:
     """Return which of the kinds of SECONDS a study is (None: a fit); a file of that name marks what is compiled."""
     if study is None:
         return "fits"
-    if study.kind != "map":
+    if study.kind == "curve":
         return "curves"
     if study.rate is not None:
         return "speeds"
-    if {*study.outputs} & {*SENSITIVITIES}:
+    if {*study.solved} & {*SENSITIVITIES}:
         return "sensitivities"
-    return "forces" if {*study.outputs} <= {*PULL_OFF} else "energies"
+    return "forces" if {*study.solved} <= {*PULL_OFF} else "energies"
 
 
 def prepare(study: Study | None = None) -> None:

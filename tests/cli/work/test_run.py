@@ -197,6 +197,11 @@ def test_a_plan_and_python_say_it_as_well_and_another_process_does_not_say_it_ag
     assert capsys.readouterr().err == ""
     compute(study_from(data | {"outputs": ["dissipated_energy"]}))
     assert len(capsys.readouterr().err.splitlines()) == 1
+    waves = {"lambda_over_R": {"start": 0.1, "stop": 0.2}}
+    search = {"maximise": "pull_off_force", "over": ["lambda_over_R"], "resolution": 5}
+    for said in (1, 0):  # the goal and its slope, no curve
+        gr.run({"kind": "optimum", "optimum": search, "parameters": data["parameters"] | waves})
+        assert len(capsys.readouterr().err.splitlines()) == said
 
 
 def test_why_nothing_is_kept_is_said_once(data: dict[str, Any], monkeypatch: Patch, capsys: Printed) -> None:
