@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -73,16 +74,19 @@ def test_a_basin_that_only_the_finer_sweep_shows() -> None:
     def peaks(x: Array, cells: NDArray[np.int64]) -> Array:
         return -np.abs(x - 0.9) + np.where(cells == 1, 2.0, 0.0) * np.exp(-(((x - axis[7]) / 0.01) ** 2))
 
+    def hidden(heights: Array, middle: float, x: Array, _cells: Any) -> Array:
+        return np.maximum(np.interp(x, axis, heights), 0.3 - 10.0 * np.abs(x - middle) / (0.3 * axis[1]))
+
     found = Known(peaks)(1, 2, 20)
     assert found.too_coarse.tolist() == [False, True]
     assert found.places[0] == pytest.approx([0.9, axis[7]], abs=1e-3)
-    heights = np.append([-9.0, -8.0, 0.0, -5.0, -4.5, -4.0, -6.0], np.full(axis.size - 7, -10.0))
-    middle, width = axis[3:5].mean(), 0.3 * axis[1]
-    hidden = Known(lambda x, _: np.maximum(np.interp(x, axis, heights), 0.3 - 10.0 * np.abs(x - middle) / width))
-    found = hidden(1, 1, 20)
-    assert found.places[0, 0] == pytest.approx(middle, abs=2e-12)
-    assert found.merits[0] == pytest.approx(0.3, rel=1e-9)
-    assert found.too_coarse.all()
+    inner, outer, rest = [-9.0, -8.0, 0.0, -5.0, -4.5, -4.0, -6.0], [-6.0, 0.0, -5.0, -4.5], np.full(axis.size, -10.0)
+    for before, heights in ((3, [*inner, *rest[7:]]), (axis.size - 2, [*rest[4:], *outer])):  # also next to an end
+        middle = axis[before : before + 2].mean()
+        found = Known(partial(hidden, np.array(heights), middle))(1, 1, 20)
+        assert found.places[0, 0] == pytest.approx(middle, abs=2e-12)
+        assert found.merits[0] == pytest.approx(0.3, rel=1e-9)
+        assert found.too_coarse.all()
 
 
 @pytest.mark.parametrize("edge", [0.777, 0.25])

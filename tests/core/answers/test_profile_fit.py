@@ -50,6 +50,12 @@ def test_an_exact_profile_comes_back(both: bool, exponent: float | None) -> None
     np.testing.assert_allclose(found.heights(rho), heights(rho), atol=1e-12)
 
 
+def test_an_exponent_below_2_is_found() -> None:
+    r = np.linspace(0.0, 1.1, 1500)
+    found = fit_profile(r, heights(r) - r**2.37 / (2.37 * 1.7**1.37) + r**1.3 / 1.3, up_to=1.0, terms=3, exponent=None)
+    assert (found.exponent, found.radius) == pytest.approx((1.3, 1.0), rel=1e-9)
+
+
 def pulls(found: FittedProfile, both: bool) -> list[float]:
     true = {"exponent": 2.37, "radius": 1.7, "wavelength": 0.193, "height": 5.2} | ({"centre": 0.031} if both else {})
     own = [(getattr(found, name) - value) / found.errors[name] for name, value in true.items() if found.errors[name]]

@@ -12,6 +12,7 @@ import pytest
 
 from gradhesion.core import CURVES, Harmonic, Profile, draw_curves, solve
 from gradhesion.core.draw.draw import INTEGERS
+from gradhesion.core.draw.states import equilibrium_states
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
 from tests.core.scene import ENDLESS, Scene, chord_error, curve_of, scene_of, strengths_of
 
@@ -116,9 +117,12 @@ def test_a_contact_next_to_k_1_shrinks_to_a_point(below: float, scene: Scene) ->
     """On a cone of waves the fold at which it ends is far smaller than they are: its depth is that of k = 1, not 0."""
     scene, cone = scene | {"k": 1.0 - below, "nu": 0.5}, Profile(harmonics=(Harmonic(n=1, cos=0.6, sin=0.8),))
     path, _ = draw_curves(scene, ["path"], cone)
-    for k, tolerance in ((scene["k"], 1e-14), (1.0, 1e-9)):
-        end = float(solve(scene | {"k": k}, ["delta_jump_out"], profile=cone)["delta_jump_out"])
-        assert path["path_indentation"][-1] == pytest.approx(end, rel=tolerance)
+    ends = [
+        float(solve(scene | {"k": k}, ["delta_jump_out"], profile=cone)["delta_jump_out"]) for k in (scene["k"], 1.0)
+    ]
+    assert path["path_indentation"][-1] == pytest.approx(ends[0], rel=1e-14)
+    assert ends == pytest.approx([equilibrium_states(scene | {"k": 1.0}, [1e-15], cone)[1, 0]] * 2, rel=1e-10)
+    assert ends[1] == pytest.approx(equilibrium_states(scene | {"k": 1.0}, [1e-15], cone)[1, 0], rel=1e-13)
 
 
 @pytest.mark.parametrize(("wavelength", "amplitude", "whole"), [(0.002, 0.01, 4), (0.008, 0.02, 8), (0.008, 0.03, 16)])
