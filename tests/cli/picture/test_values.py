@@ -66,6 +66,13 @@ def test_panels_in_a_column_are_high_enough_to_be_read(kind: Any) -> None:
     assert min(axes.get_position().height for axes in panels) * inches > 0.75
 
 
+def test_values_that_do_not_fill_their_rows_leave_no_empty_axes() -> None:
+    names = ["pull_off_force", "pull_off_radius", "loading_energy", "unloading_energy"]
+    panels = gr.plot(computed(names, k=[0.0, 0.3, 0.6], A=0.02, lambda_over_R=0.1), names)
+    assert [axes.get_ylabel() for axes in panels] == [SYMBOLS[name] for name in names]
+    assert panels.figure.axes == list(panels)
+
+
 def test_lines_are_the_values_of_the_dataset(grid: xarray.Dataset) -> None:
     few = grid.isel(A=1, k=[0, 3, 8])
     panels = gr.plot(few)
