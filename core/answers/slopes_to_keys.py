@@ -38,9 +38,9 @@ def relative_slopes(
 
     `given` are the keys of the scenes, as arguments of `parameters_from` that broadcast to the scenes, `keys` those of
     them whose slopes are wanted. `sensitivity` is d ln(value)/d ln(parameter), of k and nu d ln(value)/d(parameter), of
-    shape (*scenes, parameters). `powers` are those of the keys in the unit of the value: one of `POWERS` for a value in
-    SI units, else none. Slopes are of shape `scenes`, NaN where a sensitivity that counts is missing, as all are of a
-    value that is not positive.
+    shape (*scenes, parameters), and `parameters` are the names along its last axis, "modulus" among them. `powers` are
+    those of the keys in the unit of the value: one of `POWERS` for a value in SI units, else {}. Slopes are of shape
+    `scenes`, NaN where a sensitivity that counts is missing; a value that is not positive has none.
 
     Examples
     --------

@@ -59,7 +59,11 @@ def loading_is_tied(curve: Curve, end: float, at_rim: bool, trace: Floats, count
 
 @kernel
 def unloading_is_tied(curve: Curve, rim: float, trace: Floats, count: int) -> bool:
-    """Return whether it is close which branches exist, or which of them start lower than those after."""
+    """Return whether it is close which branches exist, or which of them unloading jumps to.
+
+    It goes inwards from `rim`, or where the cycle turns, and jumps to branches that start lower than all further out.
+    `curve` is that of opening, whose branches are the first `count` columns of `trace`.
+    """
     tied, level, y = _pair_is_close(rim, trace, count), _level_at(curve, rim), rim
     j = started_within(trace, count, rim) - 1
     if j >= 0 and trace[END, j] >= rim:

@@ -51,7 +51,10 @@ _DRAWERS: Final[dict[str, Callable[[Drawn], tuple[NDArray[Any], ...] | None]]] =
 
 
 def _of_one_point(curve: str, value: float) -> list[NDArray[Any]]:
-    """Return the variables of a curve of one point, or of no jump, that have a value (NaN: integers are -1)."""
+    """Return all variables of a curve, in the order of CURVES, each a value at one point, (1,); of "jumps" none, (0,).
+
+    Integers are -1 where the value is NaN.
+    """
     size = 0 if curve == "jumps" else 1
     return [np.full(size, -1 if math.isnan(value) and name in INTEGERS else value) for name in CURVES[curve]]
 
@@ -187,7 +190,7 @@ def draw_curves(
         found: Sequence[NDArray[Any]] | None = None
         if radius == 0.0 and curve in _OF_A_CYCLE:  # the cycle turns before it makes contact
             found = _of_one_point(curve, 0.0)
-            if curve == "path":
+            if curve != "jumps":
                 found[1][:] = scene["indentation_max_over_R"]
         elif drawn is not None:
             found = _draw(drawn, curve)

@@ -52,7 +52,10 @@ def draw_equilibrium(drawn: Drawn, *, closing: bool = False) -> tuple[NDArray[An
 
 
 def _put_along(side: Side, corners: list[_Corner], y: float, branch: float) -> None:
-    """Go on along a branch to a radius, by the extrema between."""
+    """Append the corners of a way along a branch: extrema of depth or load on the way to a radius y, then y itself.
+
+    It begins at the last corner; nothing is appended if that is at y. `branch` is the number of the branch, from 1 on.
+    """
     start, extrema = corners[-1][Y], side.extrema
     if abs(y - start) <= _ROUNDING * start:
         return

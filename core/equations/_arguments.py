@@ -18,7 +18,8 @@ Waves: TypeAlias = Sequence[float]
 MEANINGS: Final = {
     "k": "Gradient exponent, 0 to 1.",
     "stiffness": "M R^(1+k)/dgamma > 0; inf, which is contact without adhesion, has depths but no loads.",
-    "radius": "a/R >= 0, the contact radius; > 0 where a formula divides by it.",
+    "radius": "a/R >= 0, the contact radius; > 0 where a formula divides by it. Of the shape of a punch r/R, the "
+    "distance from its axis.",
     "largest_radius": "a_am/R >= 0, the largest contact radius.",
     "distance": "r/R, the distance from the axis: 0 to a/R for a pressure, >= a/R for a surface or gap.",
     "depth": "delta/R, any: `indentation` of jkr.py or general.py in equilibrium.",

@@ -29,15 +29,16 @@ _MOST: Final = 2**20  # most samples of a period
 
 
 def height(radius: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0) -> Array:
-    """Return the height f/R of the punch over its apex, with one cosine wave (2.1)."""
+    """Return the height f(r)/R of the punch over its apex, with one cosine wave, at a distance from its axis (2.1)."""
     r, m, length = not_negative(radius), power_of(exponent), positive(wavelength)
     return r**m / m + 2.0 * not_negative(amplitude) * length * np.sin(math.pi * r / length) ** 2
 
 
 def slope(radius: Real, wavelength: Real, amplitude: Real, exponent: Real = 2.0) -> Array:
-    """Return f'(r), the slope of the punch with one cosine wave."""
+    """Return f'(r), the slope of the punch with one cosine wave, at a distance from its axis."""
     r, m, length = not_negative(radius), power_of(exponent), positive(wavelength)
-    return r ** (m - 1.0) + 2.0 * math.pi * not_negative(amplitude) * np.sin(2.0 * math.pi * r / length)
+    smooth = np.where(np.isnan(m), np.nan, r ** (m - 1.0))  # 1 to the power of NaN is 1
+    return smooth + 2.0 * math.pi * not_negative(amplitude) * np.sin(2.0 * math.pi * r / length)
 
 
 def largest_monotonic_amplitude(wavelength: Real) -> Array:

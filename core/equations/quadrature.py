@@ -180,7 +180,7 @@ def _point_by_point(formula: Callable[..., float], *numbers: Real) -> Array:
 
 
 def _front(k: Real, stiffness: Real) -> Array:
-    """Return (1+k) K/(2 pi)."""
+    """Return (1+k) K/(2 pi), the factor of all pressures, in dgamma/R^(1+k); K is that of hertz.py."""
     return 2.0 ** (1.0 - exponent_of(k)) * positive(stiffness) / (2.0 * math.pi)
 
 

@@ -128,7 +128,10 @@ def dissipated_energy(k: Real, stiffness: Real, wavelength: Real, amplitude: Rea
 
 
 def saturated_share(k: Real) -> Array:
-    """Return w(k) = int W d(a^2)/a_e^2, so that an unbounded punch loses about C1 + 4 pi (r/s) dgamma w a_e^2."""
+    """Return w(k), the integral of W d(a^2)/a_e^2 from a = 0 to a_e.
+
+    An unbounded punch with a_2 well below a_e loses about C1 + 4 pi (r/s) dgamma w a_e^2, C1 as in effective.py.
+    """
     return _shares(k, 0.0, 1.0)
 
 

@@ -54,15 +54,16 @@ _BETTER: Final = 1e-6  # relative difference of sums of squares, below which two
 def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: int) -> list[Floats]:
     """Return `count` starts at most for all numbers of a loop, refined by some of its points, the best first.
 
-    `load_zero` is the load of the base line in N, `contact` the depth in m at which it ends (NaN if it has none), and
-    `seed` that of the Sobol set of what no feature of the loop determines.
+    Each is (numbers,), in the order of `misfit.names` and on the scales of `misfit.low`. `load_zero` estimates the load
+    out of contact in N, `contact` the depth in m at which contact begins: the end of the base line of loading, or else
+    the least depth of loading; NaN if there is neither. `seed` is that of the Sobol set of what no feature determines.
     """
     if misfit.model.rate is not None:
         rest, few = misfit.without(SPEEDS), misfit.thinned(100)
         start = _filled(few, rest, minima(rest, starts(rest, load_zero, contact, count, seed))[0].x)
         tried = {name: shares_of(few, name, _SPEEDS) for name in few.names if name in SPEEDS}
         begun = [put(few, start, {name: row[i] for name, row in tried.items()}) for i in range(_SPEEDS if tried else 1)]
-        return _kept([few.refined(vector, most=12, tolerance=1e-4) for vector in begun], few, 3)
+        return _kept([few.refined(vector, most=12, tolerance=1e-4) for vector in begun], few, min(count, 3))
     if misfit.turn:
         rest = misfit.without((TURN,))
         return [_filled(misfit, rest, vector) for vector in starts(rest, load_zero, contact, count, seed)]
@@ -122,7 +123,7 @@ def _smooth(few: Misfit, load_zero: float, contact: float, seed: int) -> list[Fl
         vector[others] = lows[others] + drawn[number % len(drawn)] * (highs - lows)[others]
         vector = put(few, vector, {DEPTH_ZERO: depth, LOAD_ZERO: load_zero, _WORK: work})
         begun.append(matched(few, vector, load_zero))
-    rest = len(begun) - (len(works) if math.isfinite(contact) else 0)  # the last are at the end of the base line
+    rest = len(begun) - (len(works) if math.isfinite(contact) else 0)  # the last are at `contact`
     found: list[Any] = []
     for vectors in (begun[rest:], sorted(begun[:rest], key=few.size)[:_KEPT]):
         found += [few.refined(vector, most=40, tolerance=1e-6) for vector in vectors]

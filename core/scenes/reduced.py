@@ -64,7 +64,10 @@ def depth_factor_of(k: float, m: float) -> float:
 
 @kernel
 def crest_of(k: float, waves: Floats) -> float:
-    """Return a bound of |U - mean| over y^((1-k)/2), 5 % more than the sum of the leading terms."""
+    """Return a bound of |U - mean| over y^((1-k)/2) from y = 1 on: 5 % more than the sum of the leading terms.
+
+    `waves` are rows (n, cos, sin), U is that of table/layout.py. Nearer the centre the mean alone may be larger.
+    """
     size = 1.05 * 2.0 ** (0.5 * (k - 1.0)) * math.gamma(0.5 * (1.0 + k))
     total = 0.0
     for h in range(len(waves)):
@@ -135,7 +138,10 @@ def _end_of_folds(punch: Punch, i: int, steep: float, reduced: Floats) -> float:
 
 @kernel
 def fill_reach(punch: Punch, i: int, crest: float, steepest: float, mean: float, reduced: Floats) -> None:
-    """Fill how far scene i must be known without its rim: `crest` and `steepest` bound U and -U' over y^((1-k)/2)."""
+    """Fill how far scene i must be known without its rim.
+
+    `crest` and `steepest` bound U less its mean, and -U', over y^((1-k)/2).
+    """
     k, m = reduced[at.EXPONENT, i], punch.exponent
     B, g, most = reduced[at.BY_POWER, i], reduced[at.BY_WAVES, i], reduced[at.MOST, i]
     eta = 0.5 * (1.0 - k)

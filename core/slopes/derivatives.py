@@ -127,7 +127,11 @@ class Pair(NamedTuple):
 def _neighbour(
     punch: Punch, crest: float, rooms: Rooms, scene: Floats, numbers: Floats, table: Table, y_end: float
 ) -> Pair:
-    """Return the curves of one scene on a table; tables with a pattern are filled up to y_end, into `rooms`."""
+    """Return the curves of a scene, one of whose numbers may be displaced, on a table of its exponent.
+
+    `scene` and `numbers` are columns as in `Near`, `crest` is that of a task. With a pattern, the tables of the curves
+    are filled up to y_end, into `rooms`.
+    """
     pattern, ratio, nodes, polys = (
         pattern_of(punch, scene, numbers, 0),
         numbers[at.CLOSING, 0],

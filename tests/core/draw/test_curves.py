@@ -188,9 +188,10 @@ def test_one_jump_there_and_back_and_none(scene: dict[str, float]) -> None:
     assert depth[0] == depth[1] == 0.0 > depth[2] == depth[3]
     assert found["jump_at_rim"].tolist() == [1, 1]
     away = scene | {"indentation_max_over_R": -0.01}
-    found, status = draw_curves(away, ["path", "jumps", "equilibrium"])
+    found, status = draw_curves(away, ["path", "jumps", "equilibrium", "effective"])
     assert status == solve(away)["status"] != 0
-    assert [found[f"path_{name}"].tolist() for name in POINT] == [[0.0], [-0.01], [0.0]]
+    for curve in ("path", "effective"):
+        assert [found[f"{curve}_{name}"].tolist() for name in POINT] == [[0.0], [-0.01], [0.0]]
     assert found["jump_energy"].size == 0
     assert found["load"].size > 100
 

@@ -145,3 +145,4 @@ def test_slopes(k: float) -> None:
     np.testing.assert_allclose(hertz.sine_integrals(k, a)[2:], expected, atol=1e-8)
     expected = rate(lambda r: general.height(r, *wave, 3.3))
     np.testing.assert_allclose(general.slope(a, *wave, 3.3), expected, atol=1e-7)
+    assert np.isnan(general.slope([0.5, 1.0, 2.0], *wave, 0.5)).all()
