@@ -14,6 +14,7 @@ from gradhesion.core.problem.names import (
     CLOSING,
     CONTACT_SLOPE,
     EDGE,
+    EXACT_ALONE,
     GIVEN_UP,
     OUTPUTS,
     PARAMETERS,
@@ -64,8 +65,9 @@ def _checked(
     turns = [name for name in TURNS if name in parameters]
     if len(turns) > 1:
         raise ValueError(f"{' and '.join(turns)} are given: a cycle turns at one of them")
-    if solver != "exact" and (reports or turns or slopes):
-        raise ValueError(f"{[*reports, *slopes, *turns]} are known of the exact solver only, not of {solver!r}")
+    exact = [name for name in (*outputs, *turns) if name in (*EXACT_ALONE, *slopes, *turns)]
+    if solver != "exact" and exact:
+        raise ValueError(f"{exact} are known of the exact solver only, not of {solver!r}")
     if ("machine_stiffness" in parameters) != (loading.control == "machine"):
         raise ValueError(f"machine_stiffness belongs to control 'machine' and to no other; control {loading.control!r}")
     if loading.control == "load" and "energy_residual" in reports:

@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.equations import envelopes, hertz
 from gradhesion.core.problem.material import stiffness
-from gradhesion.core.problem.names import INTEGERS, REACH, RESULTS
+from gradhesion.core.problem.names import INTEGERS, REACH
 from gradhesion.core.problem.profile import Profile, rows_of, swings_of
 from gradhesion.core.problem.status import NO_VALUE
 
@@ -74,20 +74,20 @@ def solve_envelope(
             2.0 * math.pi * np.where(wavy, np.where(bounded, jumps + 0.5 * rest * rim**2, np.inf), jumps)
             for jumps, rest in ((loaded, up * (2.0 - up) - square), (unloaded, down * (2.0 + down) + square))
         )
-        rows = (
-            force,
-            np.minimum(place, rim),
-            loaded + unloaded,
-            (jump_in > 0.0) * 1.0,
-            (jump_out > 0.0) * 1.0,
-            np.where(bounded, deepest, np.inf),
-            mean + last,
-            loaded,
-            unloaded,
-            np.where(wavy, np.inf, jump_in),  # with waves there is no end
-        )
+        results = {
+            "pull_off_force": force,
+            "pull_off_radius": np.minimum(place, rim),
+            "dissipated_energy": loaded + unloaded,
+            "loading_jumps": (jump_in > 0.0) * 1.0,
+            "unloading_jumps": (jump_out > 0.0) * 1.0,
+            "delta_max": np.where(bounded, deepest, np.inf),
+            "delta_jump_out": mean + last,
+            "loading_energy": loaded,
+            "unloading_energy": unloaded,
+            REACH: np.where(wavy, np.inf, jump_in),  # with waves there is no end
+        }
     found: dict[str, NDArray[Any]] = {"status": np.where(valid, 0, NO_VALUE).astype(np.int8)}
     for name in outputs:
-        value: NDArray[Any] = np.where(valid, rows[(*RESULTS, REACH).index(name)], -1.0 if name in INTEGERS else np.nan)
+        value: NDArray[Any] = np.where(valid, results[name], -1.0 if name in INTEGERS else np.nan)
         found[name] = value.astype(np.int32) if name in INTEGERS else value
     return found

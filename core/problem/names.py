@@ -12,6 +12,8 @@ RESULTS: Final = outputs_in("cycle")
 """The results of a cycle, in the order of their rows."""
 INTEGERS: Final = tuple(name for name, one in outputs.OUTPUTS.items() if one.is_count)
 """Those of them that are counts."""
+EXACT_ALONE: Final = tuple(name for name, one in outputs.OUTPUTS.items() if one.exact_alone)
+"""Those that the exact solver alone has."""
 EDGE: Final = outputs_in("edge")
 """Further results of a cycle whose edge opens at a larger work of adhesion than it closes at (scenes/cycles.py)."""
 RATE: Final = outputs_in("rate")

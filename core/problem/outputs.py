@@ -16,6 +16,7 @@ _OVER_AS_SYMBOL: Final = {
     "J": r"\,/\,(R^2\Delta\gamma)",
     "m": "/R",
     "m^2": "/R^2",
+    "Pa": r"\,R/\Delta\gamma",
 }
 """The same in a symbol."""
 
@@ -69,7 +70,8 @@ class Output:
         words, dollar, _ = self.symbol_in_si.rpartition("$")
         if not scale or dollar:
             return words + scale + dollar if dollar else self.symbol_in_si
-        return f"{self.symbol_in_si} ${scale[2:]}$"  # without the space before it
+        bare = scale.lstrip(r"\,")  # without the space before it
+        return f"{self.symbol_in_si} ${bare}$"
 
 
 OUTPUTS: Final = {one.name: one for one in (

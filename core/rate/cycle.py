@@ -19,14 +19,25 @@ from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.problem import status as flags
 from gradhesion.core.problem.material import stiffness
-from gradhesion.core.problem.names import CLOSING, CURVES, EDGE, OUTPUTS, PULL_OFF, RATE, SPEED, TURNS
+from gradhesion.core.problem.names import (
+    CLOSING,
+    CURVES,
+    EDGE,
+    EXACT_ALONE,
+    INTEGERS,
+    OUTPUTS,
+    PULL_OFF,
+    RATE,
+    SPEED,
+    TURNS,
+)
 from gradhesion.core.problem.outputs import VARIABLES
 from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.problem.toughness import Rate
 from gradhesion.core.rate.scenes import move
 from gradhesion.core.sweep import solve
 
-KNOWN: Final = (*(name for name in OUTPUTS if not name.endswith("_jumps")), *EDGE, *RATE)
+KNOWN: Final = (*(name for name in OUTPUTS if name not in (*INTEGERS, *EXACT_ALONE)), *EDGE, *RATE)
 """Results of such a cycle."""
 _OF_CLOSING: Final = {"loading_energy", "front_energy", "snap_in_force", "pinned_depth", "delta_max", "turning_radius"}
 _WITHOUT_CONTACT: Final = dict.fromkeys(("pull_off_radius", "delta_jump_out", "snap_in_force", RATE[0]), math.nan)

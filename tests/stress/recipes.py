@@ -17,7 +17,7 @@ from tests.conftest import ROOT
 ROOMS = ("cli", "configs", "core", "twin")
 
 RADIUS = "    out[at.PULL_OFF_RADIUS, i] = lowest.y * reduced[at.LENGTH, i]\n"
-AREA = '    Output("pull_off_area", "contact area at pull-off (in R^2)", "area at pull-off", "cycle", "m^2", "pull-off"),\n'
+AREA = '    Output("pull_off_area", "contact area at pull-off (in R^2)", "area at pull-off", "cycle", "m^2", "pull-off", exact_alone=True),\n'
 SPRING = "    elif punch.control == OWN_SPRING:\n"
 SPRING += "        reduced[at.BY_LOAD, i] = load / depth / scenes[at.MODULUS, i]\n"
 Edits = list[tuple[str, str, str]]
@@ -42,6 +42,12 @@ load = gr.solve({PUNCH}, ["pull_off_area", "pull_off_radius"], control="load")
 for found in (two, load):
     assert np.allclose(found.pull_off_area, np.pi * found.pull_off_radius**2, rtol=1e-15, atol=0.0)
     assert found.pull_off_area.attrs["long_name"] == "contact area at pull-off (in R^2)"
+for more in (dict(solver="envelope"), dict(solver="asymptotic"), dict(rate=dict(exponent=0.5), speed_over_reference=0.1)):
+    try:
+        gr.solve({PUNCH}, "pull_off_area", **more)
+    except ValueError:
+        continue
+    raise AssertionError(more)
 own = gr.solve({PUNCH}, "pull_off_force", control="own spring")
 machine = gr.solve({PUNCH}, "pull_off_force", control="machine", machine_stiffness=1.0)
 assert (own.pull_off_force == machine.pull_off_force).all()
