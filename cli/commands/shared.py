@@ -52,7 +52,8 @@ def _of_a_dataset(_context: click.Context, _option: click.Parameter, path: Path 
             return path
     except OSError:  # no such name can be: whoever writes there says why
         return path
-    name = path.with_suffix(".nc") if path.suffix[1:].isalpha() else f"{path}.nc"
+    name = path.with_suffix("") if path.suffixes[:-1] == [".nc"] else path
+    name = name.with_suffix(".nc") if name.suffix[1:].isalpha() else Path(f"{name}.nc")
     raise StudyError(f"-o {path}: a dataset is a NetCDF file, and its name ends in .nc; write -o {name}")
 
 

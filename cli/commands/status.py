@@ -96,7 +96,7 @@ def merge(files: tuple[Path, ...], output: Path | None, overwrite: bool, quiet: 
         study, written = _joined(files, output, overwrite=overwrite)
         finish(output, study.scenes, written, time.monotonic() - start, quiet=quiet)
     elif output is not None or len(files) > 1:
-        raise click.UsageError("several datasets need an output, named with -o; the blocks of shards of one need none")
+        raise click.UsageError("several datasets are joined into an output, named with -o; one, of shards, needs no -o")
     elif (shards := _of_shards(files[0])) is None:
         say(f"{files[0]}: was complete already")
     else:

@@ -43,7 +43,7 @@ _SAID: Final = {
     _NOT_ONE_DISC: "contact on loading is not one disc in {share}, and its values doubtful; lower A (johnson_alpha)",
     "resolution_too_coarse": "a finer sweep finds another optimum in {share}; raise optimum.resolution ({resolution})",
     "nothing_feasible": "no point meets the requirements in {share}; require less, or widen the bounds",
-    "linear_deviation_off": "the linear deviation is off in {share}: the value bends; set uncertainty.samples = 1024",
+    "linear_deviation_off": "the linear deviation is off in {share}: the value bends; see uncertainty.samples",
 }
 """What is said of a share of the scenes, most of it by the flag."""
 

@@ -108,7 +108,8 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
             advance(1)
     if not found.deviations:
         reasons = f"{found.beyond} have too many waves, {found.failed} no value, {found.unsure} two folds that meet"
-        raise DatasetError(f"{path}: none of the scenes drawn can be recomputed ({reasons}); draw more with --sample")
+        more = "draw more with --sample" if found.beyond + found.failed < found.total else "there are no others"
+        raise DatasetError(f"{path}: none of the scenes drawn can be recomputed ({reasons}); {more}")
     found.deviations.sort(key=lambda one: (-one.share, -one.deviation))
     return found
 

@@ -53,7 +53,7 @@ def drawn_curves(
     """
     if looks.kind == "map":
         raise DatasetError("--map: curves are drawn as lines; leave it out")
-    looks.refuse(["levels", "clabel", "band"], "curves are drawn as lines, without a spread")
+    looks.refuse(["levels", "clabel", "band"], "curves are drawn as lines, without colours or a spread")
     planes, chosen = _planes(x, y), _chosen(dataset, asked)
     of_states = [curve for curve in chosen if curve in STATE_CURVES]
     chosen = [curve for curve in chosen if curve not in of_states]

@@ -226,7 +226,7 @@ def _levels_of(name: str, ends: tuple[float, float], looks: Looks, *, log: bool,
         if not inner.size:
             drawn = between(least, greatest, name)
             raise DatasetError(f"{option}: none is among what is drawn, {drawn}; choose some between")
-        levels = np.unique([*listed, least, greatest])
+        levels = np.unique([*listed, *(end for end in (least, greatest) if not listed[0] <= end <= listed[-1])])
         log = levels[0] > 0.0 and levels[-1] > WIDE * levels[0]
         return levels, inner, (LogNorm if log else Normalize)(levels[0], levels[-1])
     if log:

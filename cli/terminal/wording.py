@@ -44,7 +44,8 @@ def nearest(word: str, known: Sequence[str]) -> str | None:
         return word
     lower = {name.lower(): name for name in known}
     called = {other: name for name, others in CALLED.items() if name in known for other in others if other not in lower}
-    for name in difflib.get_close_matches(word.lower(), [*called, *lower], n=1, cutoff=SLIP):
+    begun = [name for name in lower if len(name) > 2 and word.lower().startswith(name)]
+    for name in [*begun, *difflib.get_close_matches(word.lower(), [*called, *lower], n=1, cutoff=SLIP)]:
         return (called | lower)[name]
     parts = [name for name in lower if f"_{word.lower()}_" in f"_{name}_"] if word else []
     near = [*parts, *difflib.get_close_matches(word.lower(), lower, n=1, cutoff=0.6)]

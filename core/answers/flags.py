@@ -14,7 +14,11 @@ NOTHING_FEASIBLE: Final = 512
 """No point of the sweep meets the requirements. Optima only."""
 
 _OF_ANSWERS: Final = (
-    Flag(LINEAR_DEVIATION_OFF, "linear_deviation_off", "a linear standard deviation is off: a kink is near"),
+    Flag(
+        LINEAR_DEVIATION_OFF,
+        "linear_deviation_off",
+        "a linear standard deviation is off: the value bends, or a kink is near",
+    ),
     Flag(RESOLUTION_TOO_COARSE, "resolution_too_coarse", "a sweep finer than the resolution finds another optimum"),
     Flag(NOTHING_FEASIBLE, "nothing_feasible", "no point of the sweep meets the requirements"),
 )

@@ -54,7 +54,7 @@ OF_SCENES: Final = (
         "an input error of 1e-10 could change a number of jumps or the place of the pull-off",
     ),
     Flag(TOLERANCE_NOT_MET, "tolerance_not_met", "the requested accuracy is not reached"),
-    Flag(NO_VALUE, "no_value", "a parameter is outside its range, or the scene cannot be resolved"),
+    Flag(NO_VALUE, "no_value", "a parameter is outside its range, or the scene cannot be resolved (a million waves)"),
     Flag(NO_CONTACT, "no_contact", "the cycle turns before first contact"),
     Flag(TOO_MANY_WAVES, "too_many_waves", "the contact contains more waves than can be followed"),
 )

@@ -203,8 +203,10 @@ def value_in(text: str, name: str, option: str) -> float:
     """
     value = in_unit(text, unit_of(name))
     if np.isnan(value):
-        wanted = "has no unit" if unit_of(name) == "1" else f"is in {unit_of(name)}"
-        raise DatasetError(f'{option}: "{text}" is not a value of {name}, which {wanted}; write a number or a quantity')
+        own = (
+            f"is in {unit_of(name)}; write a number or a quantity" if unit_of(name) != "1" else "is a number; write one"
+        )
+        raise DatasetError(f'{option}: "{text}" is not a value of {name}, which {own}')
     return value
 
 

@@ -15,7 +15,7 @@ from gradhesion.cli.study.rules.mistakes import line_of, required
 from gradhesion.cli.study.text.written import steps_of
 from gradhesion.cli.terminal.wording import did_you_mean, nearest, shown
 from gradhesion.core.problem.inputs import INPUTS
-from gradhesion.core.problem.names import GIVEN_UP, SENSITIVITIES, SOLVERS, WITHOUT_LOAD
+from gradhesion.core.problem.names import GIVEN_UP, INTEGERS, SENSITIVITIES, SOLVERS, WITHOUT_LOAD
 from gradhesion.core.problem.outputs import CURVES, OUTPUTS
 from gradhesion.core.problem.profile import MOST_HARMONICS, Profile
 
@@ -266,7 +266,8 @@ def _goals(asked: Asked, table: Optimum) -> Found:
         if name in goals[:i]:
             yield way, f"{shown(name)} is named twice; remove one of the two"
         elif name not in known:
-            yield way, f"{shown(name)} cannot be a goal (counts cannot); {did_you_mean(name, known)}"
+            why = " (counts cannot)" if name in INTEGERS else ""
+            yield way, f"{shown(name)} cannot be a goal{why}; {did_you_mean(name, known)}"
 
 
 def _over(asked: Asked, table: Optimum) -> Found:
