@@ -79,7 +79,8 @@ def fit_loop(
     rate        how the work of adhesion grows with the speed of the edge; speed or reference_speed, or both as
                 speed_over_reference, are fixed or free, and its exponent may be free under that name; every
                 derivative is a difference of paths then: fits take minutes
-    intervals   "linear", those of the linear problem at the minimum, or "profile", by profile likelihoods
+    intervals   "linear", those of the linear problem at the minimum, or "profile", by profile likelihoods; the
+                deviation of a contact point that was found is part of them
     starts      how many starts are refined; `seed` is that of their Sobol set
 
     A fit is unreliable where `converged` is false, `on_bound` has names, or `status` has `POOR_FIT` or
@@ -133,7 +134,7 @@ def fit_loop(
         found = minima(misfit, begun)
         if misfit.nearest(found[0].x).drawn is None:
             raise ValueError("no combination within the ranges has a path; widen them")
-        fitted = results_at(misfit, found, intervals, ranges, widened=not noise_is_given)
+        fitted = results_at(misfit, found, intervals, ranges, contact, widened=not noise_is_given)
     if line is not None:  # points in contact may be flat, as those before the pull-off are: at another load
         level = fitted.values.get(LOAD_ZERO, 0.0) + fitted.values.get(TILT, 0.0) * line.middle
         line = line if abs(line.level - level) < _LEVEL * line.spread else None

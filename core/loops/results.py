@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
@@ -9,7 +10,8 @@ from scipy.special import chdtri, stdtrit
 
 from gradhesion.core.closed.reduced import WAYS
 from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
-from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop, OtherMinimum, poor_from
+from gradhesion.core.loops.fitted import DEPTH_ZERO, CannotTellApartError, FittedLoop, OtherMinimum, poor_from
+from gradhesion.core.loops.measured.features import ContactPoint
 from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.model import LINEAR, TURN, WAVELENGTHS, Model
 from gradhesion.core.loops.paths.path import LoopPath
@@ -40,12 +42,19 @@ of chi square; two places in one valley are not."""
 
 
 def results_at(
-    misfit: Misfit, found: list[Any], intervals: str, ranges: Mapping[str, tuple[float, float]], *, widened: bool
+    misfit: Misfit,
+    found: list[Any],
+    intervals: str,
+    ranges: Mapping[str, tuple[float, float]],
+    contact: ContactPoint | None,
+    *,
+    widened: bool,
 ) -> FittedLoop:
     """Return the results at the first of some minima, the results of `minima`.
 
-    `intervals` is "linear" or "profile"; `ranges` are the ends of what is searched, in SI units; where noise was
-    estimated, deviations and intervals are `widened` by the root of the reduced chi square.
+    `intervals` is "linear" or "profile"; `ranges` are the ends of what is searched, in SI units; a `contact` point at
+    which the zero of depth was fixed adds its deviation; where noise was estimated, deviations and intervals are
+    `widened` by the root of the reduced chi square.
     """
     best = found[0].x
     residual, path = misfit.residual(best), misfit.nearest(best).drawn
@@ -60,6 +69,11 @@ def results_at(
     if intervals == "profile":
         ways = covariance / spread[:, None]
         ends = np.array([profile_interval(misfit, best, i, way, factor, unit) for i, way in enumerate(ways)]).T
+    if contact is not None:
+        move = _by_contact(misfit, best, covariance / unit, contact)
+        ends = best + np.array([[-1.0], [1.0]]) * np.hypot(ends - best, factor * move)
+        covariance = covariance + np.outer(move, move)
+        spread = np.sqrt(np.diag(covariance))
     low, high = (misfit.named(np.clip(end, misfit.low, misfit.high)) for end in ends)
     allowed = others(found, covariance / unit, unit)
     radius = float(path.radius[path.turn]) / path.scene.R
@@ -87,6 +101,13 @@ def results_at(
         turning_radius=radius,
         widening=math.sqrt(unit),
     )
+
+
+def _by_contact(misfit: Misfit, best: Floats, covariance: Floats, contact: ContactPoint) -> Floats:
+    """Return by how much the numbers change where the contact point is a standard deviation further, (numbers,)."""
+    fixed = {**misfit.model.fixed, DEPTH_ZERO: contact.depth + contact.deviation}
+    further = replace(misfit, model=replace(misfit.model, fixed=fixed))
+    return covariance @ misfit.jacobian(best).T @ (misfit.residual(best) - further.residual(best))
 
 
 def others(found: list[Any], covariance: Floats, unit: float) -> list[Any]:

@@ -182,9 +182,9 @@ def _refuse(loop: LoopFile, table: DataTable, fitted: list[str]) -> None:
     if fault:
         key, words = _SIGNS[fault]
         key = (table.depths or "indentation") if key == "depth" else key
-        name = getattr(table, key).column if getattr(table, key) else "..."
-        remedy = f'{key} = {{ column = "{name}", sign = -1 }} with its unit'
-        raise LoopFileError(key, f"{words}; write {remedy}, or without sign where it is -1")
+        own = getattr(table, key)
+        remedy = f'write {key} = {{ column = "{own.column if own else "..."}", sign = -1 }} with its unit'
+        raise LoopFileError(key, f"{words}; {'leave its sign out' if own and own.sign == -1 else remedy}")
     if loop.depth.size <= len(fitted):
         words = f"{loop.depth.size} points are too few for {len(fitted)} fitted values ({', '.join(fitted)})"
         raise LoopFileError("file", f"{words}; measure more points, or fix some")

@@ -84,11 +84,13 @@ def _ways(asked: Asked, own: Input, kin: list[str]) -> Found:
         first, *others = asked.given(*names) or [""]
         for name in others:
             yield home(name), f"{first} gives this already; keep one of the two and remove the other"
-        zero = own.idle_without
-        if own.group or own.name == "a_max_over_R" or asked.meant(*names) or (zero and is_zero(zero, asked.values)):
+        zero, uncertain = own.idle_without, asked.form.uncertainty
+        varied = bool(uncertain) and zero in {INPUTS[name].gives for name in uncertain.deviations if name in INPUTS}
+        unneeded = bool(zero) and not varied and is_zero(zero, asked.values)
+        if own.group or own.name == "a_max_over_R" or asked.meant(*names) or unneeded:
             continue
         instead = "".join(f", or instead {INPUTS[name].example} under [{INPUTS[name].table}]" for name in names[1:])
-        unless = f"unless {zero} = 0 everywhere, " if zero else ""
+        unless = f"{zero} is uncertain: " if varied else f"unless {zero} = 0 everywhere, " if zero else ""
         yield home(names[0]), f"{unless}this is required; write for example {INPUTS[names[0]].example}{instead}"
 
 

@@ -87,8 +87,13 @@ def _sentence(detail: ErrorDetails, path: Key) -> str:
     if kind == "missing":
         return required(*path)
     if kind == "literal_error":
-        known = re.findall("'([^']+)'", detail["msg"])
-        return f"this must be one of its words; {did_you_mean(str(value), known)}"
+        known = re.findall("'([^']+)'", detail["ctx"]["expected"])
+        words = (
+            f"one of its words; {did_you_mean(str(value), known)}"
+            if known
+            else f"{detail['ctx']['expected']}; write one"
+        )
+        return f"this must be {words}"
     if kind == "float_type" and isinstance(value, str) and (words := ratio_sentence(value, own.name if own else "A")):
         return words if own else f"this must be a number; {words}"
     if own and own.infinite and kind == "finite_number":

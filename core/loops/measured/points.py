@@ -105,7 +105,7 @@ def along(depth: Floats, unloading: Truths, cycle: _Ints, *, sort: bool = True) 
     ([0, 2, 1], [0, 2])
     """
     order = np.lexsort((unloading, cycle))
-    if sort and np.median(np.abs(np.diff(depth[order]))) > _SORTED * np.ptp(depth):
+    if sort and depth.size > 1 and np.median(np.abs(np.diff(depth[order]))) > _SORTED * np.ptp(depth):
         order = np.lexsort((depth, unloading, cycle))
     branch = 2 * cycle.astype(np.int64) + unloading
     return order, np.append(0, np.flatnonzero(np.diff(branch[order])) + 1)

@@ -83,6 +83,20 @@ def test_the_zero_of_depth_at_the_contact_point_and_a_tilt() -> None:
     assert found.contact is not None
     assert found.contact.depth == pytest.approx(4e-7, abs=3e-9)
     assert found.names == (*FREE, "load_offset")
+    # an error of the point counts as much as an error of the zero would
+    at_zero = fit_loop(points[0] - 4e-7, *points[1:], SMOOTH, FREE, noise=noise, offsets=Offsets(indentation=False))
+    nearer = fit_loop(
+        points[0] - 4e-7 - found.contact.deviation,
+        *points[1:],
+        SMOOTH,
+        FREE,
+        noise=noise,
+        offsets=Offsets(indentation=False),
+    )
+    move = nearer.values["E_star"] - at_zero.values["E_star"]
+    expected = math.hypot(move, at_zero.standard_deviations["E_star"])
+    assert found.standard_deviations["E_star"] == pytest.approx(expected, rel=0.02)
+    assert found.high["E_star"] > TRUE["E_star"] > found.low["E_star"]
     assert found.loading[:, 0].max() == pytest.approx(points[0].max(), abs=20.0 * noise[0]), "the path lies on the data"
     with pytest.raises(ValueError, match="loading has no base line"):
         fit_loop(*(row[points[2]] for row in points), SMOOTH, FREE, noise=noise, offsets=Offsets(indentation="contact"))
