@@ -134,7 +134,7 @@ def fit_loop(
         found = minima(misfit, begun)
         if misfit.nearest(found[0].x).drawn is None:
             raise ValueError("no combination within the ranges has a path; widen them")
-        fitted = results_at(misfit, found, intervals, ranges, contact, widened=not noise_is_given)
+        fitted = results_at(misfit, found, intervals, ranges, widened=not noise_is_given, contact=contact)
     if line is not None:  # points in contact may be flat, as those before the pull-off are: at another load
         level = fitted.values.get(LOAD_ZERO, 0.0) + fitted.values.get(TILT, 0.0) * line.middle
         line = line if abs(line.level - level) < _LEVEL * line.spread else None

@@ -46,9 +46,9 @@ def results_at(
     found: list[Any],
     intervals: str,
     ranges: Mapping[str, tuple[float, float]],
-    contact: ContactPoint | None,
     *,
     widened: bool,
+    contact: ContactPoint | None = None,
 ) -> FittedLoop:
     """Return the results at the first of some minima, the results of `minima`.
 

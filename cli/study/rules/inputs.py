@@ -84,8 +84,8 @@ def _ways(asked: Asked, own: Input, kin: list[str]) -> Found:
         first, *others = asked.given(*names) or [""]
         for name in others:
             yield home(name), f"{first} gives this already; keep one of the two and remove the other"
-        zero, uncertain = own.idle_without, asked.form.uncertainty
-        varied = bool(uncertain) and zero in {INPUTS[name].gives for name in uncertain.deviations if name in INPUTS}
+        zero, table = own.idle_without, asked.form.uncertainty
+        varied = bool(zero) and any(INPUTS[name].gives == zero for name in (table.deviations if table else ()))
         unneeded = bool(zero) and not varied and is_zero(zero, asked.values)
         if own.group or own.name == "a_max_over_R" or asked.meant(*names) or unneeded:
             continue

@@ -80,6 +80,7 @@ STUDIES: dict[str, tuple[dict[str, Any], str]] = {
     "a scale": ({"parameters": PUNCH | {"k": {"start": 0.0, "stop": 1.0, "num": 3, "scale": "log"}}}, '"spacing"'),
     "an uncertain ratio": (of_units(None, amplitude="1 nm") | {"uncertainty": {"A": 0.01}}, '"amplitude"'),
     "an uncertain number": (of_units(None, amplitude="1 nm") | {"uncertainty": {"amplitude": 0.1}}, 'amplitude = "0.5 um"'),
+    "an uncertain 0": ({"parameters": {key: one for key, one in PUNCH.items() if key != "c0_over_R"} | {"k": 0.0}, "uncertainty": {"k": 0.1}}, "c0_over_R = 0.01"),
     "a decimal comma": (of_units(wavelength="300,5 nm"), "a comma"),
     "thousands": (of_units(wavelength="1,234,567.5 nm"), "a comma"),
     "no preload": (of_units(preload="0 N"), 'indentation_max = "0 nm"'),
