@@ -45,10 +45,10 @@ def start_up_table(repeat: int = 9) -> str:
         curve = ["run", str(CURVE), "-o", str(Path(folder) / "curve.nc"), "--quiet"]
         empty, other, third = (str(Path(folder) / name) for name in ("empty", "other", "third"))
         first = {
-            "first run ever of the force alone, which compiles": run(*smoke, *FORCE, XDG_CACHE_HOME=other),
-            "first run ever": run(*smoke, XDG_CACHE_HOME=empty),
-            "first run of curves after that": run(*curve, XDG_CACHE_HOME=empty),
-            "everything compiled ahead, `gradhesion warmup --all`": run("warmup", "--all", XDG_CACHE_HOME=third),
+            "first run ever of the force alone, which compiles": run(*smoke, *FORCE, NUMBA_CACHE_DIR=other),
+            "first run ever": run(*smoke, NUMBA_CACHE_DIR=empty),
+            "first run of curves after that": run(*curve, NUMBA_CACHE_DIR=empty),
+            "everything compiled ahead, `gradhesion warmup --all`": run("warmup", "--all", NUMBA_CACHE_DIR=third),
         }
     lines: list[list[object]] = [[f"`{words}`", statistics.median(own)] for words, own in times.items()]
     lines += [[words, seconds] for words, seconds in first.items()]
