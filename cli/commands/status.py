@@ -70,7 +70,8 @@ def status_of(file: Path) -> dict[str, Any]:
             dataset.getncattr("study")
         found = file.stat()
     except (OSError, RuntimeError, AttributeError, UnicodeError) as error:
-        raise DatasetError(f"{file}: is neither a whole dataset nor one that a run is writing ({error})") from None
+        why = f"({getattr(error, 'strerror', None) or error}); name the output of a run"
+        raise DatasetError(f"{file}: is neither a whole dataset nor one that a run is writing {why}") from None
     return {"output": str(file), "state": "complete", "bytes": found.st_size, "written": found.st_mtime}
 
 

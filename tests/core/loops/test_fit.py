@@ -102,6 +102,14 @@ def test_the_zero_of_depth_at_the_contact_point_and_a_tilt() -> None:
         fit_loop(*(row[points[2]] for row in points), SMOOTH, FREE, noise=noise, offsets=Offsets(indentation="contact"))
 
 
+def test_a_contact_of_one_work_closes_at_no_more_than_it_opens_at() -> None:
+    for seed in (20, 24):  # noise has the minimum on the other side
+        *points, noise = ball(seed, zero=(4e-7, 0.0))
+        found = fit_loop(*points, SMOOTH, FREE | {"work_of_adhesion_closing": (1e-3, 1.0)}, noise=noise)
+        assert found.values["work_of_adhesion_closing"] == found.values["work_of_adhesion"]
+        holds(found, TRUE | {"work_of_adhesion_closing": TRUE["work_of_adhesion"]})
+
+
 def test_means_weigh_as_much_as_their_points() -> None:
     *points, noise = ball(7)
     one = fit_loop(*points, SMOOTH, FREE, noise=noise)
