@@ -163,6 +163,10 @@ def test_more_of_the_model_is_read() -> None:
     assert pattern.toughness is not None
     assert pattern.fixed["toughness_wavelength"] == pytest.approx(3e-7)
     assert load(loading__control="load").loading.control == "load"
+    of_nu = load(
+        parameters__nu={"start": 0.0, "stop": 0.5}, parameters__k=0.3, physical__c0="1 um", physical__E_star="10 MPa"
+    )
+    assert of_nu.free["nu"] == (0.0, 0.5)
 
 
 @pytest.mark.usefixtures("folder")
