@@ -122,7 +122,7 @@ def test_a_contact_next_to_k_1_shrinks_to_a_point(below: float, scene: Scene) ->
     ]
     assert path["path_indentation"][-1] == pytest.approx(ends[0], rel=1e-14)
     assert ends == pytest.approx([equilibrium_states(scene | {"k": 1.0}, [1e-15], cone)[1, 0]] * 2, rel=1e-10)
-    assert ends[1] == pytest.approx(equilibrium_states(scene | {"k": 1.0}, [1e-15], cone)[1, 0], rel=1e-13)
+    assert ends[1] == pytest.approx(equilibrium_states(scene | {"k": 1.0}, [1e-15], cone)[1, 0], rel=1e-13, abs=0.0)
 
 
 @pytest.mark.parametrize(("wavelength", "amplitude", "whole"), [(0.002, 0.01, 4), (0.008, 0.02, 8), (0.008, 0.03, 16)])
