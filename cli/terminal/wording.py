@@ -39,16 +39,18 @@ def nearest(word: str, known: Sequence[str]) -> str | None:
     ('dissipated_energy', 'energy_gain')
     >>> nearest("gamma", ["a_max", "work_of_adhesion"])
     'work_of_adhesion'
+    >>> nearest("cosine", ["sin", "cos"]), nearest("speed_over_referense", ["speed", "speed_over_reference"])
+    ('cos', 'speed_over_reference')
     """
     if word in known:
         return word
     lower = {name.lower(): name for name in known}
     called = {other: name for name, others in CALLED.items() if name in known for other in others if other not in lower}
-    begun = [name for name in lower if len(name) > 2 and word.lower().startswith(name)]
-    for name in [*begun, *difflib.get_close_matches(word.lower(), [*called, *lower], n=1, cutoff=SLIP)]:
+    for name in difflib.get_close_matches(word.lower(), [*called, *lower], n=1, cutoff=SLIP):
         return (called | lower)[name]
     parts = [name for name in lower if f"_{word.lower()}_" in f"_{name}_"] if word else []
-    near = [*parts, *difflib.get_close_matches(word.lower(), lower, n=1, cutoff=0.6)]
+    begun = sorted((name for name in lower if len(name) > 2 and word.lower().startswith(name)), key=len, reverse=True)
+    near = [*parts, *begun, *difflib.get_close_matches(word.lower(), lower, n=1, cutoff=0.6)]
     return lower[near[0]] if near else None
 
 
