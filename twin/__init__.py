@@ -1,6 +1,6 @@
 """The slow, independent twin of the solver: every number from the definitions, in ball arithmetic of 51 digits.
 
-It shares no line with gradhesion.core and needs python-flint (the extra `verify`), whose precision it sets on import.
+It shares no line with gradhesion.core and needs python-flint, whose precision it sets on import.
 """
 
 from typing import Final

@@ -93,7 +93,7 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
         accepted = f"the solvers {' and '.join(stated.SOLVERS)}, and edges at rest"
         raise DatasetError(f"{path}: has no independent twin; `gradhesion verify` accepts {accepted}")
     outputs = [name for name in study.outputs if name in stated.KNOWN]
-    unknown = [name for name in study.outputs if name not in outputs]
+    unknown = [name for name in (*study.outputs, *study.spreads) if name not in outputs]
     found = Recomputed(
         seed=random.SystemRandom().randrange(10**6) if seed is None else seed,
         total=dataset["status"].size // len(solvers) * len(known),

@@ -88,8 +88,8 @@ def limits_of(
     ((5e-08, 2e-06), (-inf, inf))
     """
     low, high = ends_in(span.partition(" ")[2], name, span)
-    if low >= high:
-        raise DatasetError(f"{span}: the lower limit comes first and is below the upper one; exchange or change them")
+    if low == high:
+        raise DatasetError(f"{span}: the two limits are one; give two")
     if log and (high <= 0.0 or -math.inf < low <= 0.0):
         raise DatasetError(f"{span}: the axis is logarithmic; choose limits above 0")
     if low >= greatest or high <= least:

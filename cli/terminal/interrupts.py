@@ -3,6 +3,8 @@
 import signal
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from types import FrameType
 from typing import TYPE_CHECKING, Final
 
@@ -13,6 +15,7 @@ BURST: Final = 1.0
 """Seconds in which further signals are taken for the first one, so that they do not disturb the tidying up."""
 
 _heard: list[float] = []
+_deferring: list[None] = []
 _kept: list[str] = []
 
 
@@ -37,6 +40,17 @@ def check() -> None:
         raise KeyboardInterrupt
 
 
+@contextmanager
+def deferred() -> Iterator[None]:
+    """Hear signals within what must not stop half-way, and raise KeyboardInterrupt at its end."""
+    _deferring.append(None)
+    try:
+        yield
+    finally:
+        _deferring.pop()
+    check()
+
+
 def keep(sentence: str) -> None:
     """Note what an interrupt has left, for the last words of the program."""
     _kept[:] = [sentence]
@@ -59,4 +73,5 @@ def _hear(_number: int, _frame: FrameType | None) -> None:
     if _heard and now - _heard[-1] < BURST:
         return
     _heard.append(now)
-    raise KeyboardInterrupt
+    if not _deferring:
+        raise KeyboardInterrupt

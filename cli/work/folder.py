@@ -163,9 +163,10 @@ def claimed(output: Path, shard: str = "") -> Iterator[None]:
         raise OutputError(f"{output}.parts: no run has made it; move it away, or name another output with -o")
     lock = FileLock(folder / f"lock{shard}")
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with suppress(Timeout):
-            lock.acquire(timeout=PATIENCE)
+        with interrupts.deferred():  # a lock that is half taken is nobody's
+            folder.mkdir(parents=True, exist_ok=True)
+            with suppress(Timeout):
+                lock.acquire(timeout=PATIENCE)
         if not lock.is_locked or is_running(folder, "lock" if shard else r"lock-.*"):
             remedy = f"wait for it (`gradhesion status {output}` shows how far it is), or name another output with -o"
             raise OutputError(f"{output}: another run is writing it; {remedy}")

@@ -138,7 +138,7 @@ def fit_loop(
     if line is not None:  # points in contact may be flat, as those before the pull-off are: at another load
         level = fitted.values.get(LOAD_ZERO, 0.0) + fitted.values.get(TILT, 0.0) * line.middle
         line = line if abs(line.level - level) < _LEVEL * line.spread else None
-    return replace(fitted, base_line=line, contact=contact)
+    return replace(fitted, base_line=line)
 
 
 def _zeros(points: Floats, back: Truths, line: BaseLine | None) -> tuple[float, float]:

@@ -64,9 +64,7 @@ def results_at(
     unit = max(1.0, chi_square / degrees) if widened else 1.0
     covariance = covariance_of(misfit, best) * unit
     spread = np.sqrt(np.diag(covariance))
-    values, factor = misfit.named(best), float(stdtrit(degrees, 0.5 * (1.0 + LEVEL)))
-    if (closing := "work_of_adhesion_closing") in values:  # where both works are equal, noise has them in either order
-        values[closing] = min(values[closing], float({**misfit.model.fixed, **values}["work_of_adhesion"]))
+    values, factor = _values(misfit, best), float(stdtrit(degrees, 0.5 * (1.0 + LEVEL)))
     ends = np.array([best - factor * spread, best + factor * spread])
     if intervals == "profile":
         ways = covariance / spread[:, None]
@@ -98,11 +96,20 @@ def results_at(
         unloading=path.places[path.turn :],
         converged=bool(found[0].status > 0),
         status=status | (POOR_FIT if chi_square > poor_from(degrees) * degrees else 0),
-        others=tuple(OtherMinimum(values=misfit.named(one.x), chi_square=2.0 * one.cost) for one in allowed),
+        others=tuple(OtherMinimum(values=_values(misfit, one.x), chi_square=2.0 * one.cost) for one in allowed),
         alike=alternatives(misfit.model, path, misfit.scale, spread),
+        contact=contact,
         turning_radius=radius,
         widening=math.sqrt(unit),
     )
+
+
+def _values(misfit: Misfit, vector: Floats) -> dict[str, float]:
+    """Return the values of a minimum by name; where both works are equal, noise has them in either order."""
+    values = misfit.named(vector)
+    if (closing := "work_of_adhesion_closing") in values:
+        values[closing] = min(values[closing], {**misfit.model.fixed, **values}["work_of_adhesion"])
+    return values
 
 
 def _by_contact(misfit: Misfit, best: Floats, covariance: Floats, contact: ContactPoint) -> Floats:

@@ -15,7 +15,7 @@ INTEGERS: Final = tuple(name for name, one in outputs.OUTPUTS.items() if one.is_
 EXACT_ALONE: Final = tuple(name for name, one in outputs.OUTPUTS.items() if one.exact_alone)
 """Those that the exact solver alone has."""
 EDGE: Final = outputs_in("edge")
-"""Further results of a cycle whose edge opens at a larger work of adhesion than it closes at (scenes/cycles.py)."""
+"""Further results of a cycle whose edge opens at a larger work of adhesion than it closes at (scenes/results.py)."""
 RATE: Final = outputs_in("rate")
 """Further results of a cycle whose edge opens at a work that grows with its speed (rate/cycle.py)."""
 OUTPUTS: Final = outputs_in("cycle", "turn")

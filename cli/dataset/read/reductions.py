@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, replace
 from typing import Final, NamedTuple
+from warnings import catch_warnings
 
 import numpy as np
 import xarray
@@ -68,7 +69,8 @@ def reduced(taken: Taken, axis: str, how: str) -> Taken:
         elif how == "sum":
             made = values.sum(axis, skipna=True, min_count=1, keep_attrs=True)
         else:
-            made = values.quantile(QUANTILES[how], axis, skipna=True, keep_attrs=True).drop_vars("quantile")
+            with catch_warnings(action="ignore"):  # where all are NaN, so is the quantile
+                made = values.quantile(QUANTILES[how], axis, skipna=True, keep_attrs=True).drop_vars("quantile")
         return Taken(values=made, status=flags, left_out=taken.left_out)
     place = values.fillna(-np.inf).argmax(axis) if how.endswith("max") else values.fillna(np.inf).argmin(axis)
     found = there.any(axis)

@@ -212,8 +212,11 @@ def value_in(text: str, name: str, option: str) -> float:
 
 def ends_in(text: str, name: str, option: str) -> tuple[float, float]:
     """Read a range of a variable such as 0.1:0.5, either end of which may be left out."""
-    low, _, high = (end.strip() for end in text.partition(":"))
-    return value_in(low or "-inf", name, option), value_in(high or "inf", name, option)
+    first, _, last = (end.strip() for end in text.partition(":"))
+    low, high = value_in(first or "-inf", name, option), value_in(last or "inf", name, option)
+    if low > high:
+        raise DatasetError(f"{option}: the lower end comes first; exchange the two")
+    return low, high
 
 
 def _nearest(option: str, values: NDArray[np.float64], axis: str, value: float) -> int:

@@ -172,7 +172,7 @@ def _without_num(data: Mapping[str, Any]) -> Iterator[Key]:
     """Give the keys of the numbers of values that ranges lack."""
     for name, own in INPUTS.items():
         entry = value_at(data, (own.table, name))
-        if isinstance(entry, Mapping) and "num" not in entry:
+        if isinstance(entry, Mapping) and not {"num", *Range.foreign} & entry.keys():
             yield (own.table, name, "num")
 
 

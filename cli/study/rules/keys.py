@@ -6,7 +6,17 @@ from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, fields
 from typing import Annotated, Any, ClassVar, Final, Literal, Union, get_args, get_type_hints
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, WithJsonSchema, create_model
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Discriminator,
+    Field,
+    Tag,
+    WithJsonSchema,
+    create_model,
+    model_validator,
+)
 
 from gradhesion.cli.study.text.quantities import ratio_sentence, si_value
 from gradhesion.core.problem.inputs import Input
@@ -15,6 +25,8 @@ from gradhesion.core.problem.profile import MOST_HARMONICS
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 MOST_VALUES: Final = 10_000_000
 """Values of one axis: it is held in memory, and so are its kin."""
+_ONE_VALUE: Final = re.compile(r'"[^"]+"|\d[\d.e-]*')
+"""A quantity or a finite number, as TOML has it."""
 _PERCENTAGE: Final = re.compile(r"\s*([+-]?(?:\d{1,20}\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*%\s*")
 
 
@@ -80,6 +92,15 @@ def table_of(kind: type, **more: Any) -> Any:
 class Range(Table):
     """An axis by its ends and its number of values, or the ends between which an input is searched."""
 
+    foreign: ClassVar[Mapping[str, str]] = {
+        "values": "a list of values stands alone, for example [0.1, 0.2, 0.5]",
+        **dict.fromkeys(
+            ("step", "by", "increment", "delta"),
+            'a range has no step; write num, the number of its values, evenly spaced unless spacing = "log"',
+        ),
+    }
+    """What to write in the place of keys that ranges have elsewhere."""
+
     start: float
     stop: float
     num: int | None = said(
@@ -91,6 +112,14 @@ class Range(Table):
         json_schema_extra={"type": "integer", "minimum": 1, "maximum": MOST_VALUES},
     )
     spacing: Literal["linear", "log"] = said("whether differences or ratios of neighbours are equal", '"log"', "linear")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _refuse_foreign(cls, table: dict[str, Any]) -> dict[str, Any]:
+        """Say what a key of other tools' ranges is called here."""
+        for words in (words for key, words in cls.foreign.items() if key in table):
+            raise ValueError(words)
+        return table
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -121,7 +150,9 @@ def tagged(**forms: Any) -> Any:
 
 def range_of(own: Input, number: Any) -> Any:
     """Make the table of a range of a number."""
-    start, stop = ((number, said(f"the {which} value", own.value)) for which in ("first", "last"))
+    value = _ONE_VALUE.search(own.value)  # of a range or a list, its first
+    example = value[0] if value else "1.0"
+    start, stop = ((number, said(f"the {which} value", example)) for which in ("first", "last"))
     return create_model(f"Range_{own.name}", __base__=Range, start=start, stop=stop)
 
 

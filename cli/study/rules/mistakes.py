@@ -3,7 +3,7 @@
 import re
 from collections.abc import Collection, Mapping
 from functools import cache
-from typing import Any, Final, get_args
+from typing import Any, get_args
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
@@ -17,8 +17,6 @@ from gradhesion.core.problem.inputs import INPUTS
 
 Mistake = tuple[Key, str]
 """A key, and what is wrong with it and what to do about it."""
-_STEPS: Final = ("step", "by", "increment", "delta")
-"""What a range does not have."""
 
 
 def mistakes_of(
@@ -111,9 +109,6 @@ def _unknown_key(path: Key, absent: Collection[str]) -> tuple[Key, str]:
     table, key = path[:-1], str(path[-1])
     keys_of = {place: [*one.model_fields] for place, one in tables_of(Form).items()}
     known = keys_of.get(tuple(step for step in table if isinstance(step, str)), [])
-    if "num" in known and key in _STEPS:
-        sentence = "a range has no step; give the number of its values instead, for example num = 11"
-        return (*table, "num"), f'{sentence}, evenly spaced unless spacing = "log"'
     homes = {place: keys for place, keys in keys_of.items() if len(place) < 2 and not {*place} & {*absent}}
     homes[()] = [name for name in homes[()] if name not in absent]
     if ("uncertainty",) in homes:

@@ -68,8 +68,8 @@ class Misfit:
         return replace(self, model=model, low=self.low[use], high=self.high[use])
 
     def named(self, vector: Floats) -> dict[str, float]:
-        """Give the numbers their names and units."""
-        return {name: float(value) for name, value in self.model.values(vector).items()}
+        """Give the numbers their names and units, but for where the cycle turns: the data say so."""
+        return {name: float(value) for name, value in self.model.values(vector).items() if name != TURN}
 
     def nearest(self, vector: Floats) -> Nearest:
         """Find where points are nearest to the path; the last result is kept, for the derivatives."""
