@@ -12,6 +12,7 @@ import xarray
 from matplotlib.figure import Figure
 
 import gradhesion as gr
+from tests.conftest import mistakes
 
 PNG = b"\x89PNG\r\n\x1a\n"
 PUNCH: dict[str, Any] = {"nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "a_max_over_R": 0.7, "A": 0.01}
@@ -35,28 +36,22 @@ def test_a_figure_is_that_of_the_command(grid: xarray.Dataset, tmp_path: Path, g
     assert len({tuple(axes.get_ylabel() for axes in panels) for panels in both}) == 1
 
 
-def test_named_dimensions_are_for_xarray(tmp_path: Path, gradhesion: Any) -> None:
+def test_named_dimensions_are_for_xarray() -> None:
     named = gr.solve(PUNCH, k=0.3, lambda_over_R=xarray.DataArray([0.1, 0.2], dims="x"))
-    with pytest.raises(gr.DatasetError, match="dimension x is no parameter, and pictures are drawn over parameters"):
-        named.gr.plot()
-    named.to_netcdf(tmp_path / "x.nc")
-    assert "its dimension x is no parameter" in gradhesion("plot", tmp_path / "x.nc", code=2).output
+    assert "dimension x is no parameter, and pictures are drawn over parameters" in mistakes(named.gr.plot)[0]
     points = gr.solve(PUNCH, k=0.3, lambda_over_R=xarray.DataArray([0.1, 0.2], dims="scene"))
     assert points.gr.plot("pull_off_force", x="lambda_over_R")
 
 
 def test_a_variable_alone_is_not_drawn(grid: xarray.Dataset) -> None:
     for call in (gr.plot, gr.verify):
-        with pytest.raises(gr.DatasetError, match="a DataArray is neither a dataset nor the path of one"):
-            call(grid["pull_off_force"])  # type: ignore[arg-type]
+        assert "a DataArray is neither a dataset nor the path of one" in mistakes(call, grid["pull_off_force"])[0]
 
 
 def test_a_page_is_written_once(grid: xarray.Dataset, tmp_path: Path) -> None:
-    pytest.importorskip("bokeh")
     page = gr.explore(grid, tmp_path / "x.html", variables="pull_off_force")
     assert page == tmp_path / "x.html"
     text = page.read_text(encoding="utf-8")
-    assert "<html" in text
     assert "pull_off_force, dissipated_energy" in text, "its title"
     with pytest.raises(gr.OutputError, match=r"x\.html"):
         gr.explore(grid, page)
@@ -64,28 +59,18 @@ def test_a_page_is_written_once(grid: xarray.Dataset, tmp_path: Path) -> None:
     assert page.read_text(encoding="utf-8") != text
     grid.to_netcdf(tmp_path / "y.nc")
     assert gr.explore(tmp_path / "y.nc") == tmp_path / "y.html"
-    with pytest.raises(gr.OutputError, match="a page of a dataset in memory needs a name"):
-        gr.explore(grid)
-    with pytest.raises(gr.OutputError, match=r"the name of a page ends in \.html"):
-        gr.explore(grid, tmp_path / "x.png")
+    for path in (None, tmp_path / "x.png"):
+        with pytest.raises(gr.OutputError, match=r"a page .*( needs a name|ends in \.html)"):
+            gr.explore(grid, path)
 
 
 def test_a_picture_is_saved_in_its_size_and_style(grid: xarray.Dataset, tmp_path: Path) -> None:
     panels = gr.plot(grid, kind="map", width="page", height=4, colour_map="cividis", style="gradhesion.journal")
     assert panels.figure.get_size_inches() == pytest.approx([190 / 25.4, 4.0], rel=1e-15)
-    assert len(panels) == 2, "colour bars are no panels"
-    assert len(panels[:1]) == 1
+    assert (len(panels), len(panels[:1])) == (2, 1), "colour bars are no panels"
     panels.savefig(tmp_path / "map.png")
     width, height = np.frombuffer((tmp_path / "map.png").read_bytes()[16:24], ">u4")
     assert (width, height) == (int(300 * 190 / 25.4), 1200), "300 dots per inch are those of the style"
-
-
-def test_realisations_are_reduced_as_the_command_does_it() -> None:
-    rough = gr.solve(PUNCH, k=0.1, lambda_over_R=[0.1, 0.2], profile={"spectrum": {"hurst": 0.8, "first": 1, "last": 4, "realisations": 5, "seed": 1}})  # fmt: skip
-    (panel, _) = gr.plot(rough, over={"realisation": "p95"})
-    upper = rough["pull_off_force"].quantile(0.95, "realisation")
-    assert panel.get_lines()[0].get_ydata() == pytest.approx(upper.values, rel=1e-14)
-    assert len(gr.plot(rough)) == 2
 
 
 class Notebook:
@@ -145,19 +130,15 @@ def test_every_form_shows_a_picture_once(notebook: Callable[..., Notebook], grid
     assert len(page.callbacks["post_execute"]) == 1
 
 
-def test_what_a_cell_changes_is_shown(notebook: Callable[..., Notebook], grid: xarray.Dataset) -> None:
+def test_what_a_cell_changes_is_shown_and_a_terminal_shows_nothing_by_itself(
+    notebook: Callable[..., Notebook], grid: xarray.Dataset
+) -> None:
     page = notebook()
     page.cell(lambda: gr.plot(grid))
     (plain,) = page.outputs
 
-    def changed() -> None:
-        gr.plot(grid)[0].set_ylim(0.0, 9.0)
-
-    page.cell(changed)
+    page.cell(lambda: gr.plot(grid)[0].set_ylim(0.0, 9.0) and None)
     assert page.outputs != [plain]
-
-
-def test_a_terminal_shows_nothing_by_itself(notebook: Callable[..., Notebook], grid: xarray.Dataset) -> None:
     page = notebook(kernel=False)
     assert page.cell(lambda: gr.plot(grid) and None) == 0
     assert not page.callbacks["post_execute"]

@@ -33,9 +33,10 @@ def mistakes_of(*arguments: Any, call: Any = gr.solve, **keywords: Any) -> str:
     return str(refused.value)
 
 
-def test_smooth_punches_have_the_force_that_is_known() -> None:
-    found = gr.solve(PUNCH | {"A": 0.0, "a_max_over_R": math.inf, "k": [0.0, 0.25, 0.9]}, "pull_off_force")
-    np.testing.assert_allclose(found["pull_off_force"], (3 + found["k"]) / 3, rtol=1e-14)
+def test_smooth_punches_have_the_force_that_is_known_and_k_may_be_1_where_nu_is_a_half() -> None:
+    k, nu = xarray.DataArray([0.0, 0.25, 0.9, 1.0], dims="x"), xarray.DataArray([0.3, 0.3, 0.3, 0.5], dims="x")
+    found = gr.solve(PUNCH | {"k": k, "nu": nu, "A": 0.0, "a_max_over_R": math.inf}, "pull_off_force")
+    np.testing.assert_allclose(found["pull_off_force"], (3 + k) / 3, rtol=1e-14)
     assert found["pull_off_force"].attrs["long_name"] == gr.OUTPUTS["pull_off_force"]
     assert found["status"].attrs["flag_meanings"].split() == list(OF_EVERY_MAP)
     assert found.attrs["title"] == "pull_off_force"
@@ -99,9 +100,22 @@ REFUSED: dict[str, list[dict[str, Any]]] = {
 """What each call is refused for: the key, and its value."""
 
 
-@pytest.mark.parametrize(("what", "changes"), [(what, one) for what, several in REFUSED.items() for one in several])
-def test_what_is_refused(what: str, changes: dict[str, Any]) -> None:
-    assert f"gr.solve: {what}" in mistakes_of(PUNCH, **changes)
+CURVES: list[tuple[str, dict[str, Any], str]] = [
+    ("A: ", {"A": [0.1, 0.0, 0.2]}, "path"), ("A: ", {"A": xarray.DataArray([0.1], dims="x")}, "path"),
+    ("parameters: they make 1,001 scenes", {"A": np.linspace(0.0, 0.1, 1001)}, "path"),
+    ('outputs[0] = "pull_off_force": ', {}, "pull_off_force"), ('outputs[0] = "pathh": ', {}, "pathh"),
+    ("contact_radius_over_R[1] = 0.9: ", {"a_max_over_R": 0.5, "contact_radius_over_R": [0.2, 0.9]}, "pressure"),
+    ("contact_radius_over_R", {"contact_radius_over_R": [0.2]}, "path"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("what", "changes", "outputs"), [*((what, one, "") for what, calls in REFUSED.items() for one in calls), *CURVES]
+)
+def test_what_is_refused(what: str, changes: dict[str, Any], outputs: str) -> None:
+    """Of curves, and where there are no outputs of a map."""
+    call, more = (gr.curves, {"outputs": outputs}) if outputs else (gr.solve, {})
+    assert f"gr.{call.__name__}: {what}" in mistakes_of(PUNCH, call=call, **more, **changes)
 
 
 def test_parameters_are_a_mapping_or_a_table_of_pandas() -> None:
@@ -140,16 +154,9 @@ def test_an_array_may_follow_an_axis() -> None:
     k = np.array([0.0, 0.3, 0.6])
     A = xarray.DataArray(0.01 + 0.01 * k, dims="k")
     found = gr.solve(PUNCH | {"k": k, "A": A}, "pull_off_force")
-    assert found["pull_off_force"].dims == ("k",)
-    assert found["A"].dims == ("k",)
+    assert found["pull_off_force"].dims == found["A"].dims == ("k",)
     alone = gr.solve(PUNCH | {"k": 0.6, "A": float(A[2])}, "pull_off_force")
     assert found["pull_off_force"].sel(k=0.6).item() == alone["pull_off_force"].item()
-
-
-def test_k_may_be_1_where_nu_is_a_half() -> None:
-    k, nu = xarray.DataArray([0.2, 1.0], dims="x"), xarray.DataArray([0.3, 0.5], dims="x")
-    found = gr.solve(PUNCH | {"k": k, "nu": nu, "A": 0.0, "a_max_over_R": math.inf}, "pull_off_force")
-    np.testing.assert_allclose(found["pull_off_force"], (3 + k) / 3, rtol=1e-14)
 
 
 def test_points_are_all_over_all_points_and_a_range_beside_them_is_an_axis() -> None:
@@ -191,22 +198,6 @@ def test_curves_are_those_of_a_study() -> None:
     assert study_from(tomllib.loads(found.attrs["study"])).kind == "curve"
     pairs = {"A": xarray.DataArray([0.03, 0.01], dims="scene"), "k": xarray.DataArray([0.1, 0.2], dims="scene")}
     assert gr.curves(PUNCH | pairs, "path")["path_load"].dims == ("scene", "path_point")
-
-
-CURVES: list[tuple[dict[str, Any], str, str]] = [
-    ({"A": [0.1, 0.0, 0.2]}, "path", "A: "),
-    ({"A": xarray.DataArray([0.1], dims="x")}, "path", "A: "),
-    ({}, "pull_off_force", 'outputs[0] = "pull_off_force": '),
-    ({"A": np.linspace(0.0, 0.1, 1001)}, "path", "parameters: they make 1,001 scenes"),
-    ({}, "pathh", 'outputs[0] = "pathh": '),
-    ({"a_max_over_R": 0.5, "contact_radius_over_R": [0.2, 0.9]}, "pressure", "contact_radius_over_R[1] = 0.9: "),
-    ({"contact_radius_over_R": [0.2]}, "path", "contact_radius_over_R"),
-]
-
-
-@pytest.mark.parametrize(("changes", "outputs", "what"), CURVES)
-def test_curves_that_are_refused(changes: dict[str, Any], outputs: str, what: str) -> None:
-    assert f"gr.curves: {what}" in mistakes_of(PUNCH, outputs, call=gr.curves, **changes)
 
 
 AFM: dict[str, Any] = {"R": "1 um", "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "10 nm", "wavelength": "90 nm", "a_max": "0.4 um"}  # fmt: skip
@@ -261,8 +252,7 @@ def test_scenes_over_named_dimensions_are_those_of_arrays() -> None:
         for name, values in core.solve(scene, ["pull_off_force", "loading_jumps"]).items():
             np.testing.assert_array_equal(found[name].isel(row=row, column=column), values, err_msg=name)
     assert found["row"].values.tolist() == [10, 20, 30]
-    assert set(found["A"].dims) == {"row", "column"}
-    assert found["k"].dims == ("column",)
+    assert ({*found["A"].dims}, found["k"].dims) == ({"row", "column"}, ("column",))
     assert "study" not in found.attrs, "no study says this"
 
 

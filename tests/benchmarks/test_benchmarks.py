@@ -76,27 +76,3 @@ def test_points_lie_about_the_path_as_far_as_noise_has_them(kind: str) -> None:
         assert (loop.number, loop.kind) == (number, kind)
         assert np.array_equal([loop.depth, loop.load], [again.depth, again.load])
     assert loop.true != loops.draw_loop(5, 0, kind).true
-
-
-def test_ranges_are_wide_and_nowhere_centred() -> None:
-    places = []
-    for number in range(6):
-        loop = loops.draw_loop(6, number, "wavy")
-        for name, decades in loops.DECADES.items():
-            low, high = loop.free[name]
-            assert np.log10(high / low) == pytest.approx(decades)
-            places.append(np.log10(loop.true[name] / low) / decades)
-    assert 0.09 < min(places) < max(places) < 0.91
-    assert np.std(places) > 0.1
-
-
-def test_words_change_what_they_say() -> None:
-    plain, drifting, approach = (loops.draw_loop(5, 0, f"smooth{word}") for word in ("", "+drift", "+approach"))
-    assert plain.depth.size == loops.POINTS > approach.depth.size > 0
-    assert not approach.unloading.any()
-    assert plain.noise[1] / loops.NOISE == pytest.approx(plain.true["load_offset"] - plain.load.min(), rel=0.1)
-    line = plain.depth < plain.depth.min() + 0.3 * (plain.true["indentation_offset"] - plain.depth.min())
-    assert np.std(plain.load[line]) == pytest.approx(plain.noise[1], rel=0.5)
-    assert drifting.chi_square() > plain.chi_square()
-    with pytest.raises(ValueError, match="'rough' is none of smooth, wavy"):
-        loops.draw_loop(5, 0, "rough")

@@ -64,11 +64,10 @@ def test_wrong_wishes_and_too_many_values_are_said(gradhesion: Call, dataset_fil
         for name in ("pull_off_force", "dissipated_energy"):
             file[name][:] = np.nan
     for key, options in WRONG.items():
-        result = gradhesion("explore", dataset_file, *options, code=2)
-        assert key in result.stderr
+        assert key in gradhesion("explore", dataset_file, *options, code=2).stderr
         assert not dataset_file.with_suffix(".html").exists()
     assert gradhesion("explore", dataset_file).exit_code == 0  # the jumps are there
     monkeypatch.setattr(of_page, "MOST", 90)
-    result = gradhesion("explore", dataset_file, "--overwrite", code=2)
-    assert "96 values are too many for a page, which takes 90" in result.stderr
+    told = gradhesion("explore", dataset_file, "--overwrite", code=2).stderr
+    assert "96 values are too many for a page, which takes 90" in told
     assert gradhesion("explore", dataset_file, "--at", "k=0.31", "--overwrite").exit_code == 0

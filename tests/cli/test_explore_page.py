@@ -8,39 +8,18 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-import netCDF4
 import numpy as np
 import pytest
-import xarray
 from bokeh.palettes import Viridis256
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, sync_playwright
 
 import gradhesion as gr
-from tests.cli.conftest import Made
+from tests.cli.browser import TITLE, VALUES, Opened, number, same, written
 
 pytestmark = pytest.mark.slow
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
-PUNCH: dict[str, Any] = {"k": 0.3, "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.013, "A": 0.023, "a_max_over_R": 1.7}
-WAVES = {"start": 0.11, "stop": 0.87, "num": 7, "spacing": "log"}
-TIP = {"R": "1 um", "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "13 nm", "wavelength": "0.2 um", "a_max": "0.4 um"}  # fmt: skip
-VALUES = ["pull_off_force", "dissipated_energy"]
-TITLE = "Maps </script><script>window.broken = 1</script> & more"
-STUDIES: dict[str, dict[str, Any]] = {
-    "maps": {"title": TITLE, "outputs": [*VALUES, "loading_jumps"], "parameters": PUNCH | {
-        "k": [0.0, 0.31, 0.62, 0.9], "c0_over_R": [0.013, 0.2], "lambda_over_R": WAVES, "A": [0.0, 0.023, 0.05], "a_max_over_R": [0.3, 1.7, np.inf]}},
-    "lines": {"outputs": VALUES, "method": {"solver": ["exact", "envelope"]}, "parameters": PUNCH | {"lambda_over_R": WAVES | {"stop": 0.47, "num": 5}}},
-    "points": {"outputs": VALUES, "layout": "points", "parameters": PUNCH | {"k": [0.1, 0.5, 0.2, 0.4], "lambda_over_R": [0.11, 0.3, 0.7, 0.2]}},
-    "curves": {"kind": "curve", "outputs": ["equilibrium", "path"], "parameters": PUNCH | {"k": [0.1, 0.3], "A": [0.0, 0.023, 0.07], "lambda_over_R": 0.17, "a_max_over_R": 0.4}},
-    "curves in units": {"kind": "curve", "outputs": ["equilibrium", "path"], "parameters": {"k": [0.1, 0.3], "nu": 0.27, "A": [0.0, 0.023, 0.07]}, "physical": TIP},
-    "machine": {"outputs": ["pull_off_force"], "parameters": {"k": 0.3, "nu": 0.27, "A": 0.03}, "loading": {"control": "machine"},
-                "physical": TIP | {"R": ["1 um", "2 um", "3 um"], "spring_constant": "2 N/m"}, "profile": {"exponent": 2.0, "harmonics": [{"n": 1}, {"n": 2, "cos": 0.2}]}},
-    "rough": {"outputs": ["pull_off_force"], "parameters": PUNCH | {"lambda_over_R": [0.11, 0.3]}, "profile": {"spectrum": {"hurst": 0.8, "first": 1, "last": 4, "realisations": 5, "seed": 1}}},
-    "sensitivities": {"outputs": [*VALUES, *(f"{name}_sensitivity" for name in VALUES)], "parameters": PUNCH | {"k": [0.0, 0.3, 0.6], "lambda_over_R": WAVES | {"spacing": "linear"}}},
-}  # fmt: skip
 AXES = ("k", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
-APART = ("status", "steep_contact", "solver")
-"""What the page says in words."""
 FRAMES = """[...explorer.parts.maps, ...explorer.parts.sections.flatMap((both) => Object.values(both))].map((part) => {
     const view = Bokeh.index.find_one(part.figure), box = view.canvas_view.el.getBoundingClientRect()
     return [box.left + view.frame.bbox.left, box.left + view.frame.bbox.right]
@@ -61,145 +40,25 @@ def browser() -> Iterator[Browser]:
         running.close()
 
 
-def _spoil(path: Path) -> None:
-    """Give one column of the first map a flag, and one cell no value."""
-    with netCDF4.Dataset(path, "a") as file:
-        status = file["status"][:]
-        status[:] = 0
-        status[:, :, 2] = 1  # contact on loading is not one disc: a doubt about the energy, not about the force
-        status[0, :, 4] = 64
-        file["status"][:] = status
-        for name in VALUES:
-            values = file[name][:]
-            values[0, :, 4] = np.nan
-            file[name][:] = values
-
-
-@pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> Made:
-    """The page of a study, beside its dataset, made once."""
-    folder = tmp_path_factory.mktemp("pages")
-
-    def make(name: str) -> Path:
-        page = folder / f"{name}.html"
-        if not page.exists():
-            gr.run(STUDIES[name]).to_netcdf(page.with_suffix(".nc"))
-            if name == "maps":
-                _spoil(page.with_suffix(".nc"))
-            gr.explore(page.with_suffix(".nc"))
-        return page
-
-    return make
-
-
-class Opened:
-    """A page in a tab, with its dataset, what it asked for and what it complained of."""
-
-    def __init__(self, browser: Browser, file: Path, address: str = "", **options: Any) -> None:
-        self.page: Page = browser.new_page(**{"viewport": {"width": 1400, "height": 900}, **options})
-        self.page.set_default_timeout(120_000)  # a busy machine
-        self.requests: list[str] = []
-        self.complaints: list[str] = []
-        self.page.on("request", lambda request: self.requests.append(request.url))
-        self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
-        self.page.on("console", lambda told: self.complaints.append(f"{told.type}: {told.text}"))
-        with xarray.open_dataset(file.with_suffix(".nc")) as dataset:
-            self.dataset = dataset.load()
-        self.page.goto(file.as_uri() + address)
-        self.page.wait_for_selector("html[data-ready=true]", state="attached")
-        self.settle()
-
-    def settle(self) -> None:
-        """Wait until the page has drawn what it was asked for."""
-        self.js("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
-
-    def js(self, expression: str) -> Any:
-        return self.page.evaluate(f"() => {expression}")
-
-    def text(self, element: str) -> str:
-        self.settle()
-        return self.page.inner_text(f"#{element}")
-
-    def press(self, axis: str, *keys: str) -> None:
-        self.page.focus(f"#axis-{axis}")
-        for key in keys:
-            self.page.keyboard.press(key)
-        self.settle()
-
-    def choose(self, element: str, label: str) -> None:
-        self.page.select_option(f"#{element}", label=label)
-        self.settle()
-
-    def check(self, element: str, *, on: bool) -> None:
-        self.page.set_checked(f"#{element}", on)
-        self.settle()
-
-    def point_of(self, part: str, x: float, y: float) -> tuple[float, float]:
-        self.page.evaluate(f"window.view = Bokeh.index.find_one({part}.figure); null")
-        self.page.evaluate("view.el.scrollIntoView({block: 'center'})")
-        box = "const box = view.canvas_view.el.getBoundingClientRect(), {x_scale, y_scale} = view.frame;"
-        ends = f"[box.left + x_scale.compute({float(x)}), box.top + y_scale.compute({float(y)})]"
-        left, top = self.page.evaluate(f"() => {{ {box} return {ends} }}")
-        return float(left), float(top)
-
-    def point(self, part: str, x: Any, y: Any) -> None:
-        self.page.mouse.move(*self.point_of(part, x, y))
-        self.settle()
-
-    def boxes(self, which: str) -> list[dict[str, float]]:
-        found = f"[...document.querySelectorAll('{which}')].map(one => one.getBoundingClientRect().toJSON())"
-        return list(self.js(found))
-
-    def wait_for_text(self, element: str, text: str) -> None:
-        self.page.wait_for_function(f"document.getElementById('{element}').textContent.includes('{text}')")
-
-    def download(self, what: str) -> bytes:
-        with self.page.expect_download() as waiting:
-            self.page.click(f"#save-{what}")
-        return Path(waiting.value.path()).read_bytes()
-
-    def shows(self, **at: int) -> xarray.Dataset:
-        """Compare all that the table has with a scene of the dataset, and return that."""
-        self.settle()
-        scene = self.dataset.isel(at)
-        rows = self.js("[...document.querySelectorAll('td[id]')].map(cell => [cell.id, cell.textContent])")
-        shown = {name.removeprefix("value-"): text for name, text in rows}
-        expected = {str(name): float(scene[name]) for name in (*scene.data_vars, *scene.coords) if name not in APART}
-        assert expected.keys() <= shown.keys()
-        assert {name: shown[name] for name, value in expected.items() if not same(shown[name], value)} == {}
-        return scene
-
-
-def number(text: str) -> float:
-    if text in {"∞", "unbounded", "no value"}:
-        return np.nan if text == "no value" else np.inf
-    plain = text.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--"))
-    power = "10" in plain and text != plain
-    return float(re.sub(r"^(10)(?=-?\d)", "1×10", plain).replace("×10", "e") if power else plain)
-
-
-def same(text: str, value: float) -> bool:
-    """Tell whether a text is a value to six digits."""
-    return np.array_equal(number(text), float(f"{value:.6g}"), equal_nan=True)
-
-
 Open = Callable[..., Opened]
 
 
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("pages")
+
+
 @pytest.fixture
-def open_page(browser: Browser, made: Made) -> Iterator[Open]:
-    """Open pages; each must need nothing else, and complain of nothing."""
+def open_page(browser: Browser, folder: Path) -> Iterator[Open]:
     opened: list[Opened] = []
 
     def open_one(name: str, address: str = "", **options: Any) -> Opened:
-        opened.append(Opened(browser, made(name), address, **options))
+        opened.append(Opened(browser, written(name, folder), address, **options))
         return opened[-1]
 
     yield open_one
     for one in opened:
-        assert [url[:60] for url in one.requests if not url.startswith(("file:", "data:", "blob:"))] == []
-        assert len([url for url in one.requests if url.startswith("file:")]) == 1
-        assert [told for told in one.complaints if not told.startswith(("log:", "info:", "debug:"))] == []
+        one.checked()
         one.page.close()
 
 
@@ -237,16 +96,14 @@ def test_a_pointer_reads_cells_and_a_tap_holds_one(open_page: Open) -> None:
 
 def _colours(page: Opened, i: int) -> Callable[[float, float], list[str]]:
     """Give the colours in the middle of a cell of a map, whose centre is given in parts of the picture."""
-    shape, pixels = page.js(
-        f"{{ const image = explorer.parts.maps[{i}].image.data.image[0];"
-        "return [image.shape, Array.from(new Uint8Array(image.buffer), one => String.fromCharCode(one)).join('')] }"
-    )
-    image = np.frombuffer(pixels.encode("latin-1"), dtype="<u4").reshape(shape)
+    found = f"explorer.parts.maps[{i}].image.data.image[0]"
+    pixels = page.js(f"Array.from(new Uint8Array({found}.buffer), one => String.fromCharCode(one)).join('')")
+    image = np.frombuffer(pixels.encode("latin-1"), dtype="<u4").reshape(page.js(f"{found}.shape"))
 
     def colours(row: float, column: float) -> list[str]:
-        j, k = int(row * shape[0]), int(column * shape[1])
+        j, k = int(row * image.shape[0]), int(column * image.shape[1])
         part = np.unique(image[j - 8 : j + 8, k - 8 : k + 8])
-        return [f"#{pixel & 255:02x}{(pixel >> 8) & 255:02x}{(pixel >> 16) & 255:02x}" for pixel in part.tolist()]
+        return [f"#{pixel.tobytes()[:3].hex()}" for pixel in part]
 
     return colours
 
@@ -254,12 +111,12 @@ def _colours(page: Opened, i: int) -> Callable[[float, float], list[str]]:
 def test_a_cell_has_the_colour_of_its_value_and_the_marks_of_its_flags(open_page: Open) -> None:
     page = open_page("maps")
     page.press("A", "End")
-    assert page.page.locator("#flags li").count() == 2, "the flag that occurs, and no value"
+    assert page.js("document.querySelectorAll('#flags li').length") == 2, "the flag that occurs, and no value"
     values = page.dataset["dissipated_energy"].isel(c0_over_R=0, A=2, a_max_over_R=1).values
     # rows of the picture are cells of k, uneven as its values: 0, 0.31, 0.62, 0.9 with edges half-way between
     rows = (np.array([0.0, 0.31, 0.62, 0.9]) + 0.155) / (1.04 + 0.155)
     for log in (True, False):
-        page.check("log-1", on=log)
+        page.page.set_checked("#log-1", log)
         sizes = np.log10(values) if log else values
         part = (sizes - np.nanmin(sizes)) / np.ptp(sizes[np.isfinite(sizes)])
         colours = _colours(page, 1)
@@ -271,16 +128,16 @@ def test_a_cell_has_the_colour_of_its_value_and_the_marks_of_its_flags(open_page
                 assert Viridis256[min(255, int(part[k, wave] * 256))].lower() in found, (log, k, wave)
                 assert (len(found) == 2) == (wave == 2), (log, k, wave)
         assert all(len(_colours(page, 0)(row, 2.5 / 7)) == 1 for row in rows), "no doubt about the force"
-    page.check("flag-0", on=False)
+    page.page.set_checked("#flag-0", False)
     assert len(_colours(page, 1)(rows[1], 2.5 / 7)) == 1
 
 
 def test_other_axes_and_variables_are_chosen(open_page: Open) -> None:
     page = open_page("maps")
     assert (page.page.title(), page.js("window.broken")) == (TITLE, None)
-    page.choose("along-x", "A – amplitude over wavelength of the waviness")
-    page.choose("along-y", "λ/R – wavelength of the waviness")
-    page.choose("shown-1", "jumps on loading")
+    page.page.select_option("#along-x", label="A – amplitude over wavelength of the waviness")
+    page.page.select_option("#along-y", label="λ/R – wavelength of the waviness")
+    page.page.select_option("#shown-1", label="jumps on loading")
     figures = "explorer.parts.maps.map(map => map.figure)"
     labels = page.js(f"{figures}.map(one => [one.below[0].axis_label, one.left[0].axis_label])")
     assert labels == [["A", "λ/R"]] * 2, "what was across is up now, and what was up is free"
@@ -288,7 +145,7 @@ def test_other_axes_and_variables_are_chosen(open_page: Open) -> None:
     page.point("explorer.parts.maps[1]", 0.05, np.log10(page.dataset["lambda_over_R"][6]))
     scene = page.shows(k=1, c0_over_R=0, lambda_over_R=6, A=2, a_max_over_R=1)
     assert same(page.text("now-1"), float(scene["loading_jumps"]))
-    page.check("log-1", on=False)
+    page.page.set_checked("#log-1", False)
     jumps = page.dataset["loading_jumps"].isel(k=1, c0_over_R=0, a_max_over_R=1)
     for side, values in (("x", jumps.isel(lambda_over_R=6)), ("y", jumps.isel(A=2))):
         drawn = page.js(f"Array.from(explorer.parts.sections[1].{side}.lines.data.ys[0])")
@@ -302,7 +159,6 @@ def test_on_a_phone_there_is_one_column_and_a_finger_reads_a_cell(open_page: Ope
     assert second["top"] > first["bottom"]
     for axis in AXES:
         page.js(f"document.getElementById('axis-{axis}').scrollIntoView({{block: 'center'}})")
-        page.settle()
         first, (slider,) = page.boxes(".plot.map")[0], page.boxes(f"#axis-{axis}")
         assert -1 <= first["top"] < first["bottom"] <= slider["top"] + 1, "the map stays in view"
     place = np.log10(float(page.dataset["lambda_over_R"][1])), 0.9
@@ -331,7 +187,7 @@ def test_lines_are_those_of_all_solvers_and_points_are_dots_over_a_parameter(ope
     page.point("explorer.parts.sections[1].x", np.log10(0.47), 0.0)
     page.shows(solver=1, lambda_over_R=2)  # held by the key: the pointer does not move it
     assert page.text("value-solver") == "envelope"
-    page.check("log-0", on=False)
+    page.page.set_checked("#log-0", False)
     drawn = page.js("explorer.parts.sections[0].x.lines.data.ys.map(line => Array.from(line))")
     np.testing.assert_allclose(drawn, page.dataset["pull_off_force"], rtol=5e-6)  # six digits
     assert page.text("lines").split() == ["exact", "envelope"]
@@ -339,8 +195,8 @@ def test_lines_are_those_of_all_solvers_and_points_are_dots_over_a_parameter(ope
     page.press("realisation", "End")
     page.shows(realisation=4, lambda_over_R=0)
     page = open_page("points")
-    page.choose("along-x", "λ/R – wavelength of the waviness")
-    page.check("log-0", on=False)
+    page.page.select_option("#along-x", label="λ/R – wavelength of the waviness")
+    page.page.set_checked("#log-0", False)
     dot = page.dataset.isel(scene=2)
     page.point("explorer.parts.sections[0].x", np.log10(dot["lambda_over_R"]), dot["pull_off_force"])
     page.shows(scene=2)
@@ -368,7 +224,7 @@ def test_curves_are_those_of_the_scene_and_can_be_hidden(units: dict[str, float]
     tracks = {track["label"]: track for track in page.js("explorer.study.tracks")}
     unloading = tracks["unloading"]
     assert unloading["colour"] in lines["colour"]
-    page.check(f"track-{[*tracks].index('unloading')}", on=False)
+    page.page.set_checked(f"#track-{[*tracks].index('unloading')}", False)
     assert unloading["colour"] not in page.js("explorer.parts.planes[0].lines.data.colour"), "loading alone is left"
     assert len(unloading["dash"]) > 0 == len(tracks["loading"]["dash"]), "loading shows in the gaps of unloading"
 
@@ -377,9 +233,9 @@ def test_the_address_brings_a_colleague_to_the_same_state(open_page: Open) -> No
     page = open_page("maps")
     page.press("A", "End")
     page.press("k", "Home")
-    page.check("log-0", on=False)
-    page.choose("along-y", "A – amplitude over wavelength of the waviness")
-    page.choose("shown-1", "jumps on loading")
+    page.page.set_checked("#log-0", False)
+    page.page.select_option("#along-y", label="A – amplitude over wavelength of the waviness")
+    page.page.select_option("#shown-1", label="jumps on loading")
     page.page.wait_for_function("location.hash.includes('loading_jumps')")
     there = open_page("maps", "#" + page.page.url.partition("#")[2])
     state = "[explorer.at, explorer.x, explorer.y, explorer.drawn, explorer.held]"
@@ -434,9 +290,8 @@ def test_sensitivities_are_those_under_the_pointer_and_the_strongest_is_marked(o
         scene = page.dataset.isel(k=1, lambda_over_R=place)
         for output in (f"{name}_sensitivity" for name in VALUES):
             values = {str(name): scene[output].sel(parameter=name).item() for name in scene["parameter"].values}
-            cells = {name: page.page.locator(f"#value-{output}_{name}") for name in values}
-            for name, cell in cells.items():
-                assert number(cell.inner_text()) == pytest.approx(values[name], rel=5.1e-4, abs=1e-12), name
+            for name, value in values.items():
+                assert number(page.text(f"value-{output}_{name}")) == pytest.approx(value, rel=5.1e-4, abs=1e-12), name
             sizes = {name: abs(value) for name, value in values.items() if name not in ("k", "nu")}
-            marked = [name for name, cell in cells.items() if cell.get_attribute("class") == "strongest"]
-            assert marked == [max(sizes, key=sizes.__getitem__)]
+            marked = page.js(f"[...document.querySelectorAll('[id^=value-{output}_].strongest')].map(one => one.id)")
+            assert marked == [f"value-{output}_{max(sizes, key=sizes.__getitem__)}"]

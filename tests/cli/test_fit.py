@@ -94,18 +94,14 @@ def test_run_writes_it_and_info_and_plot_read_it(gradhesion: Call, folder: Path,
     assert gradhesion("run", "fit.toml").exit_code == 4, "an existing dataset is not replaced"
 
 
-def test_a_fit_at_a_bound_is_written_and_flagged(gradhesion: Call, folder: Path) -> None:
+def test_a_fit_at_a_bound_is_flagged_and_one_of_what_has_no_effect_refused(gradhesion: Call, folder: Path) -> None:
+    assert "wavelength" in gradhesion("run", "fit.toml", "--set=parameters.A=0.0", code=2).stderr
+    assert not (folder / "outputs/fit.nc").exists()
     bound = '--set=physical.E_star={ start = "1 MPa", stop = "9.9 MPa" }'
     result = gradhesion("run", "fit.toml", bound, '--set=fit.intervals="linear"', code=3)
     assert "E_star is at an end of its range of 1e+06 to 9.9e+06" in result.stderr
     with gr.open(folder / "outputs/fit.nc") as dataset:
         assert dataset["on_bound"].values[0] == 1
-
-
-def test_what_has_no_effect_is_refused_after_the_search(gradhesion: Call, folder: Path) -> None:
-    result = gradhesion("run", "fit.toml", "--set=parameters.A=0.0", code=2)
-    assert "wavelength" in result.stderr
-    assert not (folder / "outputs/fit.nc").exists()
 
 
 def test_a_file_that_is_no_loop_is_refused(refusal: Told, folder: Path) -> None:

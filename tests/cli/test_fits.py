@@ -81,7 +81,9 @@ def folder(home: Path, monkeypatch: Patch) -> Path:
     return home
 
 
-def test_each_loop_gives_what_it_was_made_with_and_one_that_fails_keeps_its_row(found: xarray.Dataset) -> None:
+def test_each_loop_gives_what_it_was_made_with_as_alone_and_one_that_fails_keeps_its_row(
+    found: xarray.Dataset, models: dict[str, Path]
+) -> None:
     assert found["value"].dims == ("loop", "parameter")
     assert found["file"].values.tolist() == [f"curves/{name}.csv" for name in (*TRUE, "9")]
     assert {len(one) for one in found["sha256"].values} == {64}
@@ -98,20 +100,17 @@ def test_each_loop_gives_what_it_was_made_with_and_one_that_fails_keeps_its_row(
     assert np.isnan(found["value"].values[3]).all()
     assert int(found["status"][3]) == NO_VALUE
     assert [bool(problem) for problem in found["problem"].values] == [False, False, False, True]
-
-
-def test_one_loop_beside_others_is_fitted_as_alone(found: xarray.Dataset, models: dict[str, Path]) -> None:
     with xarray.open_dataset(models["zeros"]) as alone:
         assert "loop" not in alone.dims
         np.testing.assert_array_equal(alone["value"].values, found["value"].values[1])
         np.testing.assert_array_equal(alone["residual"].values, found["residual"].values[1, : alone["residual"].size])
 
 
-@pytest.mark.parametrize(("files", "code"), [("[29]", 3), ("9*", 2)])
-def test_run_says_which_failed_and_writes_what_there_is(files: str, code: int, gradhesion: Call, folder: Path) -> None:
-    result = gradhesion("run", "many.toml", "-o", f"{code}.nc", f'--set=data.file="curves/{files}.csv"', code=code)
-    assert "3 points are too few" in result.stderr
-    assert (folder / f"{code}.nc").exists() == (code == 3)
+def test_run_says_which_failed_and_writes_what_there_is(gradhesion: Call, folder: Path) -> None:
+    for files, code in (("[29]", 3), ("9*", 2)):
+        result = gradhesion("run", "many.toml", "-o", f"{code}.nc", f'--set=data.file="curves/{files}.csv"', code=code)
+        assert "3 points are too few" in result.stderr
+        assert (folder / f"{code}.nc").exists() == (code == 3)
 
 
 @pytest.mark.usefixtures("folder")
@@ -182,10 +181,10 @@ def test_fits_are_compared_by_the_criterion(gradhesion: Call, models: dict[str, 
         with xarray.open_dataset(models[name]) as fit:
             criteria[name] = float(fit["chi_square"]) + 2.0 * fit.sizes["parameter"]
     rows = {Path(line.split()[0]).stem: line.split() for line in result.stdout.splitlines() if ".nc" in line}
+    differences = {name: one - min(criteria.values()) for name, one in criteria.items()}
+    weights = {name: math.exp(-0.5 * one) for name, one in differences.items()}
     for name, row in rows.items():
-        difference = criteria[name] - min(criteria.values())
-        assert float(row[3]) == pytest.approx(difference, abs=2e-3)
-        weights = {one: math.exp(0.5 * (min(criteria.values()) - c)) for one, c in criteria.items()}
+        assert float(row[3]) == pytest.approx(differences[name], abs=2e-3)
         assert float(row[4]) == pytest.approx(weights[name] / sum(weights.values()), rel=0.05)
     assert [int(rows[name][1]) for name in ("zeros", "tilt")] == [4, 5]
 

@@ -113,7 +113,7 @@ def test_keys_however_deep_are_refused_at_once(text: str, tmp_path: Path) -> Non
     assert time.process_time() - start < 2.0, "it took 80 s"
 
 
-def test_overrides_and_mappings_however_deep_are_refused(tmp_path: Path) -> None:
+def test_overrides_and_mappings_however_deep_are_refused_and_many_numbers_are_not_deep(tmp_path: Path) -> None:
     path = tmp_path / "study.toml"
     path.write_text(CONFIG + "nu = 0.3\n")
     assert load_study(path).scenes == 2
@@ -124,11 +124,6 @@ def test_overrides_and_mappings_however_deep_are_refused(tmp_path: Path) -> None
     endless["parameters"] = endless
     with pytest.raises(StudyError, match="nested more than 32 deep"):
         study_from(endless)
-
-
-def test_many_numbers_on_a_line_are_not_deep(tmp_path: Path) -> None:
     numbers = ", ".join(f"{0.1 + i / 1e6:.6f}" for i in range(5000))
-    path = tmp_path / "study.toml"
-    single = CONFIG.replace("k = [0.0, 0.5]", "k = 0.5")
-    path.write_text(single + f"\nnu = [\n{numbers}\n]\n")
+    path.write_text(CONFIG.replace("k = [0.0, 0.5]", "k = 0.5") + f"\nnu = [\n{numbers}\n]\n")
     assert load_study(path).sizes == {"nu": 5000}

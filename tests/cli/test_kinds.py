@@ -108,7 +108,10 @@ def test_a_file_in_blocks_is_what_python_computes_in_one(kind: str, files: dict[
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
-def test_every_command_takes_it(kind: str, files: dict[str, Path], tmp_path: Path) -> None:
+def test_every_command_takes_it_and_changed_values_of_maps_are_found(
+    kind: str, files: dict[str, Path], tmp_path: Path
+) -> None:
+    """Results, those in SI units, and parameters that follow from others."""
     told = call("info", files[kind])
     with xarray.open_dataset(files[kind]) as dataset:
         plain = [name for name in map(str, dataset.data_vars) if f"{name}_si" not in dataset]
@@ -116,12 +119,6 @@ def test_every_command_takes_it(kind: str, files: dict[str, Path], tmp_path: Pat
         assert [name for name in shown if name not in told.stdout] == []
     call("plot", files[kind], "-o", tmp_path / "x.svg")
     call("explore", files[kind], "-o", tmp_path / "x.html", code=2 * (kind == "states"))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("kind", KINDS)
-def test_maps_are_verified_and_changed_values_are_found(kind: str, files: dict[str, Path], tmp_path: Path) -> None:
-    """Results, those in SI units, and parameters that follow from others."""
     path, is_map = tmp_path / "x.nc", KINDS[kind].get("kind", "map") == "map"
     found = call("verify", files[kind], *SAMPLE, code=0 if is_map else 2)
     if not is_map:

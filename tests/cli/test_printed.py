@@ -89,8 +89,7 @@ def test_names_of_bytes(shell: Shell, study_file: Path, gradhesion: Call, tmp_pa
     assert rb"gradhesion run 's\udcfe.toml'" in done.stdout
     monkeypatch.chdir(tmp_path)
     for name in ("o\udcff.nc", "o\udcff/o.nc"):
-        result = gradhesion("run", "s\udcfe.toml", "-o", name, code=4)
-        assert "cannot be written" in result.stderr
+        assert "cannot be written" in gradhesion("run", "s\udcfe.toml", "-o", name, code=4).stderr
     Path("o\udcff.nc").touch()
     for command in READERS:
         assert gradhesion(command, "o\udcff.nc").exit_code == 2

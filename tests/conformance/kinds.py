@@ -143,7 +143,7 @@ KINDS: Final = (
     Kind("asymptotic sines", solver="asymptotic", waves=SINES),
     Kind("asymptotic cone", solver="asymptotic", exponent=1.0, waves=TWO),
     Kind("envelope of a cosine", solver="envelope"),
-    Kind("envelope of sines", solver="envelope", waves=SINES),
+    Kind("envelope of sines on a power", solver="envelope", exponent=1.4, waves=SINES),
 )
 EXACT: Final = tuple(kind for kind in KINDS if kind.solver == "exact")
 BY_NAME: Final = {kind.name: kind for kind in KINDS}

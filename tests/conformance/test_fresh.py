@@ -7,13 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-pytest.importorskip("flint")
-
 from gradhesion.twin import stated
 from gradhesion.twin.scene import waves_to_follow
 
 from .kinds import COUNTS, DEPTH, KINDS, LOAD, NO_FIRST, SINES, Kind, Scenes, drawn, for_kinds, one_of, rng_of, some
-from .promises import agree, errors
+from .promises import NO_VALUE, agree, errors, has
 
 MOST_WAVES = 25.0  # of the shortest harmonic in a scene: the twin needs some 15 ms for each
 
@@ -23,6 +21,7 @@ def compared(kind: Kind, scene: Scenes, found: dict[str, Any]) -> int:
     names = [name for name in kind.outputs if name != "contact_slope"]
     expected = stated.expected(scene, names, kind.solver, kind.shape)
     one = {name: np.reshape(value, 1) for name, value in scene.items()}
+    assert not has(found, NO_VALUE), scene
     allowed = errors(kind, one, {name: np.reshape(value, 1) for name, value in found.items()})
     sure = {name: of for name, of in expected.items() if not of.near}  # a tie, or two troughs
     for name, of in sure.items():
@@ -44,7 +43,7 @@ def test_fresh_scenes(kind: Kind) -> None:
                 values.append(compared(kind, scene, some(found, i)))
         except ArithmeticError:  # one of the folds that even 51 digits do not tell apart
             continue
-        if len(values) == 2:
+        if len(values) == (2 if kind.solver == "exact" else 20):
             break
     assert sum(values) > 14
 
@@ -81,6 +80,8 @@ CORNERS: dict[str, tuple[Kind, Scenes]] = {
     "unbounded, load": (Kind(control="load"), ENDLESS),
     "unbounded, exponent 4": (Kind(exponent=4.0), ENDLESS),
     "unbounded, exponent 1.5": (Kind(exponent=1.5), ENDLESS | {"k": 0.6, "lambda_over_R": 2.0}),
+    "unbounded, envelope": (Kind(exponent=1.4, waves=SINES, solver="envelope"), ENDLESS),
+    "unbounded, smooth envelope": (Kind(solver="envelope"), ENDLESS | SMOOTH),
     "ratio 0": (Kind(ratio=True), {"closing_ratio": 0.0}),
     "ratio 1e-12, sines": (Kind(ratio=True, waves=SINES[:2]), {"closing_ratio": 1e-12}),
     "ratio an ulp below 1": (Kind(ratio=True), {"closing_ratio": 1 - ULP}),

@@ -60,16 +60,6 @@ def scene_of_ratio(k: float, M: float, wavelength: float, chi: float, a_max: flo
     return scene_of(k, nu, M / float(stiffness(k, nu, 1.0, c0)), c0, wavelength, A, a_max)
 
 
-def exact_theta(k: Any, nu: Any) -> Any:
-    """Give theta as it stands in section 2 of docs/theory.md, with the exact doubles k and nu."""
-    k, nu = mpmath.mpf(k), mpmath.mpf(nu)
-    beta = mpmath.sqrt((1 + k) * (1 - k * nu / (1 - nu)))
-    c = 2 ** (1 + k) * mpmath.gamma((3 + k + beta) / 2) * mpmath.gamma((3 + k - beta) / 2) / mpmath.gamma(2 + k)
-    c /= mpmath.pi
-    front = 2 ** (1 + k) * (1 + k) * mpmath.cos(k * mpmath.pi / 2) * mpmath.gamma(1 + k / 2)
-    return front / (mpmath.sqrt(mpmath.pi) * c * beta * mpmath.sin(beta * mpmath.pi / 2) * mpmath.gamma((1 + k) / 2))
-
-
 def envelope_loop(k: float, M: Any, m: float, up: Any, down: Any, rim: Any) -> Any:
     """Integrate P d(delta) along envelopes that are off the mean by r_+ and r_-, and along the line at the rim.
 
@@ -86,11 +76,10 @@ def envelope_loop(k: float, M: Any, m: float, up: Any, down: Any, rim: Any) -> A
         return K * a ** (1 + k) * (m / (1 + k + m) * front * a**m - pull * a**c)
 
     def work(pull: Any, first: Any, last: Any) -> Any:
-        def rate(t: Any) -> Any:
-            a = mpmath.exp(t)
-            return load(pull, a) * (m * front * a**m - pull * c * a**c)
+        def rate(a: Any) -> Any:
+            return load(pull, a) * (m * front * a ** (m - 1) - pull * c * a ** (c - 1))
 
-        return mpmath.quad(rate, mpmath.linspace(mpmath.log(first), mpmath.log(last), 9)) if last > first else 0
+        return mpmath.quad(rate, mpmath.linspace(first, last, 5)) if last > first else 0
 
     rim, loading, unloading = mpmath.mpf(rim), s - up, s + down
     a_in = min(rim, (max(loading, mpmath.mpf(10) ** -40) / front) ** (1 / (m - c)))

@@ -51,11 +51,12 @@ def material(dataset: xarray.Dataset) -> float:
 
 @pytest.mark.parametrize("config", CONFIGS, ids=lambda path: path.stem)
 def test_nothing_is_to_be_reported_of_any_scene(config: Path, computed: Compute) -> None:
-    status = computed(config.stem)["status"].values
+    dataset = computed(config.stem)
+    assert ("steep_contact" in dataset) == (config.stem == "fig4a"), "which is unbounded, as it says"
     allowed = {"fig4a": LOADING_NOT_ONE_DISC, "fig4c": PULL_OFF_AT_RIM, "extra_rim": PULL_OFF_AT_RIM}
     allowed["extra_roughness"] = LOADING_NOT_ONE_DISC | PULL_OFF_AT_RIM
     allowed["extra_error_bars"] = LINEAR_DEVIATION_OFF
-    assert not (status & ~np.int16(allowed.get(config.stem, 0))).any()
+    assert not (dataset["status"].values & ~np.int16(allowed.get(config.stem, 0))).any()
 
 
 @pytest.mark.parametrize("name", ["fig2a", "fig2b", "fig3", "fig5", "fig6", "fig7", "fig8", "extra_amplitudes"])
@@ -99,8 +100,6 @@ def test_fig4a_the_best_exponent_depends_on_poissons_ratio(computed: Compute) ->
     greatest = dataset["pull_off_force"].max("lambda_over_R")
     assert float(greatest.sel(nu=0.3).idxmax("k")) == pytest.approx(0.68, abs=0.021)
     assert float(greatest.sel(nu=0.5).idxmax("k")) == 0.98
-    smooth = computed("fig4a", "A=0.0")["pull_off_force"]
-    np.testing.assert_allclose(smooth, ((3 + smooth["k"]) / 3).broadcast_like(smooth), rtol=1e-13)
     # near the maxima loading does not make contact over one disc: the state is that of intimate contact
     at = dataset["status"].isel(lambda_over_R=dataset["pull_off_force"].argmax("lambda_over_R")).sel(nu=0.5)
     assert ((at & LOADING_NOT_ONE_DISC) > 0).all()
@@ -127,26 +126,6 @@ def test_the_threshold_is_the_furthest_radius_of_the_pull_off(computed: Compute)
     assert -0.003 < threshold_of(force) - furthest < step
 
 
-def test_fig6_two_waves_are_not_bounded_by_their_envelopes(computed: Compute) -> None:
-    """Where the curve of Fig. 3a crosses them: the study and docs/paper.md quote these depths."""
-    one = scene(computed("fig6"))
-    k, length, A, M = one["k"], one["lambda_over_R"], one["A"], material(computed("fig6"))
-    s, r, mean = envelopes.adhesion_strength(k, M), envelopes.waviness_strength(k, length, A), length * A
-
-    def above(radius: float, strength: float) -> float:
-        """The load of the curve less that of the envelope at the same depth."""
-        depth = float(jkr.indentation(k, M, radius, length, A))
-        at = brentq(lambda a: float(envelopes.indentation(k, a, strength, mean)) - depth, 0.12, 1.0)
-        return float(jkr.load(k, M, radius, length, A)) - float(envelopes.load(k, M, at, strength))
-
-    crossings = [brentq(above, *ends, args=(s - r,)) for ends in ((0.235, 0.26), (0.26, 0.29), (0.41, 0.449))]
-    depths = jkr.indentation(k, M, crossings, length, A)
-    np.testing.assert_allclose(depths, [0.037, 0.066, 0.138], atol=6e-4)
-    assert above(0.262, s - r) > 0.05
-    assert above(0.449, s - r) > 0.15
-    assert above(0.17294, s + r) == pytest.approx(-0.013, abs=6e-4)  # the state K, at the lowest depth
-
-
 @pytest.mark.parametrize("name", ["fig6", "fig7"])
 def test_the_effective_path_turns_at_the_greatest_depth_along_a_line(name: str, computed: Compute) -> None:
     """From envelope to envelope."""
@@ -169,8 +148,6 @@ def test_fig7_both_paths_turn_and_end_close_to_each_other(computed: Compute) -> 
     apart = abs(turn - radius.max()) / dataset["lambda_over_R"].item()
     assert 0.4 < apart < 1.0, "less than a wave apart, and seen to be"
     assert abs(path["indentation"][-1] - depth.min()) < 2e-4
-    expected = float(solve(scene(dataset), ["dissipated_energy"])["dissipated_energy"])
-    assert area(depth, load) == pytest.approx(expected, rel=CHORDS)
     assert 0.6 < area(depth, load) / area(path["indentation"], path["load"]) < 1.0
 
 
@@ -211,18 +188,6 @@ def test_fig9_the_papers_fits_are_as_far_from_the_closed_form_as_the_study_says(
     assert np.min(off) > -0.004
 
 
-@pytest.mark.slow
-def test_random_roughness_begins_with_the_smooth_punch_and_the_mean_force_grows(computed: Compute) -> None:
-    dataset = computed("extra_roughness")
-    force = dataset["pull_off_force"]
-    assert force.sizes["realisation"] == 30
-    smooth = (3.0 + dataset["k"]) / 3.0
-    assert float(abs(force.isel(A=0) / smooth - 1.0).max()) <= 1e-13
-    assert bool((force.mean("realisation").diff("A") > 0.0).all())
-    gain = (force / smooth).mean("realisation").isel(A=-1)
-    assert float(gain[0]) > float(gain[1]) > 1.0, "a graded half-space feels short waves less"
-
-
 def test_the_best_exponent_is_that_of_fig4a_and_none_where_the_gradient_is_deep(computed: Compute) -> None:
     best = computed("extra_best_exponent")["best_k"]
     assert best.sel(nu=0.3, c0_over_R=0.01).item() == pytest.approx(0.7, abs=0.05)
@@ -234,26 +199,7 @@ def test_the_best_force_depends_on_the_amplitude_most(computed: Compute) -> None
     slopes = best["best_pull_off_force_sensitivity"]
     assert bool((slopes.sel(parameter="A") > 2.0 * slopes.sel(parameter="modulus")).all())
     np.testing.assert_allclose(slopes.sel(parameter="lambda_over_R"), 0.0, atol=1e-13)
-    wavelengths = best["best_lambda_over_R"].values
-    assert wavelengths[2] < wavelengths[1] < wavelengths[0]
-    # the same scenes again
-    scenes = {name: best[name].values for name in PARAMETERS if name in best.coords}
-    force = solve(scenes | {"lambda_over_R": wavelengths}, ["pull_off_force"])["pull_off_force"]
-    np.testing.assert_array_equal(force, best["best_pull_off_force"])
-
-
-def test_error_bars_agree_away_from_kinks(computed: Compute) -> None:
-    """The half width of the band of nine tenths, by the line and by the samples."""
-    dataset = computed("extra_error_bars")
-    off = (dataset["status"] & LINEAR_DEVIATION_OFF) != 0
-    assert 0.1 < float(off.mean()) < 0.5
-    width = 0.5 * (dataset["pull_off_force_p95"] - dataset["pull_off_force_p05"])
-    ratio_of = dataset["pull_off_force_std"] * 1.6448536269514722 / width
-    assert float(abs(ratio_of.where(~off) - 1.0).max()) < 0.25  # a band is no standard deviation where it is skewed
-    assert float(abs(ratio_of.where(~off) - 1.0).median()) < 0.03
-    # at a kink most samples are above the nominal force
-    lowest = 5 + int(np.argmin(dataset["pull_off_force"].sel(k=0.5).values[5:-5]))
-    assert dataset["pull_off_force_mean"].sel(k=0.5)[lowest] > dataset["pull_off_force"].sel(k=0.5)[lowest]
+    assert (np.diff(best["best_lambda_over_R"]) < 0.0).all()
 
 
 def test_a_front_ends_in_the_best_of_each(computed: Compute) -> None:
@@ -271,3 +217,23 @@ def test_a_front_ends_in_the_best_of_each(computed: Compute) -> None:
         near = (force >= 0.99 * others["pull_off_force"]) & (energy >= 0.98 * others["dissipated_energy"])
         assert near.any(axis=1).all()
     assert bool((front["best_dissipated_energy"].max("pareto_point").diff("k") < 0.0).all()), "gradients cost energy"
+
+
+def test_fig6_two_waves_are_not_bounded_by_their_envelopes(computed: Compute) -> None:
+    """Where the curve of Fig. 3a crosses them: the study and docs/paper.md quote these depths."""
+    one = scene(computed("fig6"))
+    k, length, A, M = one["k"], one["lambda_over_R"], one["A"], material(computed("fig6"))
+    s, r, mean = envelopes.adhesion_strength(k, M), envelopes.waviness_strength(k, length, A), length * A
+
+    def above(radius: float, strength: float) -> float:
+        """The load of the curve less that of the envelope at the same depth."""
+        depth = float(jkr.indentation(k, M, radius, length, A))
+        at = brentq(lambda a: float(envelopes.indentation(k, a, strength, mean)) - depth, 0.12, 1.0)
+        return float(jkr.load(k, M, radius, length, A)) - float(envelopes.load(k, M, at, strength))
+
+    crossings = [brentq(above, *ends, args=(s - r,)) for ends in ((0.235, 0.26), (0.26, 0.29), (0.41, 0.449))]
+    depths = jkr.indentation(k, M, crossings, length, A)
+    np.testing.assert_allclose(depths, [0.037, 0.066, 0.138], atol=6e-4)
+    assert above(0.262, s - r) > 0.05
+    assert above(0.449, s - r) > 0.15
+    assert above(0.17294, s + r) == pytest.approx(-0.013, abs=6e-4)  # the state K, at the lowest depth

@@ -21,8 +21,8 @@ import subprocess
 import sys
 import tomllib
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 
@@ -46,8 +46,7 @@ _BLOCK = re.compile(r"((?:^<!--[^\n]*-->\n)*)^```([a-z{}_-]*)[^\n]*\n(.*?)^```$"
 _MARK = re.compile(r"<!-- (file|not run|smaller): (.*?) -->")
 
 
-@dataclass(frozen=True)
-class Block:
+class Block(NamedTuple):
     """A fenced block of a page, with the marks that stand before it."""
 
     page: Path
@@ -61,8 +60,7 @@ class Block:
         return f"{self.page.relative_to(ROOT)}:{self.line}"
 
 
-@dataclass(frozen=True)
-class Command:
+class Command(NamedTuple):
     line: str
     printed: str = ""
     code: int = 0
@@ -174,20 +172,14 @@ def _check_study(block: Block) -> None:
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder, empty and far from the repository, in which a reader does one page after the other."""
-    made = tmp_path_factory.mktemp("reader")
-    assert not made.is_relative_to(ROOT)
-    return made
-
-
-def _files(folder: Path) -> set[str]:
-    return {path.name for path in folder.rglob("*") if path.is_file() and path.suffix != ".py"}
+    return tmp_path_factory.mktemp("reader")
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 def test_a_page_does_what_it_says(page: Path, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """In the folder of the pages before it, whose files it neither needs nor meets."""
     monkeypatch.chdir(folder)
-    before = _files(folder)
+    before = {path.name for path in folder.rglob("*") if path.is_file() and path.suffix != ".py"}
     done = "\n".join(block.text for block in blocks_of(page) if block.language in RUN and "not run" not in block.marks)
     assert [name for name in before if re.search(rf"(?<![\w.]){re.escape(name)}(?!\w)", done)] == []
     namespace: dict[str, object] = {}
@@ -218,15 +210,12 @@ def test_every_block_is_run_or_says_why_not() -> None:
     assert len(run) >= 40
 
 
-def test_no_command_hides_in_an_indented_block() -> None:
-    for page in PAGES:
-        outside = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
-        assert not re.search(r"^    (gradhesion|make|pip|python) ", outside, flags=re.MULTILINE), page
-
-
-def test_the_sources_that_a_page_names_exist() -> None:
+def test_no_command_hides_in_an_indented_block_and_the_sources_that_are_named_exist() -> None:
     folders = ("api", "benchmarks", "cli", "core", "docs", "figures", "tests", "twin")
     sources = [f"/{path.relative_to(ROOT).as_posix()}" for name in folders for path in (ROOT / name).rglob("*.py")]
     for page in PAGES:
-        for named in re.findall(r"`([\w/]+\.py)\b", page.read_text(encoding="utf-8")):
+        text = page.read_text(encoding="utf-8")
+        outside = re.sub(r"^```.*?^```$", "", text, flags=re.MULTILINE | re.DOTALL)
+        assert not re.search(r"^    (gradhesion|make|pip|python) ", outside, flags=re.MULTILINE), page
+        for named in re.findall(r"`([\w/]+\.py)\b", text):
             assert any(source.endswith(f"/{named}") for source in sources), f"{page.name}: {named}"

@@ -46,15 +46,14 @@ class SLURMCluster(LocalCluster):
 def machine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, str]:
     """An environment with the command, small blocks, and with what stands for SLURM."""
     monkeypatch.setenv("GRADHESION_CHUNK", "50")
-    command = tmp_path / "bin" / "gradhesion"
-    command.parent.mkdir()
-    command.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m gradhesion.cli "$@"\n')
-    command.chmod(0o755)
-    (tmp_path / "stub").mkdir()
-    (tmp_path / "stub" / "dask_jobqueue.py").write_text(JOBQUEUE)
+    stubs = tmp_path / "stubs"
+    stubs.mkdir()
+    (stubs / "gradhesion").write_text(f'#!/bin/sh\nexec "{sys.executable}" -m gradhesion.cli "$@"\n')
+    (stubs / "gradhesion").chmod(0o755)
+    (stubs / "dask_jobqueue.py").write_text(JOBQUEUE)
     (tmp_path / "study.toml").write_text(STUDY)
-    path = os.pathsep.join([str(tmp_path / "stub"), *filter(None, [os.environ.get("PYTHONPATH")])])
-    return os.environ | {"PATH": f"{command.parent}:{os.environ['PATH']}", "PYTHONPATH": path}
+    path = os.pathsep.join([str(stubs), *filter(None, [os.environ.get("PYTHONPATH")])])
+    return os.environ | {"PATH": f"{stubs}:{os.environ['PATH']}", "PYTHONPATH": path}
 
 
 def test_both_ways_give_the_bytes_of_one_machine(machine: dict[str, str], gradhesion: Any, tmp_path: Path) -> None:

@@ -2,7 +2,6 @@
 
 import json
 import math
-import tomllib
 
 import numpy as np
 import pytest
@@ -69,11 +68,13 @@ def test_a_smooth_paraboloid_has_its_force_without_gain_by_every_solver(name: st
         np.testing.assert_allclose(own, newtons.transpose(*own.dims), rtol=1e-12)
 
 
-@pytest.mark.parametrize("name", sorted({*SMOOTH, "cone", "profile", "specimens"} - {"map", "maps", "smoke", "points"}))
-def test_every_scene_has_a_value(name: str) -> None:
+@pytest.mark.parametrize("name", sorted({*SMOOTH, *OTHERS} - {"fit", "fit_spring"}))
+def test_every_scene_has_a_value_and_small_slopes(name: str) -> None:
     found = run(name)
     assert not found.gr.flagged("no_value").any()
-    assert not found["pull_off_force"].isnull().any()
+    assert "steep_contact" not in found
+    for force in {"pull_off_force", "best_pull_off_force"} & {*found}:
+        assert not found[force].isnull().any()
 
 
 def test_a_smooth_cone_is_pulled_off_by_the_force_of_its_closed_form() -> None:
@@ -127,46 +128,6 @@ def test_slow_speeds_are_the_cycle_at_rest_and_fast_ones_hide_the_waves() -> Non
     assert bool((rate["dissipated_energy"].diff("speed_over_reference") > 0.0).all())
 
 
-def test_no_wavelength_is_better_than_the_best() -> None:
-    """For each exponent, against 20,000 wavelengths; the slope is 0 there."""
-    best, study = run("optimum"), gr.load(CONFIGS / "optimum.toml")
-    (searched,) = study.searched.values()
-    waves = np.geomspace(searched.start, searched.stop, 20_000)[:, None]
-    scenes = {name: best[name].values for name in study.parameters}
-    force = gr.core.solve(scenes | {"lambda_over_R": waves}, ["pull_off_force"])["pull_off_force"].max(axis=0)
-    assert np.all(best["best_pull_off_force"].values >= force * (1.0 - 1e-15))
-    np.testing.assert_allclose(best["best_pull_off_force"], force, rtol=1e-6)
-    slopes = best["best_pull_off_force_sensitivity"].sel(parameter="lambda_over_R")
-    np.testing.assert_allclose(slopes, 0.0, atol=1e-13)
-    assert not best["on_bound"].any()
-
-
-def test_forces_of_smooth_punches_have_the_slopes_and_deviations_of_their_closed_form() -> None:
-    """(3 + k)/3 in units of 1.5 pi R dgamma: relative deviations of 20 nm/R and 3 % add up in squares."""
-    smooth = run("sensitivities", A=0.0, lambda_over_R=0.2, k=[0.0, 0.5])
-    slopes = smooth["pull_off_force_sensitivity"]
-    # differences by k leave step^4/30 of the fifth derivative, 2e-12 here (core/sensitivities/neighbours.py)
-    np.testing.assert_allclose(slopes.sel(parameter="k"), 1.0 / (3.0 + smooth["k"]), rtol=0.0, atol=1e-11)
-    np.testing.assert_allclose(slopes.drop_sel(parameter="k"), 0.0, atol=1e-12)
-    slopes = run("sensitive_probe", A=0.0, k=0.0)["pull_off_force_sensitivity_physical"]
-    for name in map(str, slopes["physical_parameter"].values):
-        known = 1.0 if name in ("R", "work_of_adhesion") else 0.0
-        np.testing.assert_allclose(slopes.sel(physical_parameter=name), known, atol=1e-12, err_msg=name)
-    probe = run("uncertain_probe")
-    expected = np.hypot(0.03, 2e-8 / probe["R"]) * probe["pull_off_force_si"]
-    np.testing.assert_allclose(probe["pull_off_force_std_si"], expected, rtol=1e-12)
-
-
-def test_points_of_a_file_are_its_rows() -> None:
-    found = run("specimens")
-    rows = np.genfromtxt(CONFIGS / "specimens.csv", delimiter=",", names=True, comments="#", skip_header=1)
-    assert found.sizes == {"scene": rows.size}
-    for i in (0, rows.size - 1):
-        row = {str(name): float(rows[name][i]) for name in rows.dtype.names}
-        alone = gr.solve(row, "pull_off_force", k=0.3, nu=0.3, c0_over_R=0.01, a_max_over_R=0.5)
-        assert alone["pull_off_force"].item() == pytest.approx(found["pull_off_force"][i].item(), rel=1e-13)
-
-
 def test_a_retraction_through_a_spring_gives_what_it_was_made_with() -> None:
     found = run("fit_spring")
     made = {"E_star": 2e6, "work_of_adhesion": 0.045, "indentation_offset": 3e-9, "load_offset": -8e-9}
@@ -174,16 +135,3 @@ def test_a_retraction_through_a_spring_gives_what_it_was_made_with() -> None:
     away = (found["value"] - list(made.values())) / found["standard_deviation"]
     assert float(abs(away).max()) < 3.5
     assert 0.7 < float(found["chi_square"] / found["degrees_of_freedom"]) < 1.4
-
-
-def test_the_curve_is_that_of_a_reference_scene() -> None:
-    found, parameters = run("curve"), tomllib.loads((CONFIGS / "curve.toml").read_text())["parameters"]
-    scenes = json.loads((REFERENCE / "scenes.json").read_text())["scenes"]
-    (expected,) = [scene["expected"] for scene in scenes if scene["parameters"] == parameters]
-    for load in ("load", "path_load"):
-        assert -float(found[load].min()) == pytest.approx(expected["pull_off_force"], rel=1e-14)
-    assert float(found["path_indentation"].max()) == pytest.approx(expected["delta_max"], rel=1e-12)
-    jumps, unloading = found["path_jump"] == 1, found["path_unloading"] == 1
-    counts = [int((jumps & way).sum()) for way in (~unloading, unloading)]
-    assert counts == [expected["loading_jumps"], expected["unloading_jumps"]]
-    assert int(((found["stable"] == 1).astype(int).diff("point") == 1).sum()) == 5

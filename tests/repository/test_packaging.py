@@ -44,7 +44,8 @@ def call(*arguments: str | Path, cwd: Path, **environment: str) -> str:
     return done.stdout
 
 
-def install(wheel: Path, folder: Path) -> None:
+def install(wheels: Path, folder: Path) -> None:
+    (wheel,) = wheels.glob("*.whl")
     call("-m", "pip", "install", "--quiet", "--no-deps", "--no-index", "--target", folder, wheel, cwd=folder.parent)
 
 
@@ -64,13 +65,8 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.fixture(scope="module")
-def wheel(built: Path) -> Path:
-    (path,) = built.glob("*.whl")
-    return path
-
-
-def test_the_wheel_has_the_program_and_nothing_else(wheel: Path) -> None:
+def test_the_wheel_has_the_program_and_nothing_else(built: Path) -> None:
+    (wheel,) = built.glob("*.whl")
     with zipfile.ZipFile(wheel) as archive:
         names = {name for name in archive.namelist() if not name.endswith("/")}
     information = {name for name in names if ".dist-info/" in name}
@@ -109,10 +105,10 @@ def test_every_package_that_is_imported_is_declared() -> None:
     assert owners == declared | of_extras
 
 
-def test_the_installed_program_works_away_from_the_repository(wheel: Path, tmp_path: Path) -> None:
+def test_the_installed_program_works_away_from_the_repository(built: Path, tmp_path: Path) -> None:
     installed, elsewhere = tmp_path / "installed", tmp_path / "elsewhere"
     elsewhere.mkdir()
-    install(wheel, installed)
+    install(built, installed)
     assert sorted(path.name for path in installed.iterdir() if path.suffix != ".dist-info") == ["bin", "gradhesion"]
 
     def there(*arguments: str) -> str:
@@ -138,8 +134,7 @@ def test_an_editable_installation_has_the_same_package_and_sees_new_modules(tmp_
     for folder in (elsewhere, installed):
         folder.mkdir()
     build("editable", tree, installed)
-    (wheel,) = installed.glob("*.whl")
-    install(wheel, installed)
+    install(installed, installed)
     (tree / "api" / "added.py").write_text('"""Added later."""\n')
     # -S, and other packages by their path alone: the editable installation of this very environment must not answer.
     code = (

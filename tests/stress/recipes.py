@@ -10,8 +10,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
-
 from tests.conftest import ROOT
 
 ROOMS = ("cli", "configs", "core", "twin")
@@ -55,8 +53,12 @@ assert own.attrs["control"] == "own spring"
 """
 
 
-def test_the_recipes_are_enough(tmp_path: Path) -> None:
+def test_the_recipes_are_enough_and_name_their_files(tmp_path: Path) -> None:
     """Both are followed in one copy, so that it is compiled once."""
+    page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    for what, edits in (("output", OUTPUT), ("control", CONTROL)):
+        (recipe,) = re.findall(rf"### Add an? {what}\n(.*?)(?=\n##|\Z)", page, re.DOTALL)
+        assert [name for name, *_ in edits if f"`{name}`" not in recipe] == []
     package = tmp_path / "sources" / "gradhesion"
     ignored = shutil.ignore_patterns("__pycache__")
     shutil.copytree(ROOT / "api", package, ignore=ignored)
@@ -70,11 +72,3 @@ def test_the_recipes_are_enough(tmp_path: Path) -> None:
     code = f"import numpy as np, gradhesion as gr\nassert gr.__file__.startswith({str(package)!r})\n{CHECKED}"
     done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
-
-
-@pytest.mark.parametrize(("what", "edits"), [("output", OUTPUT), ("control", CONTROL)])
-def test_the_page_names_their_files(what: str, edits: Edits) -> None:
-    page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
-    (recipe,) = re.findall(rf"### Add an? {what}\n(.*?)(?=\n##|\Z)", page, re.DOTALL)
-    for name, *_ in edits:
-        assert f"`{name}`" in recipe

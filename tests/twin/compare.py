@@ -44,7 +44,7 @@ class Comparison:
         return max(share for rows in self.shares.values() for share, _ in rows)
 
 
-def general_scene(rng: np.random.Generator, most_harmonics: int = 8) -> tuple[dict[str, float], Shape]:
+def general_scene(rng: np.random.Generator, most_harmonics: int) -> tuple[dict[str, float], Shape]:
     """Draw a scene; waves may have any sign, and be missing."""
     k = float(rng.choice([*EXPONENTS, rng.random()]))
     m = float(rng.choice(POWERS))
@@ -73,11 +73,11 @@ def of_one_cosine(scenes: Scenes) -> list[Case]:
     return [(dict(zip(scenes, row, strict=True)), {}, PLAIN) for row in rows]
 
 
-def of_any_kind(seed: int, count: int) -> list[Case]:
+def of_any_kind(seed: int, count: int, most_harmonics: int = 8) -> list[Case]:
     """Draw cases of any profile and control."""
     rng, made = np.random.default_rng(seed), []
     for _ in range(count):
-        scene, shape = general_scene(rng)
+        scene, shape = general_scene(rng, most_harmonics)
         profile, loading = profile_of(shape.exponent, *shape.harmonics), Loading(control=shape.control)
         made.append((scene, {"profile": profile, "loading": loading}, shape))
     return made

@@ -28,9 +28,7 @@ EXAMPLE = ROOT / "configs" / "fit.toml"
 @pytest.fixture(scope="module")
 def study() -> FitStudy:
     """The example, with a tilt, and its zero of depth at the contact point."""
-    found = gr.load(EXAMPLE, set={"fit.offsets": {"indentation": "contact", "slope": True}})
-    assert isinstance(found, FitStudy)
-    return found
+    return gr.load(EXAMPLE, set={"fit.offsets": {"indentation": "contact", "slope": True}})
 
 
 def made_up(values: dict[str, float], degrees: int = 200, /, **changes: Any) -> FittedLoop:
@@ -93,15 +91,8 @@ def test_a_dataset_has_minima_ranges_and_the_contact_point(study: FitStudy, tmp_
         masks = dict(zip(flags["flag_meanings"].split(), flags["flag_masks"], strict=True))
         assert (masks["poor_fit"], masks["another_minimum"]) == (2048, 4096)
     told = gradhesion("info", path).stdout
-    for words in (
-        "contact point: 2 +- 0.1 nm",
-        "widened by 1.5",
-        "poor fit",
-        "chi square 1400",
-        "waves too fine",
-        "Tabor",
-    ):
-        assert words in told, words
+    words = ("contact point: 2 +- 0.1 nm", "widened by 1.5", "poor fit", "chi square 1400", "waves too fine", "Tabor")
+    assert [one for one in words if one not in told] == []
 
 
 def test_a_file_of_version_0_2_is_read(study: FitStudy, tmp_path: Path, gradhesion: Call) -> None:
@@ -193,7 +184,6 @@ CAUTIONS: list[tuple[dict[str, Any], float, dict[str, Any], list[str]]] = [
 @pytest.mark.parametrize(("line", "reach", "changes", "words"), CAUTIONS)
 def test_cautions_have_reasons(line: dict[str, float], reach: float, changes: dict[str, Any], words: list[str]) -> None:
     study = gr.load(EXAMPLE, set={"physical.adhesion_range": f"{reach} nm"})
-    assert isinstance(study, FitStudy)
     base = BaseLine(level=0.0, spread=1e-9, ends=(0.0, 0.0), **line) if line else None
     study = replace(study, free={}, fixed=study.fixed | {"A": 0.0})
     said = list(cautions_of_fit(study, made_up(VALUES, base_line=base, **changes)))

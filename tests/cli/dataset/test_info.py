@@ -74,36 +74,23 @@ def test_extremes_and_flags_across_blocks(chunk: str, gradhesion: Call, dataset_
     assert flags == expected[1:], "one that does not occur is not told"
 
 
-def damaged_values(content: bytes, path: Path) -> bytes:
+def damaged_values(path: Path) -> bytes:
     """Damage a compressed chunk so that the file opens and its values cannot be read."""
-    start = content.find(b"x\x01")
-    while start >= 0:
-        damaged = content[: start + 2] + b"\xff" * 6 + content[start + 8 :]
-        path.write_bytes(damaged)
-        try:
-            with netCDF4.Dataset(path) as file:
-                try:
-                    file["pull_off_force"][:]
-                except RuntimeError:
-                    return damaged
-        except (OSError, RuntimeError):
-            pass
-        start = content.find(b"x\x01", start + 2)
-    pytest.fail("there is no such chunk")
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(path) as file:
+        start = file["pull_off_force"].id.get_chunk_info(0).byte_offset
+    content = path.read_bytes()
+    return content[: start + 2] + b"\xff" * 6 + content[start + 8 :]
 
 
-@pytest.mark.parametrize("damage", ["missing", "folder", "text", "empty", "truncated", "flipped", "foreign"])
+@pytest.mark.parametrize("damage", ["missing", "folder", "text", "empty", "truncated", "flipped"])
 def test_a_file_that_is_no_dataset_of_ours(damage: str, gradhesion: Call, dataset_file: Path, tmp_path: Path) -> None:
-    path = tmp_path / "bad.nc"
-    content = dataset_file.read_bytes()
+    path, content = tmp_path / "bad.nc", dataset_file.read_bytes()
+    contents = {"text": b"title = 1", "empty": b"", "truncated": content[: len(content) * 2 // 3]}
     if damage == "folder":
         path.mkdir()
-    elif damage == "foreign":
-        with netCDF4.Dataset(path, "w") as file:
-            file.title = "something else"
     elif damage != "missing":
-        contents = {"text": b"title = 1", "empty": b"", "truncated": content[: len(content) * 2 // 3]}
-        path.write_bytes(contents[damage] if damage in contents else damaged_values(content, path))
+        path.write_bytes(contents[damage] if damage in contents else damaged_values(dataset_file))
     for command in ("info", "plot", "explore", "verify"):
         result = gradhesion(command, path, code=2)
         assert result.stderr.startswith(f"{path}: ")

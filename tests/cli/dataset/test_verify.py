@@ -37,13 +37,12 @@ def off(by: float) -> Callable[[Any], Any]:
     return lambda value: value * (1.0 + by)
 
 
-def edit_study(path: Path, old: str, new: str, *, seal: bool) -> None:
-    """Change the text of a dataset's study, and its sha256 if `seal`."""
+def edit_study(path: Path, old: str, new: str) -> None:
+    """Change the text of a dataset's study, and its sha256."""
     with netCDF4.Dataset(path, "a") as file:
         assert old in file.study
         file.study = file.study.replace(old, new)
-        if seal:
-            file.study_sha256 = hashlib.sha256(file.study.encode()).hexdigest()
+        file.study_sha256 = hashlib.sha256(file.study.encode()).hexdigest()
 
 
 def test_a_good_dataset_stands_up_and_a_changed_value_is_named_first(gradhesion: Call, file: Path) -> None:
@@ -54,14 +53,13 @@ def test_a_good_dataset_stands_up_and_a_changed_value_is_named_first(gradhesion:
     first, again, other = (gradhesion("verify", file, "--sample=3", f"--seed={seed}").stdout for seed in (5, 5, 6))
     assert first == again != other
     place = {"k": 0.31, "lambda_over_R": 0.47, "A": 0.023, "a_max_over_R": 0.7}
-    for output in ("pull_off_force", "loading_jumps", "delta_jump_out"):
-        wrong = off(1e-11) if output != "loading_jumps" else lambda value: value + 1
-        change(file, output, (1, 2, 1, 0), wrong)
-        exceeding, found = verified(file)
-        named = {one.output: dict(one.scene) for one in found.deviations[:exceeding]}
-        assert named[output] == pytest.approx(place)
+    wrong = {"pull_off_force": off(1e-11), "loading_jumps": lambda count: count + 1, "delta_jump_out": off(1e-11)}
+    for output, way in wrong.items():
+        change(file, output, (1, 2, 1, 0), way)
+    exceeding, found = verified(file)
+    assert {one.output for one in found.deviations[:exceeding]} == {*wrong}
+    assert all(dict(one.scene) == pytest.approx(place) for one in found.deviations[:exceeding])
     assert gradhesion("verify", file, "--sample", "100", code=3).stderr.count("\n") == 1
-    assert exceeding == 3
 
 
 def test_loading_on_the_opening_curve_beside_a_ratio_of_1_is_found(made: Made) -> None:
@@ -98,10 +96,8 @@ STUDIES: list[tuple[str, str, int]] = [
 
 @pytest.mark.parametrize(("old", "new", "code"), STUDIES)
 def test_a_study_of_another_dataset_is_told(old: str, new: str, code: int, gradhesion: Call, file: Path) -> None:
-    """By its sha256; where that fits, by its coordinates, or by its values."""
-    edit_study(file, old, new, seal=False)
-    assert gradhesion("verify", file).exit_code == 2
-    edit_study(file, new, new, seal=True)
+    """By its coordinates, or by its values, where its sha256 fits (which it does not in test_joining.py)."""
+    edit_study(file, old, new)
     result = gradhesion("verify", file, "--sample=8", "--seed=2", code=code)
     if code == 2:
         assert result.stderr.startswith(f"{file}: ")
@@ -115,14 +111,11 @@ def test_scenes_without_a_value_must_have_none_and_others_one(file: Path) -> Non
         change(file, name, 0, value)
     exceeding, found = verified(file)
     assert (exceeding, found.scenes, found.failed) == (0, 12, 12)
-    for name, value in (("pull_off_radius", 0.2), ("loading_jumps", 1)):
-        change(file, name, (0, 1, 1, 1), value)
-        exceeding, found = verified(file)
-        assert (exceeding, found.deviations[0].output, found.deviations[0].share) == (1, name, math.inf)
-        change(file, name, (0, 1, 1, 1), blank[name])
-    change(file, "pull_off_force", (1, 0, 1, 1), np.nan)
+    wrong = {"pull_off_radius": (0, 0.2), "loading_jumps": (0, 1), "pull_off_force": (1, np.nan)}
+    for name, (k, value) in wrong.items():
+        change(file, name, (k, 1, 1, 1), value)
     exceeding, found = verified(file)
-    assert (exceeding, found.deviations[0].output, found.deviations[0].share) == (1, "pull_off_force", math.inf)
+    assert {(one.output, one.share) for one in found.deviations[:exceeding]} == {(name, math.inf) for name in wrong}
 
 
 def test_scenes_of_too_many_waves_are_left_out_and_others_drawn(gradhesion: Call, made: Made) -> None:
@@ -134,7 +127,7 @@ def test_scenes_of_too_many_waves_are_left_out_and_others_drawn(gradhesion: Call
 
 def test_errors_that_a_dataset_tells_of_its_values_are_held_against_them(file: Path) -> None:
     """As versions up to 0.3 wrote them, where the study asked for them."""
-    edit_study(file, 'outputs = ["pull', 'outputs = ["pull_off_force_error", "pull', seal=True)
+    edit_study(file, 'outputs = ["pull', 'outputs = ["pull_off_force_error", "pull')
     with netCDF4.Dataset(file, "a") as old:
         error = old.createVariable("pull_off_force_error", "f8", old["pull_off_force"].dimensions)
         error[:] = 1e-10
@@ -155,7 +148,7 @@ def test_of_several_solvers_those_with_a_twin_are_recomputed(gradhesion: Call, m
     exceeding, found = verified(path)
     assert exceeding == 1
     assert (found.deviations[0].scene["solver"], found.deviations[0].scene["k"]) == ("envelope", 0.0)
-    edit_study(path, '"envelope", "exact"', '"exact", "envelope"', seal=True)
+    edit_study(path, '"envelope", "exact"', '"exact", "envelope"')
     assert gradhesion("verify", path).exit_code == 2
 
 
@@ -171,8 +164,10 @@ def test_a_rim_given_in_the_jump_in_radius_is_recomputed(data: dict[str, Any], m
 
 
 def test_a_status_excuses_counts_near_a_jump_and_values_that_failed(file: Path) -> None:
-    cell = (1, 2, 1, 0)
-    for name, value, exceeding in (("status", 16, 0), ("loading_jumps", lambda count: count + 1, 0),
-                                   ("dissipated_energy", off(1e-11), 1), ("status", 32, 0)):  # fmt: skip
-        change(file, name, cell, value)
-        assert verified(file)[0] == exceeding, name
+    for k, status in ((0, 16), (1, 32)):
+        change(file, "status", (k, 2, 1, 0), status)
+        change(file, "loading_jumps", (k, 2, 1, 0), lambda count: count + 1)
+        change(file, "dissipated_energy", (k, 2, 1, 0), off(1e-11))
+    exceeding, found = verified(file)
+    wrong = [(one.output, one.scene["k"]) for one in found.deviations[:exceeding]]
+    assert wrong == [("dissipated_energy", 0.0)]

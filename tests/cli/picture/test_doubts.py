@@ -17,6 +17,7 @@ from gradhesion.cli.dataset.read.model_range import LIMITS
 from gradhesion.core import DOUBTFUL, FLAGS
 from gradhesion.core.answers.flags import FLAG_WORDS
 from tests.cli.conftest import legend
+from tests.conftest import mistakes
 
 LOADING, TOLERANCE, GONE = (FLAGS[name] for name in ("loading_contact_not_one_disc", "tolerance_not_met", "no_value"))
 HATCH = "////"
@@ -150,8 +151,8 @@ def test_an_optimum_at_a_bound_is_marked_where_its_flag_is() -> None:
 def sampled() -> xarray.Dataset:
     uncertainty = {"modulus": "5 %", "A": "10 %", "samples": 16}
     parameters = PUNCH | {"k": [0.0, 0.4], "A": 0.01, "a_max_over_R": 0.5, "lambda_over_R": WAVES | {"num": 24}}
-    study = {"outputs": ["pull_off_force", "loading_jumps"], "parameters": parameters, "uncertainty": uncertainty}
-    return gr.run(study)
+    outputs = ["pull_off_force", "loading_jumps"]
+    return gr.run({"outputs": outputs, "parameters": parameters, "uncertainty": uncertainty})
 
 
 def edges(axes: Axes) -> list[tuple[np.ndarray, np.ndarray]]:
@@ -164,7 +165,7 @@ def edges(axes: Axes) -> list[tuple[np.ndarray, np.ndarray]]:
     return found
 
 
-def test_a_band_goes_from_edge_to_edge(sampled: xarray.Dataset) -> None:
+def test_a_band_goes_from_edge_to_edge_and_is_refused_where_there_is_none(sampled: xarray.Dataset) -> None:
     panels = gr.plot(sampled, "pull_off_force")
     quantiles = [sampled[f"pull_off_force_{end}"].values for end in ("p05", "p95")]
     for found, low, high in zip(edges(panels[0]), *quantiles, strict=True):
@@ -182,6 +183,8 @@ def test_a_band_goes_from_edge_to_edge(sampled: xarray.Dataset) -> None:
         assert not edges(gr.plot(sampled, name)[0])
     for choices in ({"band": "none"}, {"over": {"k": "max"}}):
         assert not edges(gr.plot(sampled, "pull_off_force", **choices)[0])
+    for name, choices in WRONG:
+        assert "band" in mistakes(gr.plot, sampled.drop_vars("pull_off_force_p05"), name, **choices)[0]
 
 
 def test_few_values_have_bars(sampled: xarray.Dataset) -> None:
@@ -194,9 +197,3 @@ def test_few_values_have_bars(sampled: xarray.Dataset) -> None:
     points = points.assign_coords(lambda_over_R=("scene", few["lambda_over_R"].values))
     (axes,) = gr.plot(points, "pull_off_force")
     assert [len(one.get_paths()) for one in axes.collections if isinstance(one, LineCollection)] == [6]
-
-
-def test_a_band_that_is_not_there_is_refused(sampled: xarray.Dataset) -> None:
-    for name, choices in WRONG:
-        with pytest.raises(gr.DatasetError, match="band"):
-            gr.plot(sampled.drop_vars("pull_off_force_p05"), name, **choices)

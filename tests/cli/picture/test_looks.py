@@ -69,8 +69,8 @@ def test_levels_are_in_si_or_have_units(levels: Any, grid: xarray.Dataset) -> No
     shown = drawn_levels(gr.plot(grid, "pull_off_force_si", levels=levels)[0])
     assert [*shown] == [1.5e-7, 2e-7]
     for wrong in ("150 nm", "150 nN, 1 J"):
-        with pytest.raises(gr.DatasetError, match="pull_off_force_si, which is in N"):
-            gr.plot(grid, "pull_off_force_si", levels=wrong)
+        told = mistakes(gr.plot, grid, "pull_off_force_si", levels=wrong)
+        assert "pull_off_force_si, which is in N" in told[0]
 
 
 def test_a_number_of_levels_and_a_colour_map_are_those_asked_for(grid: xarray.Dataset) -> None:
@@ -91,13 +91,11 @@ def test_words_are_left_out_or_replaced(grid: xarray.Dataset) -> None:
     assert gr.plot(grid, "pull_off_force", title=False, caption=False).figure.get_suptitle() == ""
     own = {"title": "My $k$", "xlabel": "waves", "ylabel": "depth", "clabel": "pull"}
     bare = gr.plot(grid, "pull_off_force", caption=False, labels=False, **own)
-    assert bare.figure.get_suptitle() == "My $k$"
-    assert (bare[0].get_xlabel(), bare[0].get_ylabel()) == ("waves", "depth")
-    assert bare.figure.axes[-1].get_ylabel() == "pull"
+    shown = (bare[0].get_xlabel(), bare[0].get_ylabel(), bare.figure.axes[-1].get_ylabel())
+    assert (bare.figure.get_suptitle(), *shown) == ("My $k$", "waves", "depth", "pull")
     assert not contours(bare[0]).labelTexts
     assert [axes.get_xlabel() for axes in gr.plot(grid, kind="lines", xlabel="waves")] == ["waves", "waves"]
-    with pytest.raises(gr.DatasetError, match="ylabel"):
-        gr.plot(grid, kind="lines", ylabel="force")
+    assert "ylabel" in mistakes(gr.plot, grid, kind="lines", ylabel="force")[0]
 
 
 @pytest.mark.parametrize("width", [3.0, 6.0])
@@ -174,10 +172,10 @@ WRONG: list[tuple[str, dict[str, Any]]] = [
 
 
 def test_what_does_not_exist_is_said(grid: xarray.Dataset) -> None:
-    even = grid
+    uneven = grid.assign_coords(wavelength=np.geomspace(5e-8, 1e-6, 40))
     for key, choices in WRONG:
-        grid = even if key != "logarithmic" else even.assign_coords(wavelength=np.geomspace(5e-8, 1e-6, 40))
-        (sentence,) = mistakes(gr.plot, grid, **({"variables": "pull_off_force"} | choices))
+        dataset = uneven if key == "logarithmic" else grid
+        (sentence,) = mistakes(gr.plot, dataset, **({"variables": "pull_off_force"} | choices))
         assert key in sentence
         assert "--" not in sentence, "keywords of Python"
 
@@ -186,8 +184,7 @@ def test_a_mistake_leaves_what_is_there(grid: xarray.Dataset, tmp_path: Path, gr
     path, picture = tmp_path / "x.nc", tmp_path / "x.png"
     grid.to_netcdf(path)
     for options in (["--xlim", "1 um:50 nm"], ["--variable", "energy"], ["-o", tmp_path / "x.bmp"], ["--levels", "?"]):
-        result = gradhesion("plot", path, *options, code=2)
-        assert str(options[1]) in result.stderr
+        assert str(options[1]) in gradhesion("plot", path, *options, code=2).stderr
         assert not picture.exists()
     picture.write_text("precious")
     assert gradhesion("plot", path).exit_code == 4

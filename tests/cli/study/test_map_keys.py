@@ -11,7 +11,7 @@ import gradhesion as gr
 from gradhesion.cli.dataset import compute
 from gradhesion.cli.study import study_from
 from gradhesion.core import FAILED, FLAGS, PARAMETERS, draw_curves, solve
-from gradhesion.core.answers.spectrum import random_profile
+from gradhesion.core.answers.spectrum import Spectrum, random_profile
 from gradhesion.core.closed.reduced import jump_in_radius_of_envelope, parameters_from
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.profile import Harmonic, Profile
@@ -31,7 +31,7 @@ CONTROLS = ("displacement", "load", "machine")
 SHAPE = {"exponent": 1.7, "harmonics": [{"n": 1, "cos": 1.0}, {"n": 3, "sin": -0.2}]}
 PROFILE = Profile(exponent=1.7, harmonics=(Harmonic(n=1), Harmonic(n=3, cos=0.0, sin=-0.2)))
 SEVERAL = ["envelope", "exact", "asymptotic"]
-SPECTRUM = {"hurst": 0.8, "first": 1, "last": 9, "realisations": 4, "seed": 3}
+SPECTRUM: dict[str, Any] = {"hurst": 0.8, "first": 1, "last": 9, "realisations": 4, "seed": 3}
 
 
 @pytest.fixture
@@ -63,13 +63,12 @@ def test_reduced_variables_are_axes_and_parameters_follow(kind: str, reduced: St
         np.testing.assert_array_equal(dataset[name], values)
 
 
-def test_points_and_other_solvers_take_reduced_variables(reduced: Study) -> None:
+def test_points_take_reduced_variables(reduced: Study) -> None:
     lists = {"k": [0.0, 0.2, 0.4], "lambda_over_R": [0.02, 0.03, 0.01], "A": [0.01, 9.0, 0.02]}
-    for solver in ("envelope", "asymptotic"):
-        dataset = compute(study_from(reduced(**lists) | {"layout": "points", "method": {"solver": solver}}))
-        assert dataset["a_max_over_R"].dims == ("scene",)
-        assert (dataset["status"].values & FLAGS["no_value"]).tolist() == [0, FLAGS["no_value"], 0]
-        assert np.isfinite(dataset["pull_off_force"].values).tolist() == [True, False, True]
+    dataset = compute(study_from(reduced(**lists) | {"layout": "points", "method": {"solver": "asymptotic"}}))
+    assert dataset["a_max_over_R"].dims == ("scene",)
+    assert (dataset["status"].values & FLAGS["no_value"]).tolist() == [0, FLAGS["no_value"], 0]
+    assert np.isfinite(dataset["pull_off_force"].values).tolist() == [True, False, True]
 
 
 def test_curves_take_reduced_variables(reduced: Study) -> None:
@@ -171,7 +170,7 @@ def rough() -> dict[str, Any]:
 
 def test_each_realisation_is_its_series_to_the_last_bit(rough: dict[str, Any]) -> None:
     read = study_from(rough)
-    assert read.spectrum is not None
+    assert read.spectrum == Spectrum(**SPECTRUM), "by which tests/core draw the same, whatever their number"
     found = compute(read)
     assert list(found["status"].dims) == ["k", "A", "a_max_over_R", "realisation"]
     assert found["realisation"].values.tolist() == [0, 1, 2, 3]
@@ -183,16 +182,6 @@ def test_each_realisation_is_its_series_to_the_last_bit(rough: dict[str, Any]) -
         one = compute(study_from(rough | {"profile": series}))
         for name in (*rough["outputs"], "status"):
             np.testing.assert_array_equal(found[name].isel(realisation=number), one[name])
-
-
-def test_the_same_seed_gives_the_same_dataset_and_more_realisations_add_to_it(rough: dict[str, Any]) -> None:
-    one, again = compute(study_from(rough)), compute(study_from(rough), threads=1)
-    more = compute(study_from(rough | {"profile": {"spectrum": SPECTRUM | {"realisations": 6}}}))
-    for name in rough["outputs"]:
-        np.testing.assert_array_equal(one[name], again[name])
-        np.testing.assert_array_equal(one[name], more[name].isel(realisation=slice(4)))
-    other = compute(study_from(rough | {"profile": {"spectrum": SPECTRUM | {"seed": 4}}}))
-    assert not np.any(other["pull_off_force"].values == one["pull_off_force"].values)
 
 
 def test_realisations_with_points_several_solvers_and_units(rough: dict[str, Any]) -> None:

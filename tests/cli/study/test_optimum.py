@@ -7,10 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-import xarray
 
 import gradhesion as gr
-from gradhesion.cli.dataset.writer import write
 from gradhesion.cli.study import study_from
 from gradhesion.core import solve
 from tests.cli.conftest import Call, Run
@@ -26,11 +24,10 @@ def study() -> dict[str, Any]:
     return {"kind": "optimum", "optimum": search, "parameters": PUNCH | {"k": [0.0, 0.3, 0.7], "lambda_over_R": WAVES}}
 
 
-@pytest.mark.parametrize("word", ["maximise", "minimise"])
-@pytest.mark.parametrize(("goal", "count"), [("pull_off_force", 12), ("dissipated_energy", 24)])
-def test_one_input_against_brute_force(goal: str, count: int, word: str) -> None:
+@pytest.mark.parametrize(("word", "goal"), [("maximise", "dissipated_energy"), ("minimise", "pull_off_force")])
+def test_one_input_against_brute_force(word: str, goal: str) -> None:
     """On a grid a hundred times finer none is better, but for peaks narrower than the spacing, which are flagged."""
-    rng = np.random.default_rng(3)
+    rng, count = np.random.default_rng(3), 24 if goal == "dissipated_energy" else 12
     fixed = {
         "k": rng.choice([0.0, 0.3, 0.5, 0.8], count),
         "modulus": 10 ** rng.uniform(1.5, 3.5, count),
@@ -103,10 +100,8 @@ def test_what_is_required(study: dict[str, Any]) -> None:
 
 def test_contact_of_one_disc_may_be_required(study: dict[str, Any]) -> None:
     parameters = study["parameters"] | {"A": 0.1, "k": [0.0, 0.3]}
-    free = gr.run(study | {"parameters": parameters})
     disc = gr.run(study | {"parameters": parameters, "optimum": study["optimum"] | {"require": {"one_disc": True}}})
     assert not disc.gr.flagged("loading_contact_not_one_disc").any()
-    assert bool((disc["best_pull_off_force"] <= free["best_pull_off_force"]).all())
     waves = np.geomspace(0.05, 1.0, 20_001)
     for k in (0.0, 0.3):
         fine = solve(PUNCH | {"k": k, "A": 0.1, "lambda_over_R": waves}, ["pull_off_force", "delta_max"])
@@ -159,35 +154,10 @@ def test_a_peak_between_the_points_is_flagged(ran: Run) -> None:
     """Five points over many peaks: more show a higher one."""
     search = {"maximise": "dissipated_energy", "over": ["lambda_over_R"], "resolution": 5}
     wavy = PUNCH | {"k": [0.3, 0.5], "A": 0.1, "lambda_over_R": {"start": 0.02, "stop": 1.0}}
-    asked = {"kind": "optimum", "parameters": wavy}
-    said, found, _ = ran(asked | {"optimum": search})
+    said, found, _ = ran({"kind": "optimum", "parameters": wavy, "optimum": search})
     assert "2 of 2 scenes" in said
     assert found.gr.flagged("resolution_too_coarse").values.all()
     assert not found.gr.valid("best_dissipated_energy").values.any()
-    finer = gr.run(asked | {"optimum": search | {"resolution": 200}})
-    assert not finer.gr.flagged("resolution_too_coarse").any()
-
-
-def test_optima_that_differ_along_an_axis_are_joined(study: dict[str, Any], gradhesion: Call, tmp_path: Path) -> None:
-    parts = {"whole": [0.0, 0.3, 0.7], "outer": [0.0, 0.7], "inner": 0.3}
-    for name, k in parts.items():
-        write(study_from(study | {"parameters": study["parameters"] | {"k": k}}), tmp_path / f"{name}.nc", history=name)
-    result = gradhesion("merge", *(tmp_path / f"{name}.nc" for name in ("outer", "inner")), "-o", tmp_path / "all.nc")
-    assert result.exit_code == 0, result.stderr
-    with xarray.open_dataset(tmp_path / "all.nc") as joined, xarray.open_dataset(tmp_path / "whole.nc") as whole:
-        xarray.testing.assert_identical(joined.drop_attrs(deep=False), whole.drop_attrs(deep=False))
-
-
-def test_what_of_optima_cannot_be_joined(study: dict[str, Any], gradhesion: Call, tmp_path: Path) -> None:
-    goals = {"front": ["pull_off_force", "dissipated_energy"], "energy": "dissipated_energy", "force": "pull_off_force"}
-    for name, goal in goals.items():
-        own = study | {"optimum": {"maximise": goal, "over": ["lambda_over_R"], "resolution": 20}}
-        for k in (0.0, 0.3):
-            file = tmp_path / f"{name}{k}.nc"
-            write(study_from(own | {"parameters": study["parameters"] | {"k": k}}), file, history="")
-    for names, word in ((("force0.0", "energy0.3"), "search"), (("front0.0", "front0.3"), "Pareto fronts")):
-        result = gradhesion("merge", *(tmp_path / f"{name}.nc" for name in names), "-o", tmp_path / "all.nc", code=2)
-        assert word in result.stderr
 
 
 def test_the_resolution_that_is_named_is_the_finest_that_is_searched(study: dict[str, Any]) -> None:

@@ -24,14 +24,20 @@ R, E_STAR, WORK = 1.7e-6, 2.3e6, 0.045
 PROBE = {"R": "1.7 um", "E_star": "2.3e-3 GPa", "work_of_adhesion": "45 mN/m", "c0": "510 nm", "wavelength": "0.425 um"}
 RATIOS = {"modulus": E_STAR * R / WORK, "c0_over_R": 0.3, "lambda_over_R": 0.25}
 RIM, RIM_RATIO = {"a_max": "1.36e-3 mm"}, {"a_max_over_R": 0.8}
-CASES: Final[dict[str, tuple[str, dict[str, str], dict[str, float]]]] = {
-    "a rim": ("displacement", RIM, RIM_RATIO),
-    "a depth": ("displacement", {"indentation_max": "34 nm"}, {"indentation_max_over_R": 0.02}),
-    "a preload": ("displacement", {"preload": "900 nN"}, {"load_max": 9e-7 / (1.5 * math.pi * R * WORK)}),
-    "a dead load": ("load", RIM, RIM_RATIO),
-    "a machine": ("machine", RIM | {"spring_constant": "7.82 nN/nm"}, RIM_RATIO | {"machine_stiffness": 7.82 / (E_STAR * R)}),
-}  # fmt: skip
-"""The control, the quantities by which a cycle ends, and their ratios."""
+PATTERN = {"toughness": {"harmonics": [{"n": 1, "cos": 0.3}, {"n": 2, "sin": 0.1}]}}
+SPRING, MACHINE = {"spring_constant": "7.82 nN/nm"}, {"loading": {"control": "machine"}}
+SPEED = {"speed": "20 nm/s", "reference_speed": "1 um/s"}
+CASES: Final[dict[str, tuple[dict[str, str], dict[str, float], dict[str, Any]]]] = {
+    "a rim": (RIM, RIM_RATIO, {}),
+    "a depth": ({"indentation_max": "34 nm"}, {"indentation_max_over_R": 0.02}, {}),
+    "a preload": ({"preload": "900 nN"}, {"load_max": 9e-7 / (1.5 * math.pi * R * WORK)}, {}),
+    "a dead load": (RIM, RIM_RATIO, {"loading": {"control": "load"}}),
+    "a machine": (RIM | SPRING, RIM_RATIO | {"machine_stiffness": 7.82 / (E_STAR * R)}, MACHINE),
+    "two works": (RIM | {"work_of_adhesion_closing": "4.5 mJ/m^2"}, RIM_RATIO | {"closing_ratio": 0.1}, {}),
+    "a pattern": (RIM | {"toughness_wavelength": "340 nm"}, RIM_RATIO | {"toughness_wavelength_over_R": 0.2}, PATTERN),
+    "a speed": (RIM | SPEED, RIM_RATIO | {"speed_over_reference": 0.02}, {"rate": {"exponent": 0.6}}),
+}
+"""Quantities of a cycle, their ratios, and what else the study has."""
 BALL: dict[str, Any] = {"k": 0.0, "nu": 0.3, "A": 0.0}
 PIECES = st.sampled_from(["m", "k", "Pa", "inf", "e5", "deg", "**", "-2", *"1/*^ ()'\\é²\n_.,"])
 QUANTITIES = [
@@ -57,15 +63,15 @@ def made(parameters: dict[str, Any], outputs: Any = tuple(VALUES), **tables: Any
 
 @pytest.mark.parametrize("case", CASES)
 def test_quantities_are_the_scenes_of_their_ratios_and_have_the_same_bits(case: str) -> None:
-    control, ends, ratios = CASES[case]
+    quantities, ratios, more = CASES[case]
     numbers = {"k": [0.0, 0.31, 0.8], "nu": 0.3, "A": [0.0, 0.02]}
-    outputs = [name for name in OUTPUTS if control != "load" or not name.endswith("_residual")]
-    units = made(numbers, outputs, physical=PROBE | ends, loading={"control": control})
+    outputs = [name for name in OUTPUTS if "rate" not in more or not name.endswith("_jumps")]
+    units = made(numbers, outputs, physical=PROBE | quantities, **more)
     for name, ratio in (RATIOS | ratios).items():  # each text is rounded once, and so is each step
         assert units[name].item() == pytest.approx(ratio, rel=4 * EPS), name
     own = {name: units[name].item() for name in RATIOS | ratios}
     stiffness = {name: own.pop(name) for name in ("machine_stiffness",) if name in own}
-    plain = made(numbers | own, outputs, loading={"control": control} | stiffness)
+    plain = made(numbers | own, outputs, **(more | {"loading": more.get("loading", {}) | stiffness}))
     size = {"N": 1.5 * math.pi * R * WORK, "J": R * R * WORK, "m": R}
     for name in (*outputs, "status"):
         np.testing.assert_array_equal(units[name].values, plain[name].values, err_msg=name)

@@ -93,15 +93,14 @@ def test_no_scheduler_or_no_dask_is_said(
     scheduler: str, gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: Patch
 ) -> None:
     command = ["run", study_file, "-o", tmp_path / "data" / "out.nc", "--engine=dask"]
-    if scheduler == "no dask":
+    if no_dask := scheduler == "no dask":
         monkeypatch.setitem(sys.modules, "distributed", None)
     else:
         command += ["--scheduler", scheduler]
     with dask.config.set({"distributed.comm.timeouts.connect": "1s"}):
-        result = gradhesion(*command, code=2)
-    assert ("pip install dask" if scheduler == "no dask" else scheduler) in result.stderr
+        assert ("pip install dask" if no_dask else scheduler) in gradhesion(*command, code=2).stderr
     monkeypatch.setenv("GRADHESION_CHUNK", "100")
-    gradhesion(*command, code=2 if scheduler == "no dask" else 0)  # one block needs no cluster
+    gradhesion(*command, code=2 if no_dask else 0)  # one block needs no cluster
 
 
 def test_an_interrupt_ends_the_workers_of_this_machine_and_keeps_blocks(study_file: Path, tmp_path: Path) -> None:

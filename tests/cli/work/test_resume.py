@@ -7,6 +7,7 @@ from collections.abc import Callable
 from itertools import count
 from pathlib import Path
 from typing import Any
+from unittest.mock import Mock
 
 import netCDF4
 import pytest
@@ -37,17 +38,15 @@ def begun(run: Call, output: Path, monkeypatch: Patch) -> Begun:
     """Interrupt a run after some blocks; tells how many are kept."""
 
     def begin(number: int, *options: str) -> int:
-        calls = count()
+        calls, interrupted = count(), Mock(side_effect=KeyboardInterrupt)
         with monkeypatch.context() as patch:
             patch.setattr(SOLVE, lambda *a, **b: real_solve(*a, **b) if next(calls) < number else interrupted())
             assert run(*options).exit_code == 1, "click's, without main()"
-        return len(list(output.parent.glob("out.nc.parts/*.npz")))
+        kept = len(list(output.parent.glob("out.nc.parts/*.npz")))
+        assert kept in {number - 1, number}, "the last one may have been on its way to the disk"
+        return kept
 
     return begin
-
-
-def interrupted() -> dict[str, Any]:
-    raise KeyboardInterrupt
 
 
 @pytest.fixture
@@ -63,13 +62,6 @@ def resumed(run: Call, output: Path, whole: Values) -> Call:
         return result
 
     return resume
-
-
-@pytest.mark.parametrize("number", [1, 5])
-def test_a_run_goes_on_where_it_was_interrupted(number: int, begun: Begun, resumed: Call) -> None:
-    kept = begun(number)
-    assert kept in {number - 1, number}, "the last one may have been on its way to the disk"
-    resumed(kept)
 
 
 def test_an_old_output_stays_until_the_new_one_is_whole_and_another_title_goes_on(
@@ -209,14 +201,3 @@ def test_a_run_killed_before_it_tidied_up_is_complete(
     assert "complete already" in run(code=0).stderr
     assert os.listdir(output.parent) == ["out.nc"]
     assert values_of(output) == whole
-
-
-def test_blocks_of_version_0_3_are_refused_until_dropped(run: Call, output: Path) -> None:
-    folder = folder_of(output)
-    folder.mkdir(parents=True)
-    for name in ("000000.part", "study.json", "state.json", "lock"):
-        (folder / name).write_text("{}")
-    assert "--fresh" in run(code=4).stderr
-    assert (folder / "000000.part").exists()
-    assert run("--fresh").exit_code == 0
-    assert os.listdir(output.parent) == ["out.nc"]

@@ -18,8 +18,7 @@ import gradhesion as gr
 from gradhesion.cli.dataset import compute
 from gradhesion.cli.study import load_study, study_from
 from gradhesion.cli.work import compiling
-from gradhesion.cli.work.solve.scenes import solve as real_solve
-from gradhesion.core import FAILED, PARAMETERS
+from gradhesion.core import PARAMETERS
 from gradhesion.core.jit import Place
 from gradhesion.core.problem.status import OF_EVERY_MAP
 from tests.cli.conftest import Call, Called, Made, Patch
@@ -70,31 +69,23 @@ def test_chunks_are_near_one_megabyte(made: Made) -> None:
         assert np.isfinite(file["pull_off_force"][:]).any()
 
 
-@pytest.mark.parametrize("layout", ["grid", "points"])
-def test_values_do_not_depend_on_blocks_or_threads(layout: str, data: dict[str, Any]) -> None:
+def test_values_do_not_depend_on_blocks_or_threads(data: dict[str, Any]) -> None:
     """A block of 128 exponents or more has interpolated tables, a smaller one those of its own."""
     scenes = np.random.default_rng(7).uniform(0.05, 0.45, (4, 150))
     lists = dict(zip(("k", "lambda_over_R", "A", "a_max_over_R"), scenes.tolist(), strict=True))
-    points = {"layout": layout, "parameters": data["parameters"] | lists} if layout == "points" else {}
-    study = study_from(data | points)
+    study = study_from(data | {"layout": "points", "parameters": data["parameters"] | lists})
     whole = compute(study, threads=1)
     xarray.testing.assert_identical(compute(study, threads=2), whole)
-    # terms of a value and of the tables that it is made of: some hundred eps
-    rounding = 512 * 2.0**-52 if layout == "points" else 0.0
+    rounding = 512 * 2.0**-52  # terms of a value and of the tables that it is made of: some hundred eps
     xarray.testing.assert_allclose(compute(replace(study, chunk=2), threads=2), whole, rtol=rounding, atol=0.0)
 
 
-def test_dimensions_are_those_of_axes_and_points_have_one(made: Made) -> None:
+def test_a_list_of_one_value_is_an_axis(made: Made) -> None:
     fixed = {"k": 0.2, "lambda_over_R": 0.3, "A": 0.1}
     for rims, sizes in (([np.inf], {"a_max_over_R": 1}), (2.0, {})):
         with xarray.open_dataset(made(parameters=fixed | {"a_max_over_R": rims})) as dataset:
             assert dict(dataset.sizes) == sizes
             assert np.isfinite(dataset["pull_off_force"].values).all()
-    with xarray.open_dataset(made(layout="points", parameters={"lambda_over_R": [0.1, 0.1]})) as dataset:
-        assert dict(dataset.sizes) == {"scene": 2}
-        assert set(dataset.coords) == set(PARAMETERS)
-        assert all(dataset[name].dims == ("scene",) for name in dataset.variables)
-        assert dataset["nu"].values.tolist() == [0.27, 0.27]
 
 
 def test_the_default_output_and_message(gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: Patch) -> None:
@@ -135,20 +126,6 @@ def test_an_output_is_replaced_if_asked_and_a_link_followed(gradhesion: Call, st
         real.write_text("old")
 
 
-def test_failed_scenes_are_written(gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: Patch) -> None:
-    def failing(*arguments: Any, **options: Any) -> dict[str, Any]:
-        values = real_solve(*arguments, **options)
-        values["status"].flat[3] = FAILED
-        values["pull_off_force"].flat[3] = np.nan
-        return values
-
-    monkeypatch.setattr(SOLVE, failing)
-    result = gradhesion("run", study_file, "-o", tmp_path / "out.nc", "--quiet", code=3)
-    assert f"1 of 24 scenes failed; `gradhesion info {tmp_path}/out.nc` reports why" in result.stderr
-    with xarray.open_dataset(tmp_path / "out.nc") as dataset:
-        assert int(dataset["pull_off_force"].isnull().sum()) == 1
-
-
 @pytest.mark.parametrize("limit", [300, 3_000, 20_000, 60_000])
 def test_a_failed_write_loses_nothing(limit: int, study_file: Path, tmp_path: Path, on_a_full_disk: Called) -> None:
     folder = tmp_path / "data"
@@ -173,20 +150,16 @@ def folder(tmp_path: Path, monkeypatch: Patch) -> Path:
     return folder
 
 
-@pytest.mark.usefixtures("folder")
-def test_the_first_run_alone_says_that_it_compiles(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
-    run = ("run", study_file, "--quiet")
-    assert len(gradhesion(*run, "-o", tmp_path / "first.nc").stderr.splitlines()) == 1, "also where it is quiet"
-    assert gradhesion(*run, "-o", tmp_path / "second.nc").stderr == ""
-    assert gradhesion("plan", study_file).stderr == ""
-
-
-def test_a_plan_and_python_say_it_as_well_and_another_process_does_not_say_it_again(
+def test_what_is_first_says_that_it_compiles_and_neither_the_next_nor_another_process_says_it_again(
     folder: Path, gradhesion: Call, study_file: Path, data: dict[str, Any], monkeypatch: Patch, capsys: Printed
 ) -> None:
-    assert len(gradhesion("plan", study_file, "--json").stderr.splitlines()) == 1
-    (folder / "another").mkdir()
-    monkeypatch.setattr(compiling, "place", lambda: Place(folder / "another", ""))
+    """A run, also where it is quiet, a plan, and Python; and why nothing is kept."""
+    run, plan = ("run", study_file, "--quiet", "--overwrite", "-o", folder / "x.nc"), ("plan", study_file, "--json")
+    for name, *commands in (("run first", run, run, plan), ("plan first", plan, run), ("in Python",)):
+        (folder / name).mkdir()
+        monkeypatch.setattr(compiling, "place", lambda name=name: Place(folder / name, ""))
+        said = [len(gradhesion(*command).stderr.splitlines()) for command in commands]
+        assert said == [1, 0, 0][: len(commands)], name
     scene = dict.fromkeys(data["parameters"], 0.3) | {"A": 0.01}
     for said in (1, 0):
         for call in (lambda: gr.solve(scene, "pull_off_force"), lambda: gr.curves(scene, "path")):
@@ -202,9 +175,6 @@ def test_a_plan_and_python_say_it_as_well_and_another_process_does_not_say_it_ag
     for said in (1, 0):  # the goal and its slope, no curve
         gr.run({"kind": "optimum", "optimum": search, "parameters": data["parameters"] | waves})
         assert len(capsys.readouterr().err.splitlines()) == said
-
-
-def test_why_nothing_is_kept_is_said_once(data: dict[str, Any], monkeypatch: Patch, capsys: Printed) -> None:
     monkeypatch.setattr(compiling, "place", lambda: Place(None, "a folder is not used, and why"))
     monkeypatch.setattr(compiling, "_begun", set())
     for is_first in (True, False):

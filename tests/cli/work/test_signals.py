@@ -6,12 +6,14 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import FrameType
 from typing import Any
+from unittest.mock import Mock
 
 import pytest
+from filelock import FileLock
 
 from gradhesion.cli import disk
 from gradhesion.cli.dataset.writer import write
@@ -38,63 +40,47 @@ a_max_over_R = inf
 """
 
 
-@contextmanager
-def started(tmp_path: Path, output: Path, files: int) -> Iterator[subprocess.Popen[str]]:
-    """Start a long run, and wait until so many files are in the folder of its output."""
-    study = tmp_path / "huge.toml"
-    study.write_text(HUGE)
-    command = [sys.executable, "-m", "gradhesion.cli", "run", study, "-o", output, "--overwrite"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        deadline = time.monotonic() + 120
-        while len(os.listdir(output.parent)) < files and process.poll() is None and time.monotonic() < deadline:
-            time.sleep(0.01)
-        yield process
-
-
-@pytest.mark.parametrize(("number", "delay"), [(signal.SIGINT, 0.3), (signal.SIGTERM, 0.0)])
-def test_an_interrupt_leaves_nothing_behind(number: signal.Signals, delay: float, tmp_path: Path) -> None:
-    folder = tmp_path / "data"
+@pytest.mark.parametrize(
+    ("number", "delay", "times"), [(signal.SIGINT, 0.3, 1), (signal.SIGTERM, 0.0, 1), (signal.SIGINT, 0.0, 20)]
+)
+def test_interrupts_leave_nothing_behind(number: signal.Signals, delay: float, times: int, tmp_path: Path) -> None:
+    """Once there are blocks; those that follow the first do not disturb the tidying up."""
+    folder, study = tmp_path / "data", tmp_path / "huge.toml"
     folder.mkdir()
     old = folder / "huge.nc"
     old.write_text("precious")
-    with started(tmp_path, old, 2) as process:
+    study.write_text(HUGE)
+    command = [sys.executable, "-m", "gradhesion.cli", "run", study, "-o", old, "--overwrite"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        deadline = time.monotonic() + 120
+        while len(os.listdir(folder)) < 2 and process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.01)
         time.sleep(delay)
-        process.send_signal(number)
+        for _ in range(times):
+            process.send_signal(number)
         stdout, stderr = process.communicate(timeout=60)
     assert process.returncode == 130, stderr
     assert stdout == ""
     assert "Traceback" not in stderr
     assert old.read_text() == "precious"
-    assert stderr.splitlines()[-1].startswith("interrupted; ")
+    assert times > 1 or stderr.splitlines()[-1].startswith("interrupted; ")
     if (folder / "huge.nc.parts").exists():
-        assert list(folder.glob("huge.nc.parts/*.npz"))
-        assert f"kept in {old}.parts" in stderr
-        assert not list(folder.glob("huge.nc.parts/*.nc"))
+        assert times > 1 or list(folder.glob("huge.nc.parts/*.npz"))
+        assert times > 1 or f"kept in {old}.parts" in stderr
+        assert not [*folder.glob("huge.nc.parts/*.nc"), *folder.glob("huge.nc.parts/*.tmp")]
     else:
         assert os.listdir(folder) == ["huge.nc"]
 
 
-def test_a_second_interrupt_does_not_disturb_the_tidying_up(tmp_path: Path) -> None:
-    folder = tmp_path / "out"
-    folder.mkdir()
-    with started(tmp_path, folder / "huge.nc", 1) as process:
-        for _ in range(20):
-            process.send_signal(signal.SIGINT)
-        process.communicate(timeout=60)
-    assert process.returncode == 130
-    assert not list(tmp_path.glob("out/*/merged.nc"))
-    assert not list(tmp_path.glob("out/*/*.tmp"))
-
-
-def test_an_interrupt_that_a_library_swallows_is_heard(study_file: Path, tmp_path: Path, monkeypatch: Patch) -> None:
-    monkeypatch.setattr(interrupts, "_heard", [0.0])
-    monkeypatch.setattr("gradhesion.cli.work.solve.scenes.solve", lambda *_, **__: time.sleep(0.5))
-    with pytest.raises(KeyboardInterrupt):
-        write(load_study(study_file), tmp_path / "out" / "out.nc", history="")
+def test_an_interrupt_that_others_swallow_is_heard(study_file: Path, tmp_path: Path, monkeypatch: Patch) -> None:
+    """A library while blocks are solved here, and the engine of a cluster."""
+    with monkeypatch.context() as patch:
+        patch.setattr(interrupts, "_heard", [0.0])
+        patch.setattr("gradhesion.cli.work.solve.scenes.solve", lambda *_, **__: time.sleep(0.5))
+        with pytest.raises(KeyboardInterrupt):
+            write(load_study(study_file), tmp_path / "out" / "out.nc", history="")
     assert os.listdir(tmp_path / "out") == []
 
-
-def test_an_interrupt_a_cluster_swallows_is_heard(study_file: Path, tmp_path: Path, monkeypatch: Patch) -> None:
     def engine(study: Study, numbers: Sequence[int]) -> Iterator[tuple[int, Arrays]]:
         for number in numbers:
             monkeypatch.setattr(interrupts, "_heard", [0.0])
@@ -106,30 +92,38 @@ def test_an_interrupt_a_cluster_swallows_is_heard(study_file: Path, tmp_path: Pa
     assert len(parts_in(folder_of(tmp_path / "out.nc"))) == 1
 
 
-@pytest.fixture
-def unread() -> Iterator[int]:
-    reader, pipe = os.pipe()
+def test_an_interrupt_while_the_lock_is_taken_leaves_nothing(
+    study_file: Path, tmp_path: Path, monkeypatch: Patch
+) -> None:
+    class Interrupted(FileLock):
+        """A lock whose file is there when the signal comes."""
+
+        def _acquire(self) -> None:
+            Path(self.lock_file).touch()
+            interrupts._hear(signal.SIGTERM, None)
+            super()._acquire()
+
+    monkeypatch.setattr(interrupts, "_heard", [])
+    monkeypatch.setattr("gradhesion.cli.work.folder.FileLock", Interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        write(load_study(study_file), tmp_path / "out" / "out.nc", history="")
+    assert os.listdir(tmp_path / "out") == []
+
+
+def test_a_reader_that_has_gone_ends_it_quietly_but_for_a_mistake(dataset_file: Path, tmp_path: Path) -> None:
+    reader, unread = os.pipe()
     os.close(reader)
-    yield pipe
-    os.close(pipe)
-
-
-def test_a_reader_that_has_gone_ends_it_quietly(unread: int, dataset_file: Path) -> None:
-    for arguments in (["info", dataset_file], ["info", "--help"]):
-        command = [sys.executable, "-m", "gradhesion.cli", *arguments]
-        done = subprocess.run(command, stdout=unread, stderr=subprocess.PIPE, text=True, timeout=60, check=False)
-        assert (done.returncode, done.stderr) == (141, ""), arguments
-
-
-def test_a_mistake_that_nobody_reads_keeps_its_exit_code(unread: int, tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "gradhesion.cli", "info", tmp_path / "none.nc"]
-    assert subprocess.run(command, stdout=unread, stderr=unread, timeout=60, check=False).returncode == 2
+    with os.fdopen(unread, "w") as pipe, (tmp_path / "stderr").open("w") as heard:
+        for words, stderr, code in (([dataset_file], heard, 141), (["--help"], heard, 141), (["none.nc"], pipe, 2)):
+            command = [sys.executable, "-m", "gradhesion.cli", "info", *words]
+            assert subprocess.run(command, stdout=pipe, stderr=stderr, timeout=60, check=False).returncode == code
+    assert (tmp_path / "stderr").read_text() == ""
 
 
 def test_an_interrupt_at_the_end_of_an_object_prints_no_traceback() -> None:
     """Python cannot raise it there: it is raised by the next look at what has been heard."""
     code = """
-import os, signal
+import contextlib, os, signal
 from gradhesion.cli.terminal import interrupts
 interrupts.listen()
 
@@ -139,25 +133,18 @@ class Ends:
         for _ in range(1000):
             pass
 
-one = Ends()
-del one
-try:
+Ends()
+with contextlib.suppress(KeyboardInterrupt):
     interrupts.check()
-except KeyboardInterrupt:
-    print("interrupted")
+    print("it was not heard")
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stdout, done.stderr) == (0, "interrupted\n", "")
-
-
-def is_of_interest(frame: FrameType) -> bool:
-    """Tell where an interrupt is tried: at every line of ours, and of the making of a file."""
-    return frame.f_code.co_filename == disk.__file__ or frame.f_code is Path.touch.__code__
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 
 
 @contextmanager
 def interrupted_at(step: int) -> Iterator[Callable[[], int]]:
-    """Raise KeyboardInterrupt at one line; gives the number of lines that were run by then."""
+    """Raise KeyboardInterrupt at one line, of disk.py or the making of a file; gives the number of lines run by then."""
     count = 0
 
     def lines(_frame: FrameType, event: str, _: Any) -> Any:
@@ -168,17 +155,22 @@ def interrupted_at(step: int) -> Iterator[Callable[[], int]]:
                 raise KeyboardInterrupt
         return lines
 
+    def calls(frame: FrameType, *_: Any) -> Any:
+        return lines if frame.f_code.co_filename == disk.__file__ or frame.f_code is Path.touch.__code__ else None
+
     before = sys.gettrace()
-    sys.settrace(lambda frame, *_: lines if is_of_interest(frame) else None)
+    sys.settrace(calls)
     try:
         yield lambda: count
     finally:
         sys.settrace(before)
 
 
-def without_links(_self: Path, _target: Path) -> None:
-    """Refuse a link, as FAT does."""
-    raise PermissionError(1, "Operation not permitted")
+def make(target: Path, text: str, meanwhile: Callable[[], object] = lambda: None, *, overwrite: bool) -> None:
+    """Make a file; something else happens before it is complete."""
+    with replacement(target, overwrite=overwrite) as temporary:
+        temporary.write_text(text)
+        meanwhile()
 
 
 @pytest.mark.parametrize("there", [True, False])
@@ -189,11 +181,8 @@ def test_an_interrupt_at_any_line_leaves_the_old_or_the_new_file_alone(there: bo
         target.unlink(missing_ok=True)
         if there:
             target.write_text("old")
-        try:
-            with interrupted_at(step) as lines, replacement(target, overwrite=there) as temporary:
-                temporary.write_text("new")
-        except KeyboardInterrupt:
-            pass
+        with suppress(KeyboardInterrupt), interrupted_at(step) as lines:
+            make(target, "new", overwrite=there)
         found.append({path.name: path.read_text() for path in tmp_path.iterdir()})
         if lines() <= step:
             break
@@ -204,31 +193,21 @@ def test_an_interrupt_at_any_line_leaves_the_old_or_the_new_file_alone(there: bo
     assert changed > 0
 
 
-def make(target: Path, meanwhile: Callable[[], object], *, overwrite: bool) -> None:
-    """Make a file; something else happens before it is complete."""
-    with replacement(target, overwrite=overwrite) as temporary:
-        temporary.write_text("new")
-        meanwhile()
-
-
 @pytest.mark.parametrize("links", [True, False])
 def test_a_file_that_appears_meanwhile_stays_beside_the_new(links: bool, tmp_path: Path, monkeypatch: Patch) -> None:
-    if not links:
-        monkeypatch.setattr(Path, "hardlink_to", without_links)
+    if not links:  # as FAT refuses them
+        monkeypatch.setattr(Path, "hardlink_to", Mock(side_effect=PermissionError(1, "Operation not permitted")))
     target = tmp_path / "out.nc"
     for name in ("out-2.nc", "out-3.nc"):
         with pytest.raises(OutputError, match=f"kept as {tmp_path / name}"):
-            make(target, lambda: target.write_text("precious"), overwrite=False)
+            make(target, "new", lambda: target.write_text("precious"), overwrite=False)
         assert target.read_text() == "precious"
         assert (tmp_path / name).read_text() == "new"
         target.unlink()
     assert sorted(os.listdir(tmp_path)) == ["out-2.nc", "out-3.nc"]
-    with replacement(target, overwrite=False) as temporary:
-        temporary.write_text("new")
-    assert target.read_text() == "new"
-    with replacement(target, overwrite=True) as temporary:
-        temporary.write_text("newer")
-    assert target.read_text() == "newer"
+    for text in ("first", "newer"):
+        make(target, text, overwrite=text == "newer")
+        assert target.read_text() == text
     target.unlink()
     with pytest.raises(OutputError, match=r"kept as .*out-4\.nc"):
-        make(target, target.mkdir, overwrite=True)
+        make(target, "new", target.mkdir, overwrite=True)

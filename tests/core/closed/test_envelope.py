@@ -4,13 +4,10 @@ import math
 from typing import Any
 
 import mpmath
-import numpy as np
 import pytest
 
 from gradhesion.core import OUTPUTS, solve
 from gradhesion.core.problem.profile import swings
-from gradhesion.twin import stated
-from gradhesion.twin.shape import Shape
 from tests.core.scene import EPS, adhesion, envelope_loop, profile_of, scene_of_ratio
 
 EXPONENTS = [0.0, 0.2, 0.53, 0.9, 1.0 - 1e-9]
@@ -43,31 +40,3 @@ def test_the_pull_off_force_is_that_of_a_smooth_punch_of_greater_adhesion(k: flo
     assert result["pull_off_force"] == pytest.approx((3 + k) / 3 * (1 + chi) ** 2, rel=20 * EPS)
     a = float(result["pull_off_radius"])
     assert a ** ((3 + k) / 2) == pytest.approx((1 + k) * (3 + k) / 4 * s * (1 + chi), rel=50 * EPS)
-    # a rim within that radius: the load of the envelope there, and continuous
-    rim, K = 0.77 * a, 2 ** (1 - k) * M / (1 + k)
-    load = K * (2 * rim ** (3 + k) / ((1 + k) * (3 + k)) - s * (1 + chi) * rim ** ((3 + k) / 2))
-    at_rim, near = (envelope(scene_of_ratio(k, M, 0.0019, chi, one)) for one in (rim, a * (1 - 1e-9)))
-    assert at_rim["pull_off_force"] == pytest.approx(-load / (1.5 * math.pi), rel=100 * EPS)
-    assert at_rim["pull_off_radius"] == rim
-    assert near["pull_off_force"] == pytest.approx(result["pull_off_force"], rel=100 * EPS)
-
-
-def test_an_unbounded_punch_loses_without_end_with_waviness_alone() -> None:
-    for profile in (None, PROFILE):
-        scenes = (scene_of_ratio(0.37, 90.0, 0.01, chi, math.inf) for chi in (0.2, 0.0))
-        wavy, smooth = (solve(scene, OUTPUTS, solver="envelope", profile=profile) for scene in scenes)
-        assert wavy["dissipated_energy"] == wavy["delta_max"] == math.inf
-        assert wavy["status"] == 0
-        assert np.isfinite([wavy["pull_off_force"], smooth["dissipated_energy"]]).all()
-
-
-def test_the_twin_has_the_same_envelopes() -> None:
-    rng = np.random.default_rng(8)
-    for _ in range(20):
-        k = float(rng.choice([0.0, 1e-7, 0.23, 0.71, 1.0]))
-        rim = math.inf if rng.random() < 0.1 else 10 ** rng.uniform(-2.0, 0.5)
-        chi = 0.0 if rng.random() < 0.1 else 10 ** rng.uniform(-2.0, 0.5)
-        scene = scene_of_ratio(k, 10.0 ** rng.uniform(0.0, 5.0), 10.0 ** rng.uniform(-4.0, -1.0), chi, rim)
-        values = solve(scene, OUTPUTS, solver="envelope", profile=PROFILE)
-        for name, one in stated.expected(scene, OUTPUTS, "envelope", Shape(1.4, WAVES)).items():
-            assert stated.deviation(float(values[name]), one) <= one.error, name

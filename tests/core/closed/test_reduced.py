@@ -1,24 +1,15 @@
 """Scenes in reduced variables and in SI units are the scenes in the parameters of `solve`; the lengths and ratios that they need."""
 
 import math
-from collections.abc import Callable
 from typing import Any
 
-import mpmath
 import numpy as np
 import pytest
 
-from gradhesion.core import PARAMETERS, solve
-from gradhesion.core.closed.reduced import (
-    amplitude_of_ratio,
-    jump_in_radius_of_envelope,
-    parameters_from,
-    scales_in_si,
-    similarity_length,
-    sources_of,
-)
+from gradhesion.core import PARAMETERS
+from gradhesion.core.closed import reduced
 from gradhesion.core.problem.material import stiffness
-from tests.core.scene import EPS, scene_of
+from tests.core.scene import EPS, adhesion, scene_of, waviness
 
 PLAIN = scene_of(0.37, 0.21, 610.0, 0.043, 0.019, 0.031, 1.7)
 GOOD = tuple(PLAIN.values())[:6]
@@ -32,44 +23,46 @@ def without(*names: str) -> dict[str, Any]:
 @pytest.mark.parametrize("R", [1e-6, 0.0137, 3.3])
 def test_si_units_are_ratios_and_what_is_given_stays_bit_for_bit(R: float) -> None:
     lengths = {"c0": 0.043 * R, "wavelength": 0.019 * R, "amplitude": 0.031 * 0.019 * R, "a_max": 1.7 * R}
-    made = parameters_from({"k": 0.37, "nu": 0.21, "R": R, "E_star": 30.5 / R, "work_of_adhesion": 0.05} | lengths)
+    made = reduced.parameters_from(
+        {"k": 0.37, "nu": 0.21, "R": R, "E_star": 30.5 / R, "work_of_adhesion": 0.05} | lengths
+    )
     assert tuple(made) == PARAMETERS
     for name, values in made.items():  # one rounding more for each product and quotient
         assert values == pytest.approx(PLAIN[name], rel=4 * EPS)
-    same = parameters_from(PLAIN | {"machine_stiffness": R})
+    same = reduced.parameters_from(PLAIN | {"machine_stiffness": R})
     assert {name: float(values) for name, values in same.items()} == PLAIN | {"machine_stiffness": R}
-    scales = scales_in_si([2.0 * R, 3.0], 0.5)
+    scales = reduced.scales_in_si([2.0 * R, 3.0], 0.5)
     for unit, expected in {"N": [1.5 * np.pi * R, 2.25 * np.pi], "J": [2.0 * R**2, 4.5], "m": [2.0 * R, 3.0]}.items():
         np.testing.assert_allclose(scales[unit], expected, rtol=2 * EPS)
 
 
 def test_reduced_variables_follow_one_from_the_other() -> None:
-    reduced = {"lambda_over_L": 0.3, "chi": 0.7, "a_max_over_L": 5.0}
-    made = parameters_from(without("lambda_over_R", "A", "a_max_over_R") | reduced)
-    length = similarity_length(*GOOD[:4])
+    given = {"lambda_over_L": 0.3, "chi": 0.7, "a_max_over_L": 5.0}
+    made = reduced.parameters_from(without("lambda_over_R", "A", "a_max_over_R") | given)
+    length = reduced.similarity_length(*GOOD[:4])
     assert made["lambda_over_R"] == 0.3 * length
-    assert made["A"] == amplitude_of_ratio(*GOOD[:4], made["lambda_over_R"], 0.7)
+    assert made["A"] == reduced.amplitude_of_ratio(*GOOD[:4], made["lambda_over_R"], 0.7)
     assert made["a_max_over_R"] == 5.0 * length
     for ratio, closing in ((1.0, {}), (0.81, {"closing_ratio": 0.81})):  # of the work of closing
-        made = parameters_from(without("A", "a_max_over_R") | {"chi": 0.7, "a_max_over_a2": 2.0} | closing)
+        made = reduced.parameters_from(without("A", "a_max_over_R") | {"chi": 0.7, "a_max_over_a2": 2.0} | closing)
         own = made | {"modulus": made["modulus"] / ratio}
-        assert made["a_max_over_R"] == 2.0 * jump_in_radius_of_envelope(*(own[name] for name in PARAMETERS[:6]))
+        assert made["a_max_over_R"] == 2.0 * reduced.jump_in_radius_of_envelope(*(own[name] for name in PARAMETERS[:6]))
 
 
 def test_arrays_vary_along_what_they_follow_from() -> None:
     given = without("k", "modulus", "lambda_over_R") | {"k": np.array([0.1, 0.2])[:, None, None]}
     given |= {"R": np.array([1.0, 2.0, 3.0])[None, :, None], "E_star": 5.0, "work_of_adhesion": 0.5}
     given |= {"lambda_over_L": np.array([0.3, 0.4, 0.5, 0.6])}
-    made = parameters_from(given)
+    made = reduced.parameters_from(given)
     shapes = {name: made[name].shape for name in ("modulus", "lambda_over_R", "c0_over_R")}
     assert shapes == {"modulus": (1, 3, 1), "lambda_over_R": (2, 3, 4), "c0_over_R": ()}
-    assert sources_of("modulus", given) == ("E_star", "R", "work_of_adhesion")
-    assert {"k", "R", "lambda_over_L"} <= {*sources_of("lambda_over_R", given)}
+    assert reduced.sources_of("modulus", given) == ("E_star", "R", "work_of_adhesion")
+    assert {"k", "R", "lambda_over_L"} <= {*reduced.sources_of("lambda_over_R", given)}
 
 
 @pytest.mark.parametrize("name", PARAMETERS)
 def test_what_nothing_tells_is_missed(name: str) -> None:
-    for call in (parameters_from, lambda given: sources_of(name, given)):
+    for call in (reduced.parameters_from, lambda given: reduced.sources_of(name, given)):
         with pytest.raises(ValueError, match=name):
             call(without(name))
 
@@ -80,38 +73,25 @@ def test_lengths_and_ratios_are_their_formulae_on_random_scenes() -> None:
         k = float(rng.choice([0.0, 0.17, 0.5, 0.93, 1.0]))
         material = (k, 0.5 if k == 1.0 else rng.uniform(-0.9, 0.5), 10 ** rng.uniform(-2, 6), 10 ** rng.uniform(-3, 2))
         wavelength, chi, A = 10 ** rng.uniform(-5, 0), 10 ** rng.uniform(-3, 1), 10 ** rng.uniform(-5, 0)
-        radius = float(jump_in_radius_of_envelope(*material, wavelength, A))
-        with mpmath.workdps(40):
-            n, m, pi = (1 + mpmath.mpf(k)) / 2, mpmath.mpf(float(stiffness(*material))), mpmath.pi
-            s = mpmath.sqrt(2 ** (2 * n) * pi / m)
-            wave = pi ** (1 - n) * mpmath.gamma(n) * mpmath.mpf(wavelength) ** n
-            rest = 1 - A * wave / s
-            length, amplitude = float(m ** (-1 / (2 + 2 * n))), float(chi * s / wave)
-        assert similarity_length(*material) == pytest.approx(length, rel=4 * EPS)
-        assert amplitude_of_ratio(*material, wavelength, chi) == pytest.approx(amplitude, rel=16 * EPS)  # with a gamma
+        radius = float(reduced.jump_in_radius_of_envelope(*material, wavelength, A))
+        M = float(stiffness(*material))
+        s, wave = adhesion(k, M), waviness(k, wavelength, 1.0)
+        rest = 1 - A * wave / s
+        assert reduced.similarity_length(*material) == pytest.approx(M ** (-1 / (3 + k)), rel=4 * EPS)
+        assert reduced.amplitude_of_ratio(*material, wavelength, chi) == pytest.approx(chi * s / wave, rel=16 * EPS)
         if rest > 0:  # (5.34); the error is that of the difference
-            expected = float((2 * n * s * rest) ** (1 / (1 + n)))
-            assert radius == pytest.approx(expected, rel=30 * EPS / float(rest))
+            assert radius == pytest.approx(((1 + k) * s * rest) ** (2 / (3 + k)), rel=30 * EPS / rest)
         else:
             assert math.isnan(radius)
         exist += rest > 0
     assert 30 < exist < 100, "both cases are met"
+    assert reduced.amplitude_of_ratio(*GOOD[:5], 0.0) == 0.0
+    assert math.isnan(reduced.amplitude_of_ratio(*GOOD[:4], 1e-300, 1e300)), "no amplitude of a float"
 
 
-def test_the_loading_envelope_is_at_zero_depth_at_the_jump_in() -> None:
-    scene = scene_of(*GOOD, float(jump_in_radius_of_envelope(*GOOD)))
-    # the depth of that envelope at its rim, with the mean height of the wave on top
-    assert solve(scene, ["delta_max"], solver="envelope")["delta_max"] == pytest.approx(GOOD[5] * GOOD[4], rel=1e-12)
-    limit = float(amplitude_of_ratio(*GOOD[:5], 1.0))
-    found = jump_in_radius_of_envelope(*GOOD[:5], [0.999 * limit, 1.001 * limit, 7.0 * limit])
-    assert np.isnan(found).tolist() == [False, True, True], "waves as strong as adhesion end it"
-    assert amplitude_of_ratio(*GOOD[:5], 0.0) == 0.0
-    assert math.isnan(amplitude_of_ratio(*GOOD[:4], 1e-300, 1e300)), "no amplitude of a float"
-
-
-@pytest.mark.parametrize("function", [similarity_length, amplitude_of_ratio, jump_in_radius_of_envelope])
-def test_shapes_broadcast_and_what_is_out_of_range_has_no_value(function: Callable[..., Any]) -> None:
-    count = 4 if function is similarity_length else 6
+@pytest.mark.parametrize("name", ["similarity_length", "amplitude_of_ratio", "jump_in_radius_of_envelope"])
+def test_shapes_broadcast_and_what_is_out_of_range_has_no_value(name: str) -> None:
+    function, count = getattr(reduced, name), 4 if name == "similarity_length" else 6
     good = GOOD[:count]
     found = function([[0.37], [0.0]], 0.21, [610.0, 1220.0, 1830.0], *good[3:])
     assert found.shape == (2, 3)

@@ -94,9 +94,6 @@ def test_envelopes_are_those_of_the_paper(any_scene: dict[str, float], drawn: di
     assert radius.size <= 300
 
 
-# The effective path
-
-
 def _effective(scene: dict[str, float], profile: Profile | None = None) -> dict[str, Any]:
     names = ("contact_radius", "indentation", "load", "jump")
     return dict(zip(names, _drawn(scene, "effective", profile), strict=True))

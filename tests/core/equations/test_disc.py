@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 from gradhesion.core.equations import general, hertz, jkr, quadrature
+from tests.conformance.kinds import Kind
+from tests.conformance.theory import Curve
+from tests.core.scene import EPS, material_of, scene_of
 
-EPS = float(np.finfo(float).eps)
 M, WAVELENGTH = 71.3, 0.37
 ONE, SERIES = ([-0.023], []), ([-0.021, 0.004, 0.0], [0.003, 0.0, -0.002])
 
@@ -81,23 +83,12 @@ def test_depth_and_load(k: float, a: float, m: float, waves: tuple[list[float], 
 
 @pytest.mark.parametrize("k", [0.0, 0.43, 0.9])
 def test_the_printed_sums(k: float) -> None:
-    # (5.8)-(5.11) with (B1)-(B4), R = dgamma = 1: Struve's functions of the cosines, Bessel's of the sines
-    a, length, stiff = mpmath.mpf("0.21"), mpmath.mpf("0.13"), mpmath.mpf(M)
-    k_, n, pi = mpmath.mpf(k), (1 + mpmath.mpf(k)) / 2, mpmath.pi
-    sums = [mpmath.mpf(0), mpmath.mpf(0)]
-    for j in (0, 1):
-        for h, a_h, b_h in general.harmonics(*SERIES):
-            y, order = 2 * h * pi * a / length, k_ / 2 + j
-            sums[j] += h ** (1 - order) * (-a_h * mpmath.struveh(order, y) + b_h * mpmath.besselj(order, y))
-    depth = a**2 / (1 + k_) - mpmath.sqrt(2 ** (1 + k_) * pi * a ** (1 - k_) / stiff)
-    depth += a ** (1 - k_ / 2) * mpmath.gamma(n) * pi ** ((3 - k_) / 2) * length ** (k_ / 2) * sums[0]
-    assert general.indentation(k, M, 0.21, 0.13, *SERIES) == pytest.approx(float(depth), rel=1e-12)
-    load = a**2 * mpmath.gamma(n) * pi ** ((3 - k_) / 2) * (length * a) ** (k_ / 2) * sums[0]
-    load -= mpmath.gamma(n + 1) * pi ** ((1 - k_) / 2) * (length * a) ** (1 + k_ / 2) * sums[1]
-    load *= 2 ** (1 - k_) * stiff / (1 + k_)
-    load += 2 ** (2 - k_) * stiff * a ** (3 + k_) / ((1 + k_) ** 2 * (3 + k_))
-    load -= mpmath.sqrt(2 ** (3 - k_) * pi * stiff * a ** (3 + k_)) / (1 + k_)
-    assert 1.5 * math.pi * general.load(k, M, 0.21, 0.13, *SERIES) == pytest.approx(float(load), rel=1e-11)
+    """(5.8)-(5.11) with (B1)-(B4), as tests/conformance/theory.py has them: Struve's functions, Bessel's of the sines."""
+    kind, a = Kind(waves=((1, 0.021, 0.003), (2, -0.004, 0.0), (3, 0.0, -0.002))), np.linspace(0.05, 0.8, 9)
+    scene = scene_of(k, 0.3, 430.0, 0.13, 0.13, 1.0, math.inf)
+    curve, wave = Curve(kind, scene), (k, material_of(scene), a, 0.13, *SERIES)
+    np.testing.assert_allclose(general.indentation(*wave), curve.depth(a), rtol=1e-12, atol=1e-15)
+    np.testing.assert_allclose(general.load(*wave), curve.load(a), rtol=1e-11)
 
 
 @pytest.mark.parametrize("k", [0.0, 0.31, 0.9])

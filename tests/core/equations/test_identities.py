@@ -42,30 +42,14 @@ def sphere(r: Any) -> Any:
     return r / np.sqrt((1 - r) * (1 + r))
 
 
-def gap_of_flat(k: float) -> Any:
-    """The gap just outside an adhesive edge at k = 0, over 2 Delta/pi sqrt(2 (r-a)/a)."""
-    depth, stretch = jkr.indentation(k, 300.0, 0.2, 0.1, 0.01), jkr.adhesive_depth(k, 300.0, 0.2)
-    return quadrature.gap(k, 0.2 + 1e-9, 0.2, depth, 0.1, 0.01) / (2 / PI * stretch * math.sqrt(1e-8))
-
-
 IDENTITIES: dict[str, tuple[Any, Any, float]] = {
     # name: found, known, absolute error over the largest known value
-    "Hertz, depth": (hertz.indentation(0.0, A, 1.0, 0.0), A**2, 8 * EPS),
-    "Hertz, load": (LOAD * hertz.load(0.0, M, A, 1.0, 0.0), 4 * M * A**3 / 3, 8 * EPS),
-    "Hertz, pressure": (quadrature.hertz_pressure(0.0, M, R, 0.31, 1.0, []), 2 * M * np.sqrt(0.31**2 - R**2) / PI, 2e-14),
     "Hertz, surface": (
         quadrature.surface(0.0, 0.31 * (1 + A), 0.31, 0.31**2, 1.0, 0.0),
         0.31**2 * ((2 - (1 + A) ** 2) * np.arcsin(1 / (1 + A)) + np.sqrt((1 + A) ** 2 - 1)) / PI,
         2e-13,
     ),
-    "Sneddon's cone, depth": (hertz.indentation(0.0, A, 1.0, 0.0, 1.0), PI * A / 2, 8 * EPS),
-    "Sneddon's cone, load": (LOAD * hertz.load(0.0, M, A, 1.0, 0.0, 1.0), PI * M * A**2 / 2, 8 * EPS),
-    "Sneddon's cone, pressure": (
-        quadrature.hertz_pressure(0.0, M, R[1:], 0.31, 1.0, [], exponent=1.0), M / 2 * np.arccosh(0.31 / R[1:]), 1e-13,
-    ),
     # Sneddon (1965): delta = a/2 ln((1+a)/(1-a)), P = E* [(1+a^2)/2 ln((1+a)/(1-a)) - a]
-    "a sphere, depth": (quadrature.hertz_indentation(0.0, A, sphere), A / 2 * LOG, 1e-13),
-    "a sphere, load": (LOAD * quadrature.hertz_load(0.0, M, A, sphere), M * ((1 + A**2) / 2 * LOG - A), 1e-12),
     "a sphere, adhesive load": (
         LOAD * quadrature.load(0.0, M, A, sphere), M * ((1 + A**2) / 2 * LOG - A) - np.sqrt(8 * PI * M * A**3), 1e-12,
     ),
@@ -78,19 +62,6 @@ IDENTITIES: dict[str, tuple[Any, Any, float]] = {
         LOAD * jkr.load(0.0, M, A, 0.13, 0.017),
         4 * M * A**3 / 3 + PI * M * 0.017 * A * (2 * PI * A * H0 - 0.13 * H1) - np.sqrt(8 * PI * M * A**3),
         1e-12,
-    ),
-    # Kesari & Lew (2011), homogeneous: the swing of depth is pi A sqrt(lambda a), of load 2 E* a times that
-    "Kesari & Lew, depth": (
-        envelopes.indentation(
-            0.0, A, envelopes.adhesion_strength(0.0, M) - envelopes.waviness_strength(0.0, 0.003, 0.03)
-        ),
-        A**2 - np.sqrt(2 * PI * A / M) + PI * 0.03 * np.sqrt(0.003 * A),
-        1e-14,
-    ),
-    "Kesari & Lew, load": (
-        LOAD * envelopes.load(0.0, M, A, envelopes.adhesion_strength(0.0, M) + envelopes.waviness_strength(0.0, 0.003, 0.03)),
-        4 * M * A**3 / 3 - np.sqrt(8 * PI * M * A**3) - 2 * M * A * PI * 0.03 * np.sqrt(0.003 * A),
-        1e-13,
     ),
     "the least load of a smooth punch": (jkr.load(0.6, M, (1.6 * 3.6 / 4 * math.sqrt(2**1.6 * PI / M)) ** (2 / 3.6), 1.0, 0.0), -1.2, 1e-14),
     "pull at its equilibrium": (
@@ -105,19 +76,12 @@ IDENTITIES: dict[str, tuple[Any, Any, float]] = {
     ),
     "springs, gap": (quadrature.gap(1.0, 0.2 + A, 0.2, 0.01, 0.1, 0.03), general.height(0.2 + A, 0.1, 0.03) - 0.01, 1e-14),
     "springs, gap at the edge": (quadrature.gap(1.0, 0.2, 0.2, 0.01, 0.1, 0.03), general.height(0.2, 0.1, 0.03) - 0.01, 1e-14),
-    "nearly springs, gap": (
-        quadrature.gap(1 - 1e-7, 0.2 + A, 0.2, 0.01, 0.1, 0.03), general.height(0.2 + A, 0.1, 0.03) - 0.01, 1e-5,
-    ),
-    "a gap that adhesion opens": (gap_of_flat(0.0), 1.0, 1e-4),
     "a height": (general.height(A, 0.13, 0.021, 3.3), A**3.3 / 3.3 + 0.13 * 0.021 * (1 - np.cos(2 * PI * A / 0.13)), 1e-14),
     "a height as a series": (general.height(A, 0.13, 0.021) - A**2 / 2, 0.13 * general.waviness(A / 0.13, [-0.021]), 1e-13),
     "waviness": (
         general.waviness(XI, COSINES, SINES),
         sum(a * (np.cos(2 * PI * n * XI) - 1) + b * np.sin(2 * PI * n * XI) for n, a, b in general.harmonics(COSINES, SINES)),
         1e-13,
-    ),
-    "a harmonic is a shorter wave": (
-        general.load(0.4, 90.0, A, 0.3, [0.0, 0.0, -0.02], [0.0, 0.0, 0.01]), general.load(0.4, 90.0, A, 0.1, [-0.06], [0.03]), 1e-12,
     ),
     "the deepest sinc": (general.DEEPEST_SINC, -mpmath.cos(mpmath.findroot(lambda y: mpmath.tan(y) - y, 4.4934)), 2 * EPS),
     "the unit of pressure": (quadrature.pressure_unit(2e-6, 0.05), 25_000.0, EPS),

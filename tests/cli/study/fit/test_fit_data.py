@@ -169,15 +169,6 @@ def test_more_of_the_model_is_read() -> None:
     assert of_nu.free["nu"] == (0.0, 0.5)
 
 
-@pytest.mark.usefixtures("folder")
-def test_what_is_wrong_with_the_columns_is_one_sentence() -> None:
-    for wrong in (DEPTH, {"column": "force", "unit": "nm"}, {"column": "force"}, {"column": "forse", "unit": "nN"}):
-        refused("data.load", data__load=wrong)
-    refused("data.indentation", data__load=FORCE | {"back": "x"})
-    refused("data.file", data__file="none.csv")
-    refused("data.file", data__sha256=64 * "0")
-
-
 def test_a_column_is_named_in_any_case_or_with_its_unit(folder: Path) -> None:
     plain = load().loop
     text = (folder / "loop.csv").read_text()

@@ -1,4 +1,4 @@
-"""Edges at a speed: against the reference, the slow laws, similarity, and where they have no value.
+"""Edges at a speed against the reference, slow laws, similarity and rest; their cycles, paths, and where they have no value.
 
 Opening is seen through a punch that closes at rest up to its rim a_t: its unloading_energy is int 2 pi a G da less
 pi a_t^2.
@@ -12,10 +12,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import Loading, Profile, solve
+from gradhesion.core import FLAGS, Loading, Profile, draw_curves, solve
+from gradhesion.core.problem.names import EDGE, RATE
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM, TOLERANCE_NOT_MET, TOO_MANY_WAVES
 from gradhesion.core.problem.toughness import MOST_WAVES, Rate
-from tests.core.scene import ENDLESS, adhesion, material_of, profile_of, scene_of
+from gradhesion.core.rate.cycle import KNOWN
+from tests.core.scene import ENDLESS, EPS, adhesion, material_of, profile_of, scene_of
 
 MOVING = json.loads((Path(__file__).parents[2] / "reference/moving_edge.json").read_text(encoding="utf-8"))
 SMOOTH = scene_of(0.3, 0.3, 500.0, 0.01, 0.1, 0.0, 0.4)
@@ -23,6 +25,7 @@ WAVY = scene_of(0.37, 0.2, 700.0, 0.03, 0.17, 0.013, 0.5)
 TURNED = SMOOTH | ENDLESS | {"A": 0.01, "indentation_max_over_R": 0.05}
 ROUGH = profile_of(2.5, (1, 1.0, 0.3), (3, -0.2, 0.1))
 OPENED = ["pull_off_force", "pull_off_radius", "unloading_energy", "delta_jump_out", "edge_speed_at_pull_off"]
+PARTS = ["dissipated_energy", "loading_energy", "unloading_energy", "front_energy"]
 CLOSED = ["turning_radius", "delta_max", "loading_energy", "pinned_depth"]
 SAME = Rate(exponent=0.6, closing="same")
 
@@ -41,8 +44,8 @@ def opening_cases() -> list[Any]:
     cases = [(one["input"], case, {}) for one in MOVING["rate"].values() for case in one["cases"]]
     of_machine, more = MOVING["rate_machine"], MOVING["rate_more"]
     cases += [(of_machine["input"], case, {"machine_stiffness": case["S_over_E"]}) for case in of_machine["cases"]]
-    rims = [*more["closing_same"], *more["quasi_static_closing"]]
-    return cases + [(case["input"], case, {"a_max_over_R": case["a_t"]}) for case in rims]
+    cases += [(one["input"], one, {"closing_ratio": one["closing_ratio"]}) for one in more["quasi_static_closing"]]
+    return cases + [(case["input"], case, {"a_max_over_R": case["a_t"]}) for case in more["closing_same"]]
 
 
 @pytest.mark.parametrize(("given", "case", "more"), opening_cases())
@@ -50,7 +53,7 @@ def test_opening_against_the_reference(given: dict[str, float], case: dict[str, 
     machine = "machine_stiffness" in more
     scene = stored(given, speed_over_reference=case["eps"]) | more
     how: dict[str, Any] = {"loading": Loading(control="machine")} if machine else {}
-    found = solve(scene, [*OPENED, "rate_coefficient"], rate=Rate(exponent=case["n"]), **how)
+    found = solve(scene, [*OPENED, *PARTS, "rate_coefficient"], rate=Rate(exponent=case["n"]), **how)
     assert not found["status"] & NO_VALUE
     work = found["unloading_energy"] + math.pi * scene["a_max_over_R"] ** 2
     separation = case["coordinate_at_separation" if machine else "depth_at_separation"]
@@ -58,6 +61,9 @@ def test_opening_against_the_reference(given: dict[str, float], case: dict[str, 
     assert found["pull_off_radius"] == pytest.approx(case["pull_off_radius"], rel=1e-11)
     assert work == pytest.approx(case["H_open"], rel=2e-12)
     assert found["delta_jump_out"] == pytest.approx(separation, rel=1e-12)
+    if more.keys() <= {"closing_ratio"}:  # the whole cycle is stored, whose closing is at rest
+        assert found["dissipated_energy"] == pytest.approx(case["dissipated_energy"], rel=1e-11)
+        assert found["dissipated_energy"] == pytest.approx(sum(found[name] for name in PARTS[1:]), rel=8 * EPS)
     if "small_rate" in case:
         slow = float(found["rate_coefficient"]) * case["eps"] ** case["n"]
         assert slow == pytest.approx(case["small_rate"], rel=1e-9)
@@ -68,11 +74,12 @@ def test_closing_and_a_turn_against_the_reference(case: dict[str, Any]) -> None:
     """The two ways of the reference differ by up to 7e-12."""
     given = {"closing_ratio": case["closing_ratio"], "speed_over_reference": case["eps"]}
     scene = stored(case["input"], **given) | ENDLESS | {"indentation_max_over_R": case["delta_max"]}
-    found = solve(scene, [*CLOSED, "dissipated_energy"], rate=Rate(exponent=case["n"], closing="same"))
+    found = solve(scene, [*CLOSED, *PARTS], rate=Rate(exponent=case["n"], closing="same"))
     assert found["turning_radius"] == pytest.approx(case["a_t"], rel=1e-11)
     assert closing_energy(found, case["closing_ratio"]) == pytest.approx(case["H_close"], rel=1e-11)
     assert found["delta_max"] == pytest.approx(case["delta_max"], rel=1e-13)
     assert found["dissipated_energy"] == pytest.approx(case["dissipated_energy"], rel=1e-11)
+    assert found["dissipated_energy"] == pytest.approx(sum(found[name] for name in PARTS[1:]), rel=8 * EPS)
     apart = case["depth_edge_stops"] - case["depth_opening_starts"]
     assert float(found["pinned_depth"]) == pytest.approx(apart, rel=1e-11, abs=1e-15)
 
@@ -216,3 +223,91 @@ def test_scenes_of_any_shape_are_those_of_one_each() -> None:
     for i, j in np.ndindex(2, 3):
         one = solve(SMOOTH | {"A": heights[i], "speed_over_reference": speeds[j]}, names, rate=SAME)
         assert all(one[name] == found[name][i, j] for name in one)
+
+
+REST = [name for name in KNOWN if name not in RATE]
+BOTH = pytest.mark.parametrize("closing", ["quasi-static", "same"])
+REFUSED: list[tuple[str, dict[str, Any]]] = [("loading_jumps", {}), ("dissipated_energy_sensitivity", {})]
+
+
+@BOTH
+@pytest.mark.parametrize("control", ["displacement", "machine"])
+def test_at_speed_0_every_bit_is_that_of_an_edge_at_rest(closing: str, control: str) -> None:
+    scene = TURNED | ({"machine_stiffness": 0.3} if control == "machine" else {}) | {"closing_ratio": 0.5}
+    loading = Loading(control=control)
+    plain = solve(scene, REST, loading=loading)
+    moving = scene | {"speed_over_reference": np.array([0.0, 0.1])}
+    found = solve(moving, KNOWN, loading=loading, rate=Rate(exponent=0.6, closing=closing))
+    for name in REST:
+        assert np.array_equal(found[name][0], plain[name], equal_nan=True), name
+    assert found["edge_speed_at_pull_off"][0] == 0.0
+    assert found["edge_speed_at_pull_off"][1] > 0.0
+    assert found["pull_off_force"][1] > found["pull_off_force"][0]
+
+
+def test_a_machine_that_turns_at_a_depth_reaches_it() -> None:
+    scene = TURNED | {"machine_stiffness": 0.05, "closing_ratio": 0.5, "speed_over_reference": np.array([0.01, 1.0])}
+    how: dict[str, Any] = {"rate": Rate(exponent=0.6, closing="same"), "loading": Loading(control="machine")}
+    found = solve(scene, ["delta_max", "turning_radius"], **how)
+    np.testing.assert_allclose(found["delta_max"], 0.05, rtol=1e-13)
+    assert found["turning_radius"][0] > found["turning_radius"][1]
+
+
+@BOTH
+def test_a_cycle_without_contact_has_nothing(closing: str) -> None:
+    scene = TURNED | {"indentation_max_over_R": -0.01, "speed_over_reference": 0.1}
+    names = ["pull_off_force", "dissipated_energy", "pull_off_radius", *EDGE]
+    found = solve(scene, names, rate=Rate(exponent=0.6, closing=closing))
+    assert int(found["status"]) == FLAGS["no_contact"]
+    assert found["dissipated_energy"] == found["pull_off_force"] == found["front_energy"] == 0.0
+    assert np.isnan(found["pull_off_radius"])
+
+
+@pytest.mark.parametrize(("output", "how"), [*REFUSED, ("pull_off_force", {"loading": Loading(control="load")})])
+def test_what_is_not_known_of_a_moving_edge_is_refused(output: str, how: dict[str, Any]) -> None:
+    with pytest.raises(ValueError, match="an edge with a speed needs"):
+        solve(TURNED | ENDLESS | {"speed_over_reference": 0.1}, [output], rate=Rate(exponent=0.6), **how)
+
+
+LONG = SMOOTH | {"lambda_over_R": 0.2, "A": 0.01}
+DRIVEN: list[dict[str, float]] = [
+    ENDLESS | {"indentation_max_over_R": 0.05},
+    {"a_max_over_R": 0.5},
+    {"a_max_over_R": 0.5, "machine_stiffness": 0.05},
+    ENDLESS | {"indentation_max_over_R": 0.04, "machine_stiffness": 0.05},
+]
+CHORDS = 3e-3
+"""Chords between the points, of the energy of the loop: most where the contact closes at rest, over few points."""
+
+
+@pytest.mark.parametrize("turn", DRIVEN)
+@pytest.mark.parametrize("closing", ["quasi-static", "same"])
+@pytest.mark.parametrize("speed", [1e-3, 1.0])
+def test_the_path_encloses_the_energy(turn: dict[str, float], closing: str, speed: float) -> None:
+    scene = LONG | turn | {"closing_ratio": 0.5, "speed_over_reference": speed}
+    how: dict[str, Any] = {"loading": Loading(control="machine")} if "machine_stiffness" in turn else {}
+    how["rate"] = Rate(exponent=0.6, closing=closing)
+    drawn, status = draw_curves(scene, ["path"], **how)
+    found = solve(scene, ["dissipated_energy", "pull_off_force", "delta_jump_out", "turning_radius"], **how)
+    assert status == found["status"] == 0
+    load = 1.5 * np.pi * drawn["path_load"]
+    coordinate = drawn["path_indentation"].copy()
+    if "machine_stiffness" in scene:
+        coordinate += load / (scene["machine_stiffness"] * scene["modulus"])
+    loop = np.sum(0.5 * (load[1:] + load[:-1]) * np.diff(coordinate))
+    assert loop == pytest.approx(float(found["dissipated_energy"]), rel=CHORDS)
+    assert -drawn["path_load"].min() == pytest.approx(float(found["pull_off_force"]), rel=CHORDS)
+    assert drawn["path_indentation"][-1] == found["delta_jump_out"]
+    assert drawn["path_contact_radius"].max() == pytest.approx(float(found["turning_radius"]), rel=1e-12)
+    opening = drawn["path_contact_radius"][drawn["path_unloading"] == 1]
+    assert (np.diff(opening) <= np.finfo(float).eps).all()
+
+
+def test_at_speed_0_it_is_the_path_of_an_edge_at_rest_and_has_no_jumps_beyond() -> None:
+    scene = LONG | DRIVEN[0]
+    rest, _ = draw_curves(scene, ["path", "jumps"])
+    still, _ = draw_curves(scene | {"speed_over_reference": 0.0}, ["path", "jumps"], rate=Rate(exponent=0.6))
+    for name, values in rest.items():
+        assert np.array_equal(still[name], values)
+    with pytest.raises(ValueError, match="has no jumps"):
+        draw_curves(LONG | DRIVEN[0] | {"speed_over_reference": 0.1}, ["jumps", "path"], rate=Rate(exponent=0.6))

@@ -1,17 +1,23 @@
-"""Loops with known parameters give them back wherever their zeros are, or the fit says that it is not to be trusted."""
+"""Loops with known parameters give them back wherever their zeros are, or the fit says that it is not to be trusted.
+
+What is said of a minimum: other ones, ends of intervals, what has no effect, its status, and what else explains it.
+"""
 
 import math
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from gradhesion.core import draw_curves
+from gradhesion.core import draw_curves, solve
+from gradhesion.core.loops import results
 from gradhesion.core.loops.fit import fit_loop
 from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop, Offsets, poor_from
-from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
+from gradhesion.core.loops.paths.misfit import Misfit
+from gradhesion.core.problem.status import ANOTHER_MINIMUM, JUMP_IN_TO_RIM, POOR_FIT
 from gradhesion.core.problem.toughness import Rate
-from tests.core.loops.models import CASES, SCENE, TURN, UNIT, Array, R
+from tests.core.loops.models import CASES, NOISE, SCENE, TURN, UNIT, Array, Case, R, misfit_of, path_of, vector
 
 NU, E_STAR, WORK = 0.3, 1e7, 0.03
 FREE = {"E_star": (1e6, 1e8), "work_of_adhesion": (5e-3, 0.2)}
@@ -84,14 +90,9 @@ def test_the_zero_of_depth_at_the_contact_point_and_a_tilt() -> None:
     assert found.contact.depth == pytest.approx(4e-7, abs=3e-9)
     assert found.names == (*FREE, "load_offset")
     # an error of the point counts as much as an error of the zero would
-    at_zero = fit_loop(points[0] - 4e-7, *points[1:], SMOOTH, FREE, noise=noise, offsets=Offsets(indentation=False))
-    nearer = fit_loop(
-        points[0] - 4e-7 - found.contact.deviation,
-        *points[1:],
-        SMOOTH,
-        FREE,
-        noise=noise,
-        offsets=Offsets(indentation=False),
+    at_zero, nearer = (
+        fit_loop(points[0] - zero, *points[1:], SMOOTH, FREE, noise=noise, offsets=Offsets(indentation=False))
+        for zero in (4e-7, 4e-7 + found.contact.deviation)
     )
     move = nearer.values["E_star"] - at_zero.values["E_star"]
     expected = math.hypot(move, at_zero.standard_deviations["E_star"])
@@ -215,15 +216,6 @@ def test_a_turn_between_points_leaves_what_is_found_with_unequal_works() -> None
     assert found.residual.size == np.count_nonzero(own)
 
 
-def test_flat_points_at_the_pull_off_are_no_base_line() -> None:
-    """Loops whose first point is the contact have none, so that nothing can be said of its tilt."""
-    for seed in range(2):
-        depth, load, back, noise = ball(seed, pressed=200.0, points=900)
-        own = (back & (load < -2.0 * noise[1])) | (depth > 0.0)
-        found = fit_loop(depth[own], load[own], back[own], SMOOTH, FREE, noise=noise, offsets=Offsets())
-        assert found.base_line is None
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("one", ["speed_over_reference", "exponent"])
 def test_the_speed_of_the_edge_or_its_exponent_comes_back_with_the_material(one: str) -> None:
@@ -242,3 +234,123 @@ def test_the_speed_of_the_edge_or_its_exponent_comes_back_with_the_material(one:
     )  # fmt: skip
     holds(found, TRUE | {one: value})
     assert all(found.standard_deviations[name] < 0.2 * found.values[name] for name in found.names)
+
+
+NAMES = ("E_star", "work_of_adhesion")
+FINE = Case({"chi": 0.2, "wavelength": 2e-3 * R})
+VALLEYS = [
+    ([(20.0, 0.0, 2.0)], 1.0, [20.0]),
+    ([(2.0, 2.0, 2.0)], 1.0, []),  # the same valley
+    ([(4.0, 0.0, 5.0)], 1.0, []),  # a parabola has risen by 16: on its slope
+    ([(40.0, 0.0, 6.5)], 1.0, []),  # 95 % of chi square of two numbers are below 5.99
+    ([(40.0, 0.0, 6.5)], 1.2, [40.0]),
+    ([(20.0, 0.0, 1.0), (20.5, 0.0, 1.1), (-20.0, 0.0, 1.2)], 1.0, [20.0, -20.0]),  # one of two alike
+]
+BOUNDS = [(1.009, (1.0, 2.0), True), (1.011, (1.0, 2.0), False), (1.04, (1.0, 100.0), True), (1.05, (1.0, 100.0), False),
+ (96.0, (1.0, 100.0), True), (-0.99, (-1.0, 1.0), True), (0.0, (-1.0, 1.0), False)]  # fmt: skip
+ALIKE = [
+    # the roots of the works are as 1 - chi to 1 + chi: 1/2 is that of chi = 1/3
+    (Case({"A": 0.0}), ("E_star", "closing_ratio"), 1e-3, 1.0, ("chi = 0.333", "closing_ratio = 0.25")),
+    (Case({"A": 0.0, "closing_ratio": 0.25}), ("E_star",), 1e-3, 1.0, ()),  # it is not fitted
+    (FINE, ("wavelength",), 10.0, 1.0, ("closing_ratio = 0.444 ", "1.44 times the work of adhesion")),
+    (FINE, ("wavelength",), 1e-7, 1.0, ()),  # the jumps are seen
+    (FINE, ("wavelength",), 10.0, 1e-6, ()),  # the wavelength is known
+]
+
+
+def loop(error: float = 1.0) -> tuple[Misfit, Array]:
+    """A loop of a smooth ball with noise, and the numbers it was made with."""
+    model = CASES["smooth"].model(NAMES)
+    here = vector(model)
+    drawn = path_of(model, here)
+    places = drawn.places + error * np.random.default_rng(3).standard_normal(drawn.places.shape) * NOISE
+    return misfit_of(model, here, places, np.arange(len(places)) > drawn.turn, wide=2.0), here
+
+
+def found_at(own: Misfit, minima: list[Any], *, widened: bool = False) -> FittedLoop:
+    low, high = own.named(own.low), own.named(own.high)
+    ends = {name: (low[name], high[name]) for name in NAMES}
+    return results.results_at(own, minima, "linear", ends, widened=widened)
+
+
+def test_another_minimum_is_named_with_its_values() -> None:
+    own, here = loop()
+    best = own.refined(here)
+    other = SimpleNamespace(x=best.x + np.array([1.0, 0.0]), cost=best.cost + 0.5)
+    found = found_at(own, [best, other])
+    assert found.status & ANOTHER_MINIMUM
+    assert not found.status & POOR_FIT
+    (named,) = found.others
+    assert named.values["E_star"] == pytest.approx(math.e * found.values["E_star"], rel=1e-12)
+    assert named.chi_square == pytest.approx(found.chi_square + 1.0, rel=1e-12)
+    assert not found_at(own, [best]).status & ANOTHER_MINIMUM
+
+
+@pytest.mark.parametrize(("places", "unit", "kept"), VALLEYS)
+def test_minima_are_those_that_the_noise_allows_in_other_valleys(places: Any, unit: float, kept: list[float]) -> None:
+    found = [SimpleNamespace(x=np.array([x, y]), cost=50.0 + 0.5 * rise) for x, y, rise in [(0.0, 0.0, 0.0), *places]]
+    assert [one.x[0] for one in results.others(found, np.diag([1.0, 4.0]), unit)] == kept
+
+
+def test_noise_that_was_estimated_widens_intervals() -> None:
+    own, here = loop(error=2.0)
+    best = own.refined(here)
+    given, estimated = (found_at(own, [best], widened=widened) for widened in (False, True))
+    assert given.status & POOR_FIT
+    assert estimated.widening == pytest.approx(math.sqrt(given.chi_square / given.degrees_of_freedom), rel=1e-12)
+    for name in NAMES:
+        expected = estimated.widening * given.standard_deviations[name]
+        assert estimated.standard_deviations[name] == pytest.approx(expected, rel=1e-12)
+
+
+def test_profile_intervals_are_where_the_misfit_has_grown_so_far() -> None:
+    """A fit of the rest there has a sum of squares that is larger by the square of the factor, linear or not."""
+    own, here = loop(error=8.0)
+    best = own.refined(here, tolerance=1e-12).x
+    covariance = results.covariance_of(own, best)
+    for number in range(2):
+        along = covariance[number] / math.sqrt(covariance[number, number])
+        ends = results.profile_interval(own, best, number, along, 12.0, 1.0)
+        assert ends[0] < best[number] < ends[1]
+        for end in ends:
+            moved = best.copy()
+            moved[number] = end
+            rise = 2.0 * own.refined(moved, held=[number]).cost - np.sum(own.residual(best) ** 2)
+            assert math.sqrt(rise) == pytest.approx(12.0, rel=0.02)
+            linear = best[number] + math.copysign(12.0 * along[number], end - best[number])
+            assert end == pytest.approx(linear, rel=0.0, abs=2.0 * along[number])
+
+
+@pytest.mark.parametrize(("value", "ends", "bound"), BOUNDS)
+def test_a_bound_is_a_hundredth_of_the_range_wide(value: float, ends: tuple[float, float], *, bound: bool) -> None:
+    """Of its logarithm, beyond a factor of 10."""
+    assert results.is_on_bound(value, ends) == bound
+
+
+def test_the_status_is_that_of_the_scene_and_of_the_rim_that_is_met() -> None:
+    """Deep waves touch the surface before they should; a jump that reaches the rim is cut short, at the turn it is not."""
+    model = CASES["wavy"].model(("A",))
+    for height in (0.012, 0.2):
+        scene = SCENE | {"A": height, "a_max_over_R": 0.3}
+        expected = int(solve(scene, ["dissipated_energy", "loading_jumps", "unloading_jumps"])["status"])
+        assert results.status_of(model, np.array([math.log(height)]), 0.3) == expected & ~JUMP_IN_TO_RIM
+    assert expected != 0
+    assert results.status_of(model, np.array([math.log(0.2)]), 0.0) == 0, "out of contact"
+    rim = CASES["rim"].model(("A",), {"a_max": 0.02 * R})
+    here = vector(rim)
+    for radius in (0.02, np.nextafter(0.02, 0.0)):  # a radius in m, over R, is rounded
+        assert results.status_of(rim, here, radius) & JUMP_IN_TO_RIM
+    assert not results.status_of(model, here, 0.02) & JUMP_IN_TO_RIM
+
+
+@pytest.mark.parametrize(("case", "names", "noise", "spread", "numbers"), ALIKE)
+def test_a_closing_ratio_may_be_fine_waves_and_these_a_closing_ratio(
+    case: Case, names: tuple[str, ...], noise: float, spread: float, numbers: tuple[str, ...]
+) -> None:
+    model = case.model(names)
+    if "chi" in case.own:
+        model.fixed = {name: value for name, value in model.fixed.items() if name != "A"}
+    drawn = path_of(model, vector(model, closing_ratio=0.25, wavelength=2e-3 * R))
+    found = results.alternatives(model, drawn, noise * np.array([R, UNIT]), np.full(len(names), spread))
+    assert len(found) == bool(numbers)
+    assert all(number in found[0] for number in numbers)
