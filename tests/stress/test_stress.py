@@ -41,6 +41,16 @@ def _size(scenes: Scenes) -> Excess:
     return np.asarray(2 * np.pi * (1 + of["chi"]) ** 2 * np.minimum(scenes["a_max_over_R"], reach) ** 2)
 
 
+@overflowing
+def _terms(scenes: Scenes, found: dict[str, Any]) -> Excess:
+    """Give the sizes of the terms of a pull-off force over it, which is a small difference on a small, very wavy punch."""
+    of = groups(scenes)
+    shape = (-1, *(1,) * (found["pull_off_force"].ndim - 1))
+    jump_in, chi, k = (np.reshape(one, shape) for one in (of["jump_in"], of["chi"], scenes["k"]))
+    abscissa = 2 * (found["pull_off_radius"] / jump_in) ** (0.5 * (3 + k))
+    return np.fmax(1.0, 4 / 3 * abscissa * (1 + chi) / found["pull_off_force"])
+
+
 def _at_rims(scenes: Scenes, factors: Any, outputs: Sequence[str]) -> dict[str, Any]:
     columns = {name: values[:, None] for name, values in scenes.items()}
     return solve(columns | {"a_max_over_R": columns["a_max_over_R"] * np.asarray(factors)}, outputs)
@@ -77,8 +87,9 @@ def energy_not_negative(scenes: Scenes) -> Excess:
 @overflowing
 def force_does_not_fall(scenes: Scenes) -> Excess:
     """A larger punch never holds less."""
-    force = _at_rims(scenes, [1.0, 1.0 + 1e-9, 1.03, 1.4, 7.0, 1e4, np.inf], ("pull_off_force",))["pull_off_force"]
-    falls = (-np.diff(force, axis=1) / (16 * EPS * np.abs(force[:, 1:]))).max(axis=1)
+    found = _at_rims(scenes, [1.0, 1.0 + 1e-9, 1.03, 1.4, 7.0, 1e4, np.inf], ("pull_off_force", "pull_off_radius"))
+    force = found["pull_off_force"]
+    falls = (-np.diff(force, axis=1) / (16 * EPS * (_terms(scenes, found) * np.abs(force))[:, 1:])).max(axis=1)
     return np.where(np.isnan(force).any(axis=1) | (force == 0.0).any(axis=1), 0.0, falls)
 
 
@@ -122,7 +133,8 @@ def similarity(scenes: Scenes) -> Excess:
     first = solve(scenes, OUTPUTS)
     second = solve({name: values * scale ** powers.get(name, 0) for name, values in scenes.items()}, OUTPUTS)
     force = np.abs(second["pull_off_force"] / first["pull_off_force"] - 1) / 1e-11
-    size = np.abs(first["dissipated_energy"]) + 1e-3 * _size(scenes)
+    # of the losses, which cancel where adhesion is weak
+    size = np.abs(first["loading_energy"]) + np.abs(first["unloading_energy"]) + 1e-3 * _size(scenes)
     waves = np.minimum(scenes["a_max_over_R"] / scenes["lambda_over_R"], groups(scenes)["waves"])
     # waves whose folds tie to rounding: the last one of unloading is another, and loses what rounding leaves of the terms
     tied = first["unloading_jumps"] != second["unloading_jumps"]
@@ -143,9 +155,6 @@ def one_ulp(scenes: Scenes) -> Excess:
     waves = np.minimum(scenes["a_max_over_R"] / scenes["lambda_over_R"], of["waves"])
     waves = np.where(np.isfinite(waves), waves, 0.0)
     at_pull_off = base["pull_off_radius"] / scenes["lambda_over_R"]
-    # the load is a difference of terms of this size, on the rim of a small and very wavy punch a small one
-    abscissa = 2 * (base["pull_off_radius"] / of["jump_in"]) ** (0.5 * (3 + scenes["k"]))
-    terms = np.fmax(1.0, 4 / 3 * abscissa * (1 + of["chi"]) / base["pull_off_force"])
     # theta next to k = 1, nu = 1/2 is as steep as 1/(1 - k + 1 - 2 nu); c0^k brings its logarithm
     steep = 1.0 / np.maximum(1.0 - scenes["k"] + 1.0 - 2.0 * scenes["nu"], EPS) * EPS
     allowed = 256 * EPS + 16 * EPS * np.abs(np.log(scenes["c0_over_R"])) + 4 * steep
@@ -160,7 +169,7 @@ def one_ulp(scenes: Scenes) -> Excess:
         result = solve(scenes | {name: moved}, ("pull_off_force", "dissipated_energy"))
         force = np.abs(result["pull_off_force"] / base["pull_off_force"] - 1)
         energy = np.abs(result["dissipated_energy"] - base["dissipated_energy"])
-        excess = np.fmax(excess, force / (terms * (allowed + 16 * EPS * at_pull_off)))
+        excess = np.fmax(excess, force / (_terms(scenes, base) * (allowed + 16 * EPS * at_pull_off)))
         excess = np.fmax(excess, energy / (size * (allowed + 1e-11 + 16 * EPS * waves)))
     return np.where(np.isnan(base["pull_off_force"]), 0.0, excess)
 
