@@ -13,7 +13,7 @@ import numpy as np
 
 from gradhesion.core.borrowed import borrowed
 from gradhesion.core.cycle.turning import turning_reach
-from gradhesion.core.jit import kernel
+from gradhesion.core.jit import inlined, kernel
 from gradhesion.core.problem.material import theta_of
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.table.basis import Basis, between
@@ -75,7 +75,7 @@ def crest_of(k: float, waves: Floats) -> float:
     return total
 
 
-@kernel
+@inlined
 def mean_of(waves: Floats) -> float:
     """Return a bound of the part of U that has no waves."""
     total = 0.0
@@ -84,7 +84,7 @@ def mean_of(waves: Floats) -> float:
     return total
 
 
-@kernel
+@inlined
 def reduce_scene(punch: Punch, scenes: Floats, i: int, theta: float, depth_factor: float, reduced: Floats) -> None:
     """Fill the units, sizes and targets of scene i, of a given theta and depth factor."""
     k, m = scenes[at.K, i], punch.exponent
@@ -113,7 +113,7 @@ def reduce_scene(punch: Punch, scenes: Floats, i: int, theta: float, depth_facto
     reduced[at.EXPONENT, i] = k
 
 
-@kernel
+@inlined
 def _end_of_folds(punch: Punch, i: int, steep: float, reduced: Floats) -> float:
     """Return a radius beyond which scene i has no fold, inf if there may be any everywhere, 0 if there are no waves.
 
@@ -136,7 +136,7 @@ def _end_of_folds(punch: Punch, i: int, steep: float, reduced: Floats) -> float:
     return end * 1.15 + 60.0
 
 
-@kernel
+@inlined
 def fill_reach(punch: Punch, i: int, crest: float, steepest: float, mean: float, reduced: Floats) -> None:
     """Fill how far scene i must be known without its rim.
 
@@ -160,7 +160,7 @@ def fill_reach(punch: Punch, i: int, crest: float, steepest: float, mean: float,
         reduced[at.FAR, i] = max(far, reduced[at.PULL, i])
 
 
-@kernel
+@inlined
 def fill_rim(punch: Punch, scenes: Floats, i: int, least: float, reduced: Floats) -> None:
     """Fill what depends on the rim of scene i, which no table has below `least`; VALID has no regard to the rim yet."""
     rim, far = scenes[at.RIM, i] / reduced[at.LENGTH, i], reduced[at.FAR, i]
@@ -171,7 +171,7 @@ def fill_rim(punch: Punch, scenes: Floats, i: int, least: float, reduced: Floats
         reduced[at.VALID, i] = 0.0
 
 
-@kernel
+@inlined
 def _end_of_rims(scenes: Floats, first: int) -> int:
     """Return the end of the scenes from `first` on that have all parameters but the rim in common."""
     end, same = first, True
@@ -184,7 +184,7 @@ def _end_of_rims(scenes: Floats, first: int) -> int:
     return end
 
 
-@kernel
+@inlined
 def _is_valid(punch: Punch, scenes: Floats, i: int, least: float, reduced: Floats) -> bool:
     """Return whether all parameters of scene i but its rim are in their ranges, and it does not end below `least`."""
     sizes = 0.0 < scenes[at.MODULUS, i] < math.inf and 0.0 < scenes[at.C0, i] < math.inf
@@ -198,7 +198,7 @@ def _is_valid(punch: Punch, scenes: Floats, i: int, least: float, reduced: Float
     return sizes and edge and target and machine and known and not _is_below_tables(punch, i, least, reduced)
 
 
-@kernel
+@inlined
 def _is_below_tables(punch: Punch, i: int, least: float, reduced: Floats) -> bool:
     """Return whether the contact that jumps out of a smooth punch is smaller than `least`."""
     eta = 0.5 * (1.0 - reduced[at.EXPONENT, i])
