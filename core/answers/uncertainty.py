@@ -26,6 +26,7 @@ FEW: Final = 32
 that pass are right to 3 %, but for three that are off by 8 to 10 %; 8 samples miss some that are off by half."""
 AT_FEW: Final = 0.02
 """Relative difference allowed between deviations of these samples."""
+_ROUNDING: Final = 1e-12  # of a value: a deviation below is none
 _LEAST_SHARE: Final = 2.0**-54  # samples are strictly between the bounds: a modulus of 0 has no value
 
 
@@ -92,10 +93,13 @@ def linear_deviation(slopes: Sequence[ArrayLike], deviations: Sequence[ArrayLike
     return np.sqrt(np.sum(np.square(parts), axis=0))
 
 
-def differ(one: ArrayLike, other: ArrayLike, share: float = 0.1) -> Truths:
-    """Return where deviations, of any shape, differ by more than a share of the larger, or one of them is missing."""
+def differ(one: ArrayLike, other: ArrayLike, of: ArrayLike, share: float = 0.1) -> Truths:
+    """Return where deviations differ by more than a share of the larger, or one of them is missing; any shape.
+
+    Below 1e-12 of the values that they are `of`, both are rounding.
+    """
     first, second = np.asarray(one, dtype=float), np.asarray(other, dtype=float)
-    close: Truths = np.abs(first - second) <= share * np.maximum(first, second)
+    close: Truths = np.abs(first - second) <= share * np.maximum(first, second) + _ROUNDING * np.abs(of)
     return ~close
 
 

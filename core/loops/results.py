@@ -3,9 +3,10 @@
 import math
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
+from scipy.optimize import brentq
 from scipy.special import chdtri, stdtrit
 
 from gradhesion.core.closed.reduced import WAYS
@@ -28,10 +29,9 @@ LEVEL: Final = 0.95
 """Probability that an interval covers, and that the rise of chi square is below that of minima which noise allows."""
 _NEAR_END: Final = 0.01  # part of a range: a value closer than this to an end is on the bound
 _WIDE: Final = 10.0  # ratio of stop to start above which a range is measured by its logarithm
+_LOWER: Final = 0.005  # fall of half the sum of squares that is another minimum
 _NEAR: Final = 0.01  # accuracy of the end of an interval, in parts of the quantile
 _FINE: Final = 1e-5  # tolerance for the sum of squares and the numbers: a rise by 4 is known to a hundredth of it
-_TRIALS: Final = 8  # steps to an end of an interval, at most
-_FURTHEST: Final = 4.0  # most by which the displacement is corrected in one of them
 _ROUNDING: Final = 1e-12  # relative difference of radii that is rounding
 _SEEN: Final = 5.0  # size of a jump, in standard deviations of the noise, from which on it shows that there are waves
 _LEAST: Final = 0.01  # strength of waves below which nothing is reported
@@ -68,7 +68,11 @@ def results_at(
     ends = np.array([best - factor * spread, best + factor * spread])
     if intervals == "profile":
         ways = covariance / spread[:, None]
-        ends = np.array([profile_interval(misfit, best, i, way, factor, unit) for i, way in enumerate(ways)]).T
+        ends, tried = profile_intervals(misfit, Tried(-factor, found[0].cost, best), ways, factor, unit)
+        lowest = min(tried, key=lambda one: one.cost)
+        if found[0].cost - lowest.cost > _LOWER:  # a valley that no start has led to
+            better = [misfit.refined(lowest.x), *found]
+            return results_at(misfit, better, intervals, ranges, widened=widened, contact=contact)
     if contact is not None:
         move = _by_contact(misfit, best, covariance / unit, contact)
         ends = best + np.array([[-1.0], [1.0]]) * np.hypot(ends - best, factor * move)
@@ -157,31 +161,70 @@ def is_on_bound(value: float, ends: tuple[float, float]) -> bool:
     return min(value - low, high - value) < _NEAR_END * (high - low)
 
 
-def profile_interval(
-    misfit: Misfit, best: Floats, number: int, along: Floats, factor: float, unit: float
-) -> tuple[float, float]:
-    """Return how low and how high one number may be by its profile likelihood, all others fitted anew.
+class Tried(NamedTuple):
+    """A place whose misfit is known.
 
-    An interval ends where the sum of squares, over the variance `unit` of a residual, has risen by the square of
-    `factor`, a quantile of Student's t, or at the end of the range. The root of the rise is nearly proportional to the
-    displacement, which is corrected by their ratio until it is right. `along` is how all numbers move with this one in
-    the linear problem, standard deviation times correlation, (unknown,).
+    excess   by how much the root of the rise of chi square exceeds that at the ends of intervals
+    cost     half the sum of squares
+    x        the numbers
     """
-    least, ends = float(np.sum(misfit.residual(best) ** 2)), []
-    for sign in (-1.0, 1.0):
-        most = sign * float((misfit.low if sign < 0.0 else misfit.high)[number] - best[number])
-        way, start = factor * float(along[number]), best
-        for _ in range(_TRIALS):
-            way = min(way, most)
-            moved = start + (best[number] + sign * way - start[number]) * along / along[number]
-            moved = np.clip(moved, misfit.low, misfit.high)
-            done = misfit.refined(moved, held=[number], most=20, tolerance=_FINE)
-            reached = math.sqrt(max(0.0, 2.0 * done.cost - least) / unit)
-            if abs(reached - factor) < _NEAR * factor or (way == most and reached < factor):
-                break
-            way, start = way * min(max(factor / max(reached, 1e-9), 1.0 / _FURTHEST), _FURTHEST), done.x
-        ends.append(float(done.x[number]))
-    return ends[0], ends[1]
+
+    excess: float
+    cost: float
+    x: Floats
+
+
+def profile_intervals(
+    misfit: Misfit, least: Tried, ways: Floats, factor: float, unit: float
+) -> tuple[Floats, list[Tried]]:
+    """Return how low and how high each number may be by its profile likelihood, (2, unknown), and all that was tried.
+
+    An interval ends where the sum of squares, over the variance `unit` of a residual, has risen from its `least` by the
+    square of `factor`, a quantile of Student's t, or at the end of the range. `ways` are how all numbers move with each
+    in the linear problem, standard deviations times correlations. Zeros, the last numbers, come first: what jumps pass
+    as they move makes corners and valleys, which belong to the intervals of the others as well.
+    """
+    tried, ends = [least], np.empty((2, least.x.size))
+    for number in reversed(range(least.x.size)):
+        for side, sign in enumerate((-1.0, 1.0)):
+            ends[side, number] = _profile_end(misfit, tried, number, sign * ways[number], factor, unit)
+    return ends, tried
+
+
+def _profile_end(misfit: Misfit, tried: list[Tried], number: int, along: Floats, factor: float, unit: float) -> float:
+    """Return an end of an interval, that on the side to which `along` leads; places are added to those `tried`.
+
+    The interval of the linear problem, or the furthest place within, is the first guess, which is doubled until it is
+    too wide: the rise may be a plateau.
+    """
+    best, cost = tried[0].x, tried[0].cost
+    side = misfit.high if along[number] > 0.0 else misfit.low
+    most = float((side[number] - best[number]) / along[number])
+    known = {float((one.x[number] - best[number]) / along[number]): one for one in tried}
+
+    def excess(way: float) -> float:
+        """Return that of the place so many deviations away, all other numbers fitted; 0 if it is hardly any."""
+        if way not in known:
+            nearest = min(known, key=lambda other: abs(other - way))
+            moved, held = known[nearest].x + (way - nearest) * along, best.copy()
+            held[number] = moved[number]
+            for start in (moved, held):  # the second one where an interval would end
+                start = np.clip(start, misfit.low, misfit.high)
+                done = misfit.refined(start, held=[number], most=20, tolerance=_FINE)
+                over = math.sqrt(max(0.0, 2.0 * (done.cost - cost)) / unit) - factor
+                if way not in known or done.cost < known[way].cost:
+                    known[way] = Tried(0.0 if abs(over) < _NEAR * factor else over, done.cost, done.x)
+                if over < -_NEAR * factor:
+                    break
+            tried.append(known[way])
+        return known[way].excess
+
+    inner = max(way for way, one in known.items() if one.excess < 0.0 and way >= 0.0)
+    outer = min(factor if inner < factor else 2.0 * inner, most)
+    while excess(outer) < 0.0 and outer < most:
+        inner, outer = outer, min(2.0 * outer, most)
+    way = brentq(excess, inner, outer, xtol=_NEAR * outer) if excess(outer) > 0.0 else outer
+    return float(best[number]) + way * float(along[number])
 
 
 def status_of(model: Model, vector: Floats, radius: float) -> int:

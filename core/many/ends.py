@@ -153,12 +153,10 @@ def _far_landing(long: Long, curve: Curve, before: Loading, rim: float) -> tuple
         deepest, load = state_in(piece, rim)
         fall = level - coordinate_of(curve, deepest, load)
         deepest += fall / softness(curve, rim ** (1.0 + curve.table.k))
-    lost, jumps = (
-        before.lost + jump_energy(piece, 0.0, state.depth, state.load, landing) - before.below,
-        before.jumps + 1.0,
-    )
-    first = before.jumps == 0.0
-    snap, last = snap_in(piece, landing) if first else before.snap, landing if first or not at_rim else before.last
+    lost = before.lost + jump_energy(piece, 0.0, state.depth, state.load, landing) - before.below
+    jumps, first = before.jumps + 1.0, before.jumps == 0.0
+    snap = snap_in(piece, landing) if first else before.snap
+    last = landing if first or not at_rim else before.last
     loaded = Loaded(lost, jumps, deepest, at_rim and first, True)
     return loaded, Loading(wave, True, state, lost, jumps, 0.0, snap, last, before.one_disc, before.tied)
 
@@ -191,22 +189,12 @@ def finish_loading(
     if long.contact and one_disc and rim < edge and rim < end_of(piece.table):
         one_disc = gap_is_open(piece, long.disc, rim, state_in(piece, rim)[0], min(edge, end_of(piece.table)))
     tied = before.tied or rim_is_tied(piece, rim) or loading_is_tied(piece, rim, rim >= edge, trace, count)
-    state, lost, jumps, below, snap, landing = (
-        before.state,
-        before.lost,
-        before.jumps,
-        before.below,
-        before.snap,
-        before.last,
-    )
+    state, lost, jumps, below = before.state, before.lost, before.jumps, before.below
+    snap, landing = before.snap, before.last
     if n > 0:
         j = visited[n - 1]
-        state, lost, jumps, landing = (
-            end_state(trace, j),
-            trace[at.LOADED, j],
-            trace[at.LOADING_JUMPS, j],
-            trace[at.LANDING, j],
-        )
+        state, landing = end_state(trace, j), trace[at.LANDING, j]
+        lost, jumps = trace[at.LOADED, j], trace[at.LOADING_JUMPS, j]
         snap = snap if before.jumps > 0.0 else snap_in(piece, trace[at.LANDING, visited[0]])
     loaded = load_to(piece, rim, trace, visited, visits)
     if loaded.known and n > 0:
@@ -219,9 +207,8 @@ def finish_loading(
     if n > 0:
         from_zero(long, last, space)
         below = energy_between(piece, state.depth, 0.0, state.y)
-    return _far_landing(
-        long, piece, Loading(last, False, state, lost, jumps, below, snap, landing, one_disc, tied), rim
-    )
+    begun = Loading(last, False, state, lost, jumps, below, snap, landing, one_disc, tied)
+    return _far_landing(long, piece, begun, rim)
 
 
 @inlined

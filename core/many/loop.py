@@ -113,15 +113,13 @@ def land(long: Long, curve: Curve, before: Loading) -> tuple[Loading, int]:
     if visits == 0:
         return before, visits
     j = visited[visits - 1]
-    one_disc = before.one_disc and (
-        not long.contact or jumps_are_open(long, piece, space, visits, trace[at.LANDING, j])
-    )
+    landing = trace[at.LANDING, j]
+    one_disc = before.one_disc and (not long.contact or jumps_are_open(long, piece, space, visits, landing))
     tied = before.tied or loading_is_tied(piece, end_of(piece.table), False, trace, count)
     lost, jumps = before.lost + trace[at.LOADED, j] - before.below, before.jumps + trace[at.LOADING_JUMPS, j]
     snap = snap_in(piece, trace[at.LANDING, visited[0]]) if before.jumps == 0.0 else before.snap
-    return Loading(
-        before.wave, True, end_state(trace, j), lost, jumps, 0.0, snap, trace[at.LANDING, j], one_disc, tied
-    ), visits
+    state = end_state(trace, j)
+    return Loading(before.wave, True, state, lost, jumps, 0.0, snap, landing, one_disc, tied), visits
 
 
 @inlined

@@ -65,7 +65,8 @@ def solve_uncertain(study: Study, block: Block, threads: int | None) -> Arrays:
     }
     if study.uncertainty.samples:
         made |= _sampled(centre, study.uncertainty, found["status"].shape)
-        off = [uncertainty.differ(made[_named(name, by_slopes)], made[_named(name, "std")]) for name in linear]
+        both = {name: (made[_named(name, by_slopes)], made[_named(name, "std")]) for name in linear}
+        off = [uncertainty.differ(*deviations, found[name]) for name, deviations in both.items()]
     else:
         off = _off_the_line(centre, study.uncertainty.seed, found, linear)
     failed = (found["status"] & NO_VALUE) != 0
@@ -89,7 +90,7 @@ def _off_the_line(centre: _Centre, seed: int, found: Arrays, linear: Mapping[str
         for name, slopes in linear.items():
             line = np.sum([slopes[key][place] * move for key, move in moves.items()], axis=0)
             deviations = np.std(samples[name], axis=0), np.std(line, axis=0)
-            off[name][place] = uncertainty.differ(*deviations, uncertainty.AT_FEW)
+            off[name][place] = uncertainty.differ(*deviations, found[name][place], uncertainty.AT_FEW)
     return [*off.values()]
 
 

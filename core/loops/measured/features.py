@@ -105,14 +105,15 @@ def base_line(points: Floats, back: Truths, noise: float) -> BaseLine | None:
         own = points[back == way]
         own = own[np.argsort(own[:, 0], kind="stable")]
         count = _flat_part(own[:, 0], own[:, 1], noise, steep)
+        if way and count and own[:count, 1].min() <= points[:, 1].min():
+            off = np.abs(own[:count, 1].mean() - parts[0][:, 1].mean()) if parts[0].size else np.inf
+            count = count if off < _CLEAR * noise else 0  # flat at the pull-off, the lowest load of all
         parts.append(own[:count])
         ends.append(float(own[count - 1, 0]) if count else float("nan"))
     flat = np.concatenate(parts)
     if flat.shape[0] < _LEAST:
         return None
     mean = flat.mean(axis=0)
-    if np.isnan(ends[0]) and mean[1] - float(points[:, 1].min()) < _CLEAR * noise:
-        return None  # flat at the pull-off, the lowest load of all
     away = flat - mean
     across = max(float(away[:, 0] @ away[:, 0]), float(np.finfo(float).tiny))
     slope = float(away[:, 0] @ away[:, 1]) / across

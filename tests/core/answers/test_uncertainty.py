@@ -114,5 +114,5 @@ def test_statistics_leave_out_what_has_no_value() -> None:
         assert np.isnan(found[name][2, 2])
     infinite = statistics_of(np.array([1.0, 2.0, np.inf, np.inf]))
     assert [float(infinite[name]) for name in ("p05", "p50", "p95", "mean")] == [1.15, np.inf, np.inf, np.inf]
-    assert differ([1.0, 1.0, 1.0], [0.91, 0.89, np.nan]).tolist() == [False, True, True]
-    assert differ([1.0, 1.0], [0.99, 0.97], 0.02).tolist() == [False, True]
+    assert differ([1.0, 1.0, 1.0, 0.0], [0.91, 0.89, np.nan, 1e-13], 1.0).tolist() == [False, True, True, False]
+    assert differ([1.0, 1.0], [0.99, 0.97], 1.0, 0.02).tolist() == [False, True]

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import draw_curves, solve
+from gradhesion.core import Loading, draw_curves, solve
 from gradhesion.core.loops import results
 from gradhesion.core.loops.fit import fit_loop
 from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop, Offsets, poor_from
@@ -30,12 +30,13 @@ NO_OFFSETS = Offsets(indentation=False, load=False)
 
 def ball(
     seed: int, *, points: int = 400, zero: tuple[float, float] = (0.0, 0.0), tilt: float = 0.0, pressed: float = 3.0,
-    noise: float = 0.01,
+    noise: float = 0.01, stiffness: float = math.inf,
 ) -> tuple[Array, Array, Any, tuple[float, float]]:  # fmt: skip
-    """A loop of a smooth ball by the closed forms of Johnson, Kendall & Roberts (1971), evenly spaced in depth."""
+    """A loop of a smooth ball by the closed forms of Johnson, Kendall & Roberts (1971), evenly spaced in displacement."""
     a = np.linspace(1e-8, R, 400_001)
     along = a**2 / R - np.sqrt(2.0 * math.pi * a * WORK / E_STAR)
     force = 4.0 * E_STAR * a**3 / (3.0 * R) - np.sqrt(8.0 * math.pi * WORK * E_STAR * a**3)
+    along = along + force / stiffness
     along, force = (row[int(np.argmin(along)) :] for row in (along, force))
     deepest = float(np.interp(pressed * PULL, force, along))
     up = np.linspace(4.0 * along[0] - 0.2 * deepest, deepest, points // 2)
@@ -308,9 +309,10 @@ def test_profile_intervals_are_where_the_misfit_has_grown_so_far() -> None:
     own, here = loop(error=8.0)
     best = own.refined(here, tolerance=1e-12).x
     covariance = results.covariance_of(own, best)
-    for number in range(2):
-        along = covariance[number] / math.sqrt(covariance[number, number])
-        ends = results.profile_interval(own, best, number, along, 12.0, 1.0)
+    ways = covariance / np.sqrt(np.diag(covariance))[:, None]
+    least = results.Tried(-12.0, 0.5 * float(np.sum(own.residual(best) ** 2)), best)
+    both, _ = results.profile_intervals(own, least, ways, 12.0, 1.0)
+    for number, (along, ends) in enumerate(zip(ways, both.T, strict=True)):
         assert ends[0] < best[number] < ends[1]
         for end in ends:
             moved = best.copy()
@@ -319,6 +321,19 @@ def test_profile_intervals_are_where_the_misfit_has_grown_so_far() -> None:
             assert math.sqrt(rise) == pytest.approx(12.0, rel=0.02)
             linear = best[number] + math.copysign(12.0 * along[number], end - best[number])
             assert end == pytest.approx(linear, rel=0.0, abs=2.0 * along[number])
+
+
+@pytest.mark.parametrize("seed", [9, 16, 36])
+def test_what_the_noise_allows_is_within_its_profile_interval(seed: int) -> None:
+    """Jumps pass few points as the zero of depth moves, so that the misfit has corners, and plateaus beside them."""
+    fixed = SMOOTH | {"spring_constant": 0.2 * E_STAR * R}
+    depth, load, back, noise = ball(seed, points=80, stiffness=fixed["spring_constant"])
+    before = slice(0, int(np.argmin(np.where(back, load, np.inf))) - 6)  # the retraction ends before the pull-off
+    points, how = (depth[before], load[before], back[before]), {"noise": noise, "loading": Loading(control="machine")}
+    found = fit_loop(*points, fixed, FREE, intervals="profile", **how)
+    at_zero = fit_loop(*points, fixed, FREE, offsets=Offsets(indentation=False), **how)
+    assert 0.0 < at_zero.chi_square - found.chi_square < 3.0
+    assert found.low["indentation_offset"] < 0.0 < found.high["indentation_offset"]
 
 
 @pytest.mark.parametrize(("value", "ends", "bound"), BOUNDS)

@@ -63,6 +63,13 @@ def test_what_is_flat_at_the_lowest_load_of_unloading_is_no_base_line() -> None:
         rows = np.column_stack([depth, np.maximum(depth - 0.3, 0.0) ** 2 + noise])
         assert base_line(rows, np.ones(400, bool), NOISE) is None
         assert base_line(rows, np.zeros(400, bool), NOISE) is not None, "loading begins without contact"
+        rows, back = points(seed)
+        before = ~back | (rows[:, 0] > -0.2)  # the retraction ends at the pull-off, half a unit below, where it is flat
+        flat = back & (rows[:, 0] < 0.0)
+        rows[flat, 1] = noise[: flat.sum()] - 0.2
+        line = line_of(rows[before], back[before])
+        assert line.level == pytest.approx(0.3, abs=5.0 * NOISE / np.sqrt(200))
+        assert np.isnan(line.ends[1])
 
 
 def test_without_a_base_line_or_with_nothing_else_there_is_no_contact_point() -> None:
