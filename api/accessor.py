@@ -75,7 +75,11 @@ class Accessor:
             if variable not in known:
                 raise DatasetError(f"{variable}: not a variable of this dataset; {did_you_mean(variable, known)}")
             bits |= doubts_of(variable, self._dataset) | POOR_FIT | ANOTHER_MINIMUM
-        return (self._dataset["status"].astype(np.int16) & bits) == 0
+        status = self._dataset["status"]
+        sound = (status.astype(np.int16) & bits) == 0
+        if variable is not None and self._dataset[variable].dims == status.dims:
+            sound = sound & self._dataset[variable].notnull()  # beyond a million waves there is no saturation radius
+        return sound
 
     def flagged(self, flag: str) -> xarray.DataArray:
         """Report which scenes have a flag.

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from gradhesion.cli.dataset.read.model_range import LIMITS, count_beyond, is_cone
 from gradhesion.cli.dataset.read.reader import has_curves, tiling_of
 from gradhesion.cli.dataset.read.sensitivities import parts_of, strongest
-from gradhesion.cli.names.outputs import ON_BOUND, PARETO_POINT, SI, labels_of
+from gradhesion.cli.names.outputs import BEST, ON_BOUND, PARETO_POINT, SI, labels_of
 from gradhesion.cli.names.scenes import IDLE, REALISATION, SCENE, SOLVER
 from gradhesion.cli.study.shape_words import CONTROLS
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted, share_of
@@ -135,8 +135,9 @@ def _uncertain_inputs(dataset: xarray.Dataset) -> Iterator[str]:
 
 
 def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
-    """Report each output: all values of few scenes, else the extremes and where they are; in SI where it has a unit."""
-    names = [str(name) for name in dataset.data_vars if name != "status" and f"{name}{SI}" not in dataset]
+    """Report each output: all values of few scenes, else the extremes and where they are; in SI, optima in both."""
+    names = [str(name) for name in dataset.data_vars if name != "status"]
+    names = [name for name in names if name.startswith(BEST) or f"{name}{SI}" not in dataset]  # either may be the goal
     if PARETO_POINT in dataset.dims:
         counts = np.asarray(dataset[names[0]].notnull().sum(PARETO_POINT))
         yield ""
@@ -201,7 +202,8 @@ def _sensitivities(variable: xarray.DataArray, name: str) -> Iterator[str]:
     """Tell which parameter is the strongest in how many scenes, and between what each sensitivity lies."""
     labels = [str(label) for label in variable[labels_of(name)].values]
     values = variable.transpose(..., labels_of(name)).values.reshape(-1, len(labels))
-    place = strongest(values, labels)
+    is_reduced = " over " in str(variable.attrs.get("long_name", "")).rpartition(";")[2]  # signs decide what is largest
+    place = np.full(len(values), -1) if is_reduced else strongest(values, labels)
     shares = pd.Series(place[place >= 0]).value_counts(normalize=True)
     if shares.size:
         written = (f"{labels[i]} in {100.0 * share:.3g} % of the scenes" for i, share in shares.items())

@@ -125,6 +125,11 @@ def test_a_flag_is_its_bit_and_what_is_valid_depends_on_what_is_asked(every_stat
         assert force[status] == (status & (FAILED | DOUBTFUL & ~gr.FLAGS["loading_contact_not_one_disc"]) == 0)
 
 
+def test_a_saturation_radius_beyond_all_waves_is_not_valid() -> None:
+    found = gr.solve(PUNCH, ["dissipated_energy", "saturation_radius"], lambda_over_R=1e-4, A=0.05, k=0.0)
+    assert [bool(found.gr.valid(name)) for name in ("dissipated_energy", "saturation_radius")] == [True, False]
+
+
 def test_variables_in_si_and_of_curves_are_doubted_as_what_they_are_of() -> None:
     units = {"R": "1 um", "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "10 nm", "wavelength": "100 nm", "a_max": "1 um"}  # fmt: skip
     rough = gr.solve(units, k=0.0, nu=0.3, A=0.1)

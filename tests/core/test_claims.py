@@ -330,6 +330,14 @@ def test_the_energy_of_the_envelopes(k: float, reach: float, off: float) -> None
     assert found / exact - 1.0 == pytest.approx(off, rel=0.02)
 
 
+def test_the_energy_of_the_envelopes_near_the_end_of_folds() -> None:
+    """Folds shrink towards it, and waves lose less than the envelopes do (docs/validity.md)."""
+    scene = MAP | {"k": 0.3, "lambda_over_R": 1e-3, "A": 0.02, "a_max_over_R": np.array([0.1, 0.2, 0.5, 1.0])}
+    exact, found = (_loss(one, **scene) for one in ("exact", "envelope"))
+    np.testing.assert_allclose(found / exact - 1.0, [0.0011, 0.0083, 0.144, 0.674], rtol=0.05)
+    assert solve(scene, ["saturation_radius"])["saturation_radius"] == pytest.approx(2.68, abs=0.01)
+
+
 @pytest.mark.parametrize("control", ["displacement", "load", "machine"])
 def test_every_control(control: str) -> None:
     """The pull-off force is the lowest load of the path under every control (section 9 of docs/theory.md)."""

@@ -144,7 +144,9 @@ class Require(Table):
     """What an optimum has to meet."""
 
     one_disc: bool = said("whether contact on loading must be one disc", "true", default=False)
-    minimum: dict[str, Finite] = said("minimum values of other outputs", "{ dissipated_energy = 0.1 }", {})
+    minimum: dict[str, Finite] = said(
+        "minimum values of other outputs, which end in _si if they are in SI units", "{ dissipated_energy = 0.1 }", {}
+    )
     maximum: dict[str, Finite] = said("maximum values of other outputs", "{ pull_off_radius = 0.2 }", {})
 
 

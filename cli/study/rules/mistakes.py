@@ -92,7 +92,8 @@ def _sentence(detail: ErrorDetails, path: Key) -> str:
             else f"{detail['ctx']['expected']}; write one"
         )
         return f"this must be {words}"
-    if kind == "float_type" and isinstance(value, str) and (words := ratio_sentence(value, own.name if own else "A")):
+    text = value if kind == "float_type" and isinstance(value, str) and (own or "," in value) else ""
+    if words := ratio_sentence(text, own.name if own else "A"):
         return words if own else f"this must be a number; {words}"
     if own and own.infinite and kind == "finite_number":
         return "a range must end at finite values; write a list where inf is one of the values"

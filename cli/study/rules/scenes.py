@@ -241,6 +241,7 @@ def _optimum(asked: Asked) -> Found:
     if asked.right("optimum.over"):
         yield from _over(asked, table)
     known = [name for name in OUTPUTS if name not in SENSITIVITIES]
+    known += [name + SI for name in known if name in UNITS and asked.units]
     for word in ("minimum", "maximum"):
         for name, value in getattr(table.require, word).items():
             if name not in known:

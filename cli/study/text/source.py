@@ -190,6 +190,7 @@ def _fitted(path: Path, steps: tuple[str, ...]) -> float | str:
             names, units = (list(map(str, file[name][:])) for name in ("parameter", "parameter_units"))
             values, sound = file[variable][:].tolist(), bool(file["converged"][...])
             sound = sound and not int(file["status"][...]) & (FAILED | POOR_FIT | ANOTHER_MINIMUM)
+            sound = sound and not file["on_bound"][:].any()
     except OSError as error:
         what = kind_of(path) or error.strerror or "it cannot be read"
         raise ValueError(f"not the dataset of a fit ({what}); name one, or give a value") from None

@@ -121,9 +121,10 @@ def test_minima_are_padded_and_no_median_has_flagged_loops(study: FitStudy, tmp_
 
 
 def test_a_fitted_value_is_taken_for_a_key(study: FitStudy, tmp_path: Path, gradhesion: Call) -> None:
-    sound, poor = tmp_path / "sound.nc", tmp_path / "poor.nc"
+    sound, poor, at_an_end = (tmp_path / f"{name}.nc" for name in ("sound", "poor", "at_an_end"))
     write(study, [fit(study, others=(), status=0)], sound)
     write(study, [fit(study)], poor)
+    write(study, [fit(study, others=(), status=0, on_bound=("A",))], at_an_end)
     scene = tmp_path / "scene.toml"
     scene.write_text('outputs = ["pull_off_force"]\nparameters = {k=0, nu=0.3}\nphysical = {R="5 um", a_max="1 um"}')
     keys = ("physical.E_star", "physical.work_of_adhesion", "physical.wavelength", "parameters.A")
@@ -135,7 +136,7 @@ def test_a_fitted_value_is_taken_for_a_key(study: FitStudy, tmp_path: Path, grad
         assert 'E_star = "10000000.0 Pa"' in found.attrs["study"]
     uncertain = load_study(scene, [*(one.removeprefix("--set=") for one in sets), f"uncertainty.E_star={sound}"])
     assert uncertain.uncertainty.deviations["E_star"].deviation == 1e5
-    for file in (sound, poor, tmp_path / "scene.nc", tmp_path / "no.nc"):
+    for file in (sound, poor, at_an_end, tmp_path / "scene.nc", tmp_path / "no.nc"):
         key = "physical.R" if file == sound else "physical.E_star"
         assert key in gradhesion("validate", scene, *sets[1:], f"--set={key}={file}", code=2).stderr
 

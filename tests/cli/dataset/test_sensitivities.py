@@ -91,6 +91,10 @@ def test_info_names_the_strongest_which_is_no_difference_of_k_or_nu(gradhesion: 
         least = float(dataset[FORCE].sel(parameter="A").min())
     assert f"lambda_over_R in {100.0 * wave:.3g} % of the scenes" in told
     assert f"A {least:.4g}" in told
+    gradhesion("select", file, "--over", "A=max", "-o", file.with_name("reduced.nc"), code=0)
+    assert "strongest: " not in gradhesion("info", file.with_name("reduced.nc")).stdout, (
+        "the largest is not the strongest"
+    )
     none = np.array([[9.0, -2.0, 1.0], [9.0, 0.0, 0.0], [1.0, np.nan, 3.0]])
     assert strongest(none, ["k", "A", "modulus"]).tolist() == [1, -1, 2]
 

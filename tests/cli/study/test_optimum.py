@@ -127,6 +127,9 @@ def test_in_units_with_a_radius_that_is_searched() -> None:
     np.testing.assert_allclose(found["best_pull_off_force_si"], 1.5 * np.pi * 2e-6 * 0.05, rtol=1e-14)
     assert found["best_R"].attrs["units"] == "m"
     assert "modulus" not in found.coords
+    search["require"] = {"maximum": {"pull_off_force_si": 1.5 * np.pi * 1e-6 * 0.05}}
+    found = gr.run({"kind": "optimum", "optimum": search, "parameters": ball, "physical": units})
+    np.testing.assert_allclose(found["best_R"], 1e-6, rtol=1e-9)
 
 
 def test_a_front_of_two_outputs(study: dict[str, Any], ran: Run, gradhesion: Call, tmp_path: Path) -> None:
