@@ -100,7 +100,7 @@ def base_line(points: Floats, back: Truths, noise: float) -> BaseLine | None:
     """
     span = np.ptp(points, axis=0)
     steep = _FLAT * float(span[1] / span[0]) if span[0] > 0.0 else 0.0
-    parts, ends = [], []
+    parts, ends = list[Floats](), list[float]()
     for way in (False, True):
         own = points[back == way]
         own = own[np.argsort(own[:, 0], kind="stable")]
