@@ -7,6 +7,7 @@ import numpy as np
 import xarray
 
 from gradhesion.cli.dataset.read.reader import has_curves, is_fit
+from gradhesion.cli.dataset.read.reductions import REDUCTIONS
 from gradhesion.cli.dataset.read.selection import Selection, selection_of
 from gradhesion.cli.disk import replacement, writing
 from gradhesion.cli.errors import DatasetError
@@ -28,9 +29,8 @@ def selected(dataset: xarray.Dataset, at: Sequence[str] = (), over: Sequence[str
         return one_loop(dataset, at) if at else dataset
     if over and has_curves(dataset):
         raise DatasetError(f"--over {over[0]}: curves are not reduced; choose scenes with --at")
-    selection = selection_of(dataset, at, over)
-    if place := [axis for axis, how in selection.over.items() if how.startswith("arg")]:
-        raise DatasetError(f"--over {place[0]}={selection.over[place[0]]}: places are drawn by `gradhesion plot` only")
+    values = [how for how in REDUCTIONS if not how.startswith("arg")]  # places are drawn by `gradhesion plot` only
+    selection = selection_of(dataset, at, over, ways=values)
     narrow = selection.narrowed(dataset)
     return _reduced(narrow, selection) if selection.over else narrow
 

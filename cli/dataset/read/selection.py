@@ -78,12 +78,17 @@ class Selection:
 
 
 def selection_of(
-    dataset: xarray.Dataset, at: Sequence[str] = (), over: Sequence[str] = (), *, interpolate: bool = False
+    dataset: xarray.Dataset,
+    at: Sequence[str] = (),
+    over: Sequence[str] = (),
+    *,
+    interpolate: bool = False,
+    ways: Sequence[str] = REDUCTIONS,
 ) -> Selection:
     """Read wishes such as at = ["lambda_over_R=0.1", "R=2 um", "A=0.01:", "solver=exact"] and over = ["k=max"].
 
     An axis is fixed at its nearest value, by ratio if it is log-spaced, or interpolated there; cut to a range; or
-    reduced by one of REDUCTIONS. Numbers without a unit are in SI. Of points the scenes with these values stay.
+    reduced in one of some `ways`. Numbers without a unit are in SI. Of points the scenes with these values stay.
     DatasetError says which wish cannot be read or met, and what to write instead.
     """
     dims = dataset["status"].dims
@@ -132,8 +137,8 @@ def selection_of(
     for option, axis, how in _wishes(dataset, "--over", over, named):
         if axis == SOLVER or axis not in dims:
             raise DatasetError(f"{option}: solvers and points cannot be reduced; choose some of them with --at")
-        if how not in REDUCTIONS:
-            raise DatasetError(f"{option}: not a reduction; {did_you_mean(how, list(REDUCTIONS))}")
+        if how not in ways:
+            raise DatasetError(f"{option}: not a reduction; {did_you_mean(how, ways)}")
         if how.startswith("arg") and any(other.startswith("arg") for other in reductions.values()):
             raise DatasetError(f"{option}: the place of an extreme is already requested; reduce by max, min or mean")
         reductions[axis] = how

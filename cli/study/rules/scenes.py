@@ -211,7 +211,9 @@ def _uncertain(asked: Asked) -> Found:
     for name, one in own.items():
         at, values = f"uncertainty.{name}", np.atleast_1d(asked.values.get(name, 1.0))
         if not asked.meant(name):
-            kin = next((other for other in form.entries if INPUTS[other].gives == INPUTS[name].gives), name)
+            same = [other for other in form.entries if INPUTS[other].gives == INPUTS[name].gives]
+            near = [other for other in same if INPUTS[name].instead_of == other or INPUTS[other].instead_of == name]
+            kin = (*near, *same, name)[0]
             yield at, f"the study gives no {name}; {did_you_mean(kin, [*form.entries])}, or remove this key"
         elif name in asked.values:
             if one.relative and np.any(values == 0.0):
