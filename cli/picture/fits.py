@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
@@ -16,7 +17,7 @@ from gradhesion.cli.names.outputs import PARAMETER
 from gradhesion.cli.names.symbols import SYMBOLS
 from gradhesion.cli.picture.labels import Unit, number, suit, unit_for
 from gradhesion.cli.picture.looks import PLAIN, Looks
-from gradhesion.cli.picture.pictured import finish, make_room, styled
+from gradhesion.cli.picture.pictured import drawable, finish, make_room, styled
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.messages import printable
 from gradhesion.core.answers.profile_fit import FittedProfile
@@ -82,7 +83,9 @@ def _draw_fit(dataset: xarray.Dataset, looks: Looks) -> Figure:
         rows = zip(*(dataset[name].values.tolist() for name in (PARAMETER, "value", "low", "high")), strict=True)
         caption = [*(in_words(*row) for row in rows), "in brackets 95 % intervals"]
         caption.append(rf"reduced $\chi^2$ = {float(dataset['chi_square']) / int(dataset['degrees_of_freedom']):.3g}")
-        finish(figure, dataset, looks, [top, bottom], caption, size=(4.8, 4.4))
+        if looks.ylabel is not None:  # the residual keeps its own
+            top.set_ylabel(drawable(looks.ylabel))
+        finish(figure, dataset, replace(looks, ylabel=None), [top, bottom], caption, size=(4.8, 4.4))
     return figure
 
 

@@ -78,13 +78,13 @@ def finish(
         if len({axis.get_label_text() for axis in named}) > 1:
             raise DatasetError(f"--{side}label: the panels have different axes; choose one variable, or one plane")
         for axis in named:
-            axis.set_label_text(_drawable(str(words)))
+            axis.set_label_text(drawable(str(words)))
     width = looks.width or size[0]
     longest = max((len(re.sub(r"[$\\{}]", "", str(entry.get_label()))) for entry in entries), default=0)
     columns = max(1, min(len(entries), int(width / (0.7 + 0.05 * longest))))
     if entries:
         figure.legend(handles=entries, loc="outside lower center", ncols=columns)
-    above = [heading(dataset) if looks.title is None else _drawable(looks.title)]
+    above = [heading(dataset) if looks.title is None else drawable(looks.title)]
     above += [", ".join(map(_unbroken, [*caption, *slope_warnings(dataset)]))] if looks.caption else []
     words = "\n".join(filter(None, above))
     if words:
@@ -114,10 +114,10 @@ def heading(dataset: xarray.Dataset) -> str:
     shape = textwrap.shorten(f"profile {profile}", 120, placeholder=" ...") if is_own else ""
     controls = {"load": "under controlled load", "machine": "through a machine of finite stiffness"}
     control = controls.get(str(dataset.attrs.get("control")), "")
-    return "\n".join(map(_drawable, filter(None, (str(dataset.attrs["title"]), shape, control))))
+    return "\n".join(map(drawable, filter(None, (str(dataset.attrs["title"]), shape, control))))
 
 
-def _drawable(text: str) -> str:
+def drawable(text: str) -> str:
     """Write a text so that matplotlib draws it: formulae in dollars as such if they are some."""
     text = printable(text)
     try:
