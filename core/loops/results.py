@@ -200,7 +200,8 @@ def _profile_end(misfit: Misfit, tried: list[Tried], number: int, along: Floats,
     best, cost = tried[0].x, tried[0].cost
     side = misfit.high if along[number] > 0.0 else misfit.low
     most = float((side[number] - best[number]) / along[number])
-    known = {float((one.x[number] - best[number]) / along[number]): one for one in tried}
+    lowest_last = sorted(tried, key=lambda one: -one.cost)  # of places with the same number
+    known = {float((one.x[number] - best[number]) / along[number]): one for one in lowest_last}
 
     def excess(way: float) -> float:
         """Return that of the place so many deviations away, all other numbers fitted; 0 if it is hardly any."""

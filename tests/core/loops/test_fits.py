@@ -323,6 +323,15 @@ def test_profile_intervals_are_where_the_misfit_has_grown_so_far() -> None:
             assert end == pytest.approx(linear, rel=0.0, abs=2.0 * along[number])
 
 
+@pytest.mark.parametrize("ends", [(1.2 * E_STAR, 10.0 * E_STAR), (0.1 * E_STAR, 0.9 * E_STAR)])
+def test_an_interval_ends_where_its_range_does(ends: tuple[float, float]) -> None:
+    *points, noise = ball(3)
+    found = fit_loop(*points, SMOOTH, FREE | {"E_star": ends}, noise=noise, intervals="profile")
+    assert found.on_bound == ("E_star",)
+    assert ends[0] <= found.low["E_star"] <= found.values["E_star"] <= found.high["E_star"] <= ends[1]
+    assert found.high["E_star"] - found.low["E_star"] < 1e-3 * E_STAR
+
+
 @pytest.mark.parametrize("seed", [9, 16, 36])
 def test_what_the_noise_allows_is_within_its_profile_interval(seed: int) -> None:
     """Jumps pass few points as the zero of depth moves, so that the misfit has corners, and plateaus beside them."""
