@@ -147,7 +147,8 @@ class Trials:
         return code
 
     def told(self) -> str:
-        return (self.folder.parent / "stderr").read_text()
+        path = self.folder.parent / "stderr"
+        return path.read_text() if path.exists() else ""  # a run may be killed before it has opened it
 
     def at_every_change_of_a_name(self, trial: Callable[[int, Callable[[], None]], int]) -> int:
         """Kill what is tried before and after each change of a name; tells how many there are."""
