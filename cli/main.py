@@ -78,9 +78,9 @@ for _commands in (*SECTIONS.values(), SET_UP):
 
 def main() -> NoReturn:
     """Run the command line, and leave with the exit code of how it went."""
-    messages.open_streams()
-    interrupts.listen()
     try:
+        messages.open_streams()
+        interrupts.listen()
         code = cli.main(prog_name="gradhesion", standalone_mode=False) or 0
     except SystemExit as end:  # so click leaves where the reader of its output has gone, as `| head` does
         code = 0 if end.code == 0 else UNHEARD  # and, with 0, where it has completed a line for the shell

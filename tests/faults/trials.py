@@ -52,6 +52,7 @@ def start(*words: str | Path, folder: Path, before: Callable[[], None] = lambda:
     if pid:
         return pid
     try:
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)  # until the command listens, as in a process of its own
         errors = os.open(folder / "stderr", os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
         os.dup2(errors, 2)
         sys.argv = ["gradhesion", *map(str, words), "--quiet"]
