@@ -4,6 +4,10 @@ A kernel is a function of floats, arrays and NamedTuples. It neither raises nor 
 step) is the only freedom that its arithmetic has; sums of quadrature may be reordered as well. `isnan` keeps its
 meaning everywhere.
 
+Most kernels make no arrays, and count no references to those that they are handed: Python holds them for as long as its
+call lasts, and to count takes up to half of the time of a scene. Those that make arrays count. They may hand their own
+to kernels that do not count, but these must not return them: they would be released once too often.
+
 Numba notices an edit in the file of a kernel, but not in the files of those that it calls. Code is therefore kept in a
 folder that is named after a digest of all sources of the core. Code that is kept is run unchecked, and numba's index
 of it is a pickle: a folder is used only if this user and the system alone can change what is in it.
@@ -116,7 +120,12 @@ def _remove_unused(parent: Path) -> None:
 
 
 def _compiled(function: _Function, **options: Any) -> _Function:
-    """Have numba compile a function when it is called, and keep its code in the folder of `place`, if there is one."""
+    """Have numba compile a function when it is called, and keep its code in the folder of `place`, if there is one.
+
+    Numba hands `forceinline` and `_nrt` (whether references are counted) on to all that a function calls, unless they
+    are given there: how a kernel is compiled would depend on which of its callers was the first. Both always are.
+    """
+    options = {"forceinline": False, "_nrt": False} | options
     options |= {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}  # no C code calls them
     folder, of_the_user = place().folder, numba.config.CACHE_DIR
     if folder is not None:
@@ -135,6 +144,11 @@ def kernel(function: _Function) -> _Function:
     return _compiled(function, fastmath=_CONTRACTED)
 
 
+def allocating(function: _Function) -> _Function:
+    """Compile a kernel that makes arrays."""
+    return _compiled(function, fastmath=_CONTRACTED, _nrt=True)
+
+
 def leaf(function: _Function) -> _Function:
     """Compile what is short into its callers: to hand over arrays takes as long as it does."""
     return _compiled(function, fastmath=_CONTRACTED, forceinline=True)
@@ -143,15 +157,18 @@ def leaf(function: _Function) -> _Function:
 def inlined(function: _Function) -> _Function:
     """Write a long function that is called in one place into its caller, before that is compiled: it is compiled once.
 
-    Any other kernel is compiled by itself, and again with each that it is part of. Numba counts the references of what
-    is written in, and keeps its variables alive: compare the time of a scene before and after.
+    Any other kernel is compiled by itself, and again with each that it is part of. Numba keeps the variables of what is
+    written in alive: compare the time of a scene before and after.
     """
     return _compiled(function, fastmath=_CONTRACTED, inline="always")
 
 
 def quadrature(function: _Function) -> _Function:
-    """Compile a loop of sums whose terms may be added in any order, so that several are added at once."""
-    return _compiled(function, fastmath=_REORDERED)
+    """Compile a loop of sums whose terms may be added in any order, so that several are added at once.
+
+    It may make arrays.
+    """
+    return _compiled(function, fastmath=_REORDERED, _nrt=True)
 
 
 def quadrature_leaf(function: _Function) -> _Function:

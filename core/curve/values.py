@@ -80,7 +80,7 @@ def depth_and_load(curve: Curve, i: int, t: float) -> tuple[float, float]:
     return depth, (depth - waves) / (stretch * stretch)
 
 
-@kernel
+@leaf
 def state_in(curve: Curve, y: float) -> tuple[float, float]:
     """Return depth and load at a radius within the table."""
     i, t = place_of(curve.table, y)

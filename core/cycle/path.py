@@ -121,7 +121,7 @@ def _leave(curve: Curve, state: State, low: float, high: float) -> float:
     return lost
 
 
-@kernel
+@leaf
 def fill_unloading(curve: Curve, trace: Floats, j: int, stack: Integers) -> None:
     """Fill what unloading loses from the start of branch j on, and of all branches on its way.
 
@@ -147,7 +147,7 @@ def fill_unloading(curve: Curve, trace: Floats, j: int, stack: Integers) -> None
         j = i
 
 
-@kernel
+@leaf
 def visited_within(trace: Floats, visited: Integers, visits: int, rim: float) -> int:
     """Return how many of the branches that loading visits it reaches within a rim."""
     low, high = 0, visits
@@ -160,7 +160,7 @@ def visited_within(trace: Floats, visited: Integers, visits: int, rim: float) ->
     return low
 
 
-@kernel
+@leaf
 def started_within(trace: Floats, count: int, rim: float) -> int:
     """Return how many branches start within a rim."""
     low, high = 0, count
@@ -173,7 +173,7 @@ def started_within(trace: Floats, count: int, rim: float) -> int:
     return low
 
 
-@kernel
+@leaf
 def load_to(curve: Curve, rim: float, trace: Floats, visited: Integers, visits: int) -> Loaded:
     """Return what loading up to a rim loses, and how deep it gets: inf if the rim is beyond the table."""
     depth = load = level = math.inf
@@ -199,7 +199,7 @@ def load_to(curve: Curve, rim: float, trace: Floats, visited: Integers, visits: 
     return Loaded(lost, jumps, deepest, n == 0, True)
 
 
-@kernel
+@leaf
 def unload_from(curve: Curve, rim: float, trace: Floats, count: int, stack: Integers) -> Unloaded:
     """Return what unloading from a rim loses, and where it ends."""
     j = started_within(trace, count, rim) - 1

@@ -89,14 +89,9 @@ def _sample(pattern: Pattern, centre: float, half: float, kappa: Floats, rise: F
 
 
 @quadrature
-def patterned_table(
-    plain: Table, crest: float, g: float, pattern: Pattern, y_end: float, nodes: Floats, polys: Floats
-) -> Table:
-    """Return the table of one scene up to y_end, in the given room: that of waves g U - W, for which g is 1.
-
-    `crest` bounds -U' y^((k-1)/2) of the `plain` table; `polys` has a lane more than its polynomials.
-    """
-    k, bins = plain.k, bin_of(plain, y_end) + 1
+def _fill_bins(plain: Table, g: float, pattern: Pattern, bins: int, nodes: Floats, polys: Floats) -> None:
+    """Fill the first bins of the table of `patterned_table`, all but their bounds."""
+    k = plain.k
     for row in range(at.ROWS):
         factor = g * g if row == at.KV else g if row in (at.U, at.U1, at.V, at.KU, at.KUU) else 1.0
         for i in range(bins + 1):
@@ -136,6 +131,18 @@ def patterned_table(
             nodes[at.U, i + edge] -= value
             nodes[at.V, i + edge] -= slope / half
             nodes[at.KE, i + edge] = nodes[at.E, i + edge] + value / nodes[at.Y, i + edge]
+
+
+@kernel
+def patterned_table(
+    plain: Table, crest: float, g: float, pattern: Pattern, y_end: float, nodes: Floats, polys: Floats
+) -> Table:
+    """Return the table of one scene up to y_end, in the given room: that of waves g U - W, for which g is 1.
+
+    `crest` bounds -U' y^((k-1)/2) of the `plain` table; `polys` has a lane more than its polynomials.
+    """
+    k, bins = plain.k, bin_of(plain, y_end) + 1
+    _fill_bins(plain, g, pattern, bins, nodes, polys)
     lowest = g * plain.lowest - (pattern.most - 1.0)
     table = Table(k, plain.exponent, plain.share, plain.start, plain.width, lowest, plain.geometric, bins, nodes, polys)
     fill_bounds(table, g * crest + pattern.steep)

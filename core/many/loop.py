@@ -23,13 +23,12 @@ from gradhesion.core.cycle.path import Loaded, State, Unloaded, end_state, snap_
 from gradhesion.core.cycle.pull_off import Lowest, deeper
 from gradhesion.core.cycle.ties import loading_is_tied, rim_is_tied, target_is_tied
 from gradhesion.core.cycle.turning import turning_radius
-from gradhesion.core.jit import inlined, kernel
+from gradhesion.core.jit import allocating, inlined, kernel
 from gradhesion.core.many.ends import Leaving, Loading, finish_loading, finish_unloading, leave
 from gradhesion.core.many.losses import (
     INWARDS,
     JUMPS_INWARDS,
     JUMPS_OUTWARDS,
-    LOSSES,
     OUTWARDS,
     SHUT,
     jumps_are_open,
@@ -52,6 +51,7 @@ from gradhesion.core.many.search import (
 )
 from gradhesion.core.many.waves import start_of, wave_of, waves_from
 from gradhesion.core.table.layout import end_of
+from gradhesion.core.types import Floats
 
 
 class Looped(NamedTuple):
@@ -69,7 +69,7 @@ class Looped(NamedTuple):
     tied: bool
 
 
-@kernel
+@allocating
 def begin(long: Long, curve: Curve, folds: int) -> tuple[Loading, int]:
     """Let loading go over the waves next to the centre, and find the wave to which it jumps from there.
 
@@ -209,19 +209,20 @@ def loop_far(
     starts: int,
     rim: float,
     edge: float,
+    total: Floats,
 ) -> Looped:
     """Return the cycle up to a rim of a punch that ends at an `edge`; `same`: closing and opening are one curve.
 
-    `folds`, `begun` and `starts` are those of `end_of_folds` and `begin` of closing.
+    `folds`, `begun` and `starts` are those of `end_of_folds` and `begin` of closing; `total` is room, (LOSSES,).
     """
     unknown = Looped(Loaded(0.0, 0.0, 0.0, False, False), Unloaded(0.0, 0.0, 0.0), 0.0, 0.0, True, False)
-    last, total = _end_wave(long, folds, rim), np.zeros(LOSSES)
+    last = _end_wave(long, folds, rim)
     if last > MOST:
         return unknown
     if not begun.landed and begun.wave <= last:
         begun, _ = land(long, closing, begun)
     left = leave(long, opening, starts, last) if same else Leaving(last + 1, 0.0, 0.0, 0.0, False)
-    from_top = begun.wave if begun.landed else last
+    from_top, total[:] = begun.wave if begun.landed else last, 0.0
     if not sum_waves(long, closing, from_top, min(left.wave, last), last, folds, total):
         return unknown
     if begun.landed:

@@ -8,7 +8,7 @@ from gradhesion.core.curve import trace as at
 from gradhesion.core.curve.values import Curve, slope_at
 from gradhesion.core.cycle.disc import gap_is_open
 from gradhesion.core.cycle.path import end_state, fill_unloading, walk_on
-from gradhesion.core.jit import inlined, kernel
+from gradhesion.core.jit import allocating, inlined, kernel
 from gradhesion.core.many.search import (
     BORN,
     BOTTOM,
@@ -124,7 +124,7 @@ def _panel(
     return True
 
 
-@kernel
+@allocating
 def sum_waves(long: Long, curve: Curve, out: int, back: int, last: int, folds: int, total: Floats) -> bool:
     """Add what the waves up to `last` lose to `total` (LOSSES,), outwards those after wave `out`, inwards after `back`.
 

@@ -10,8 +10,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from gradhesion.core.borrowed import borrowed
-from gradhesion.core.jit import kernel, leaf, quadrature
+from gradhesion.core.jit import allocating, kernel, leaf, quadrature
 from gradhesion.core.table import layout as at
 from gradhesion.core.table.filling import fill_bins
 from gradhesion.core.table.layout import LANES, N, Source, Table
@@ -93,7 +92,7 @@ def _fill_scales(k: float, m: float, y: float, scales: Floats) -> None:
         scales[_LANES_AT + 2 * N + n], scales[_LANES_AT + 3 * N + n] = power, stretch  # of y^m and E
 
 
-@kernel
+@allocating
 def _fill_doubling(source: Source, index: int, doubling: int, values: Floats, nodes: Floats, polys: Floats) -> None:
     """Fill one doubling of `values`; `index` is the bin of `source` in which wave 0 would begin, the rest is room."""
     per, scales = values.shape[1] - 1, np.empty(SIZE)
@@ -130,12 +129,12 @@ def _fill_doubling(source: Source, index: int, doubling: int, values: Floats, no
 
 
 @quadrature
-def mix_wave(waves: Waves, number: float, column: int, nodes: Floats, polys: Floats, room: Floats) -> None:
-    """Put the bins of a wave into the columns from `column` on, and the edge after them; `room` is (3, SIZE)."""
+def _mix_wave(waves: Waves, number: float, column: int, nodes: Floats, polys: Floats) -> None:
+    """Put the bins of a wave into the columns from `column` on, and the edge after them."""
     k, bins, width, y = waves.k, waves.per, waves.width, start_of(waves, number)
     place = max(math.log2(number / FIRST_WAVE), 0.0)
     doubling = min(int(place), waves.values.shape[0] - 1)
-    scales, weights, mixed = room[0], room[1], room[2]
+    scales, weights, mixed = np.empty(SIZE), np.empty(PLACES), np.empty(SIZE)
     _fill_scales(k, waves.exponent, y, scales)
     total, exact = 0.0, -1
     for n in range(PLACES):
@@ -177,15 +176,15 @@ def mix_wave(waves: Waves, number: float, column: int, nodes: Floats, polys: Flo
 @kernel
 def waves_from(waves: Waves, number: float, nodes: Floats, polys: Floats) -> Table:
     """Return a table of as many waves, from one on, as the given room holds."""
-    bins, room = len(polys), np.empty((3, SIZE))
+    bins = len(polys)
     nodes[at.HM, 0] = math.nan  # until `fill_from_zero`: what stands there is of other waves
     for j in range(bins // waves.per):
-        mix_wave(waves, number + j, j * waves.per, nodes, polys, room)
+        _mix_wave(waves, number + j, j * waves.per, nodes, polys)
     start = start_of(waves, number)
     return Table(waves.k, waves.exponent, waves.share, start, waves.width, waves.lowest, 0, bins, nodes, polys)
 
 
-@kernel
+@allocating
 def fill_rule(count: float, places: Floats, weights: Floats, last: Floats) -> None:
     """Fill Gauss's rule for sums over 0, 1, ..., count - 1 (count > GAUSS), exact up to degree 2 GAUSS - 1.
 
@@ -230,7 +229,7 @@ def _add_integrals(waves: Waves, number: float, weight: float, nodes: Floats, po
         sums[2] += weight * nodes[at.KV, i]
 
 
-@kernel
+@allocating
 def _integrate(waves: Waves, first: int, last: int, nodes: Floats, polys: Floats, sums: Floats) -> None:
     """Add the integrals of `_add_integrals` over the waves `first` to `last` - 1, of one doubling, to `sums`.
 
@@ -247,7 +246,7 @@ def _integrate(waves: Waves, first: int, last: int, nodes: Floats, polys: Floats
         _add_integrals(waves, first + places[i], weights[i], nodes, polys, sums)
 
 
-@kernel
+@allocating
 def fill_from_zero(waves: Waves, number: int, room: Floats, polys: Floats, nodes: Floats) -> None:
     """Fill the integrals from 0 to the start of a wave, rows HM to HUU, in the first column of `nodes`."""
     doubling = min(int(math.log2(number / FIRST_WAVE)), waves.values.shape[0] - 1)
@@ -260,10 +259,9 @@ def fill_from_zero(waves: Waves, number: int, room: Floats, polys: Floats, nodes
     nodes[at.HU, 0], nodes[at.HPU, 0], nodes[at.HUU, 0] = sums[0], sums[1], sums[2]
 
 
-@kernel
+@allocating
 def fill_waves(waves: Waves, table: Table, source: Source) -> None:
     """Fill the values and sums of waves; `table` reaches beyond FIRST_WAVE and begins at 0."""
-    waves, table, source = borrowed((waves, table, source))
     per = waves.per
     nodes, polys = np.zeros((at.ROWS, per + 1)), np.zeros((per, LANES, N))
     index = round(waves.cut / waves.width - source.shift)

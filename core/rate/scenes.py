@@ -173,21 +173,21 @@ def close_edge(edge: Edge, rim: float, target: float, furthest: float, room: Roo
 
 @kernel
 def move_edges(
-    punch: Punch, table: Table, scenes: Floats, reduced: Floats, n: float, opens: bool, track: Floats, out: Floats
+    punch: Punch, table: Table, scenes: Floats, reduced: Floats, n: float, opens: bool, room: Room, out: Floats
 ) -> None:
     """Open or close the contacts of scenes of one exponent by a law of the power n.
 
     `scenes` and `reduced` are those of scenes/rows.py, the first with a last row of V/v*. `out` has a row a result,
-    NaN where nothing is stored, and a last one of status. `track` takes where the edge of the last scene has been.
+    NaN where nothing is stored, and a last one of status. The track of the room takes where the last edge has been.
     """
-    room = Room(np.empty((9, steps.STAGES)), np.empty((steps.STAGES, steps.STAGES + 1)), track)
+    shortest_wave = 2.0 * math.pi / np.max(punch.waves[:, 0])
     for i in range(scenes.shape[1]):
-        speed, units, found = scenes[-1, i], reduced[:, i].copy(), out[:, i]
+        speed, units, found = scenes[-1, i], reduced[:, i], out[:, i]
         root, rim = 1.0 if opens else math.sqrt(scenes[at.RATIO, i]), units[at.RIM_Y]
         target = math.inf if punch.turn == AT_RIM else units[at.TARGET_VALUE]
         if not (units[at.VALID] and 0.0 < speed < math.inf and root > 0.0 and min(rim, target) < math.inf):
             continue
-        shortest = 2.0 * math.pi / np.max(punch.waves[:, 0]) if units[at.BY_WAVES] > 0.0 else math.inf
+        shortest = shortest_wave if units[at.BY_WAVES] > 0.0 else math.inf
         curve = Curve(table, units[at.BY_POWER], units[at.BY_WAVES], 1.0, units[at.BY_LOAD])
         furthest = MOST_WAVES * shortest
         edge = Edge(curve, shortest, speed * units[at.LENGTH] / units[at.DEPTH], n, root, 1.0 if opens else -1.0)
@@ -235,7 +235,8 @@ def move(
         own = np.flatnonzero(scenes[at.K] == k)
         table = long_table(punch, k, EXACT, 1, float(far[own].max()))[0]
         chosen, numbers, found = (np.ascontiguousarray(array[:, own]) for array in (scenes, reduced, out))
-        move_edges(punch, table, chosen, numbers, rate.exponent, opens, track, found)
+        room = Room(np.empty((9, steps.STAGES)), np.empty((steps.STAGES, steps.STAGES + 1)), track)
+        move_edges(punch, table, chosen, numbers, rate.exponent, opens, room, found)
         out[:, own] = found
 
     with ThreadPoolExecutor(known["threads"] or processors()) as pool:

@@ -8,7 +8,6 @@ traces; what each of them gets does not depend on the others.
 import math
 from typing import NamedTuple
 
-from gradhesion.core.borrowed import borrowed
 from gradhesion.core.curve.folds import find_folds
 from gradhesion.core.curve.levels import polished
 from gradhesion.core.curve.trace import END, END_LEVEL, LANDING, START
@@ -319,7 +318,7 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
         out[at.SATURATION, i] = last_fold * reduced[at.LENGTH, i]
 
 
-@kernel
+@leaf
 def curve_end(reach: float, scenes: Floats, reduced: Floats, start: int, last: int, out: Floats) -> int:
     """Return the end of the scenes from `start` on that share its curve; `start` if it cannot be solved (stored).
 
@@ -355,7 +354,6 @@ def solve_patterned_forces(task: Task, scenes: Floats, reduced: Floats, first: i
 @inlined
 def solve_exponent(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Solve the scenes `first` to `last` - 1 of one exponent, on arrays that Python holds."""
-    task, scenes, reduced, out = borrowed((task, scenes, reduced, out))
     if not task.wanted.cycle and task.punch.turn == AT_RIM:  # of an interface with a pattern
         solve_patterned_forces(task, scenes, reduced, first, last, out)
         return

@@ -8,12 +8,12 @@ from typing import Final
 
 import numpy as np
 
-from gradhesion.core.borrowed import borrowed
 from gradhesion.core.curve.values import Curve
 from gradhesion.core.cycle.disc import disc_of
 from gradhesion.core.cycle.pull_off import lowest_load
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.many.loop import begin, last_fold, loop_far, lowest_far, turn_far
+from gradhesion.core.many.losses import LOSSES
 from gradhesion.core.many.search import MOST, NEAR, Long, end_of_folds, from_birth, space_for, with_limits
 from gradhesion.core.many.waves import Waves, reach_of, start_of, waves_of
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE, TOO_MANY_WAVES
@@ -50,14 +50,22 @@ def _curve(task: Task, reduced: Floats, i: int, root: float) -> Curve:
 
 @kernel
 def solve_long(
-    task: Task, every: Long, pull: Long, most: Integers, scenes: Floats, reduced: Floats, walkable: float, out: Floats
+    task: Task,
+    every: Long,
+    pull: Long,
+    most: Integers,
+    scenes: Floats,
+    reduced: Floats,
+    walkable: float,
+    total: Floats,
+    out: Floats,
 ) -> None:
     """Solve scenes of one exponent; others are left as SHORT: irregular ones, and those that end next to the centre.
 
     Of the latter NEED is set to what they need; irregular ones that reach beyond `walkable` have no value. `pull` is
-    `every` with the waves of the pull-off; `most` is the wave at which the search of each scene ends, (scenes,).
+    `every` with the waves of the pull-off; `most` is the wave at which the search of each scene ends, (scenes,);
+    `total` is room, (LOSSES,).
     """
-    task, every, pull, most, scenes, reduced, out = borrowed((task, every, pull, most, scenes, reduced, out))
     turn, bins = task.punch.turn, task.by_load.bins
     for i in range(scenes.shape[1]):
         no_value(out, i, NO_VALUE)
@@ -91,7 +99,7 @@ def solve_long(
         if not task.wanted.cycle and turn == AT_RIM:
             put_force(lowest, reduced, i, out)
             continue
-        looped = loop_far(long, closing, opening, root == 1.0, folds, begun, starts, y, edge)
+        looped = loop_far(long, closing, opening, root == 1.0, folds, begun, starts, y, edge, total)
         if not looped.loaded.known:
             no_value(out, i, at.SHORT if reduced[at.NEED, i] < walkable else NO_VALUE | TOO_MANY_WAVES)
             continue
@@ -107,7 +115,6 @@ def solve_long(
 @kernel
 def fill_saturation(task: Task, every: Long, most: Integers, reduced: Floats, out: Floats) -> None:
     """Store the radii of the outermost folds of opening, of scenes that have a value; `most` as of `solve_long`."""
-    task, every, most, reduced, out = borrowed((task, every, most, reduced, out))
     for i in range(reduced.shape[1]):
         if out[at.STATUS, i] < NO_VALUE or not int(out[at.STATUS, i]) & NO_VALUE:
             long = with_limits(every, every.near, most[i])
@@ -182,7 +189,7 @@ def solve_summed(
         by_load, pull = _long_of(punch, wanted, k, OF_PULL_OFF, profile, int(most.max()))
         task = task._replace(by_load=by_load.table)
     walkable = (MOST_BINS - 2 * GEOMETRIC) * width_of(punch.waves)
-    solve_long(task, long, pull, most, chosen, own, walkable, found)
+    solve_long(task, long, pull, most, chosen, own, walkable, np.empty(LOSSES), found)
     left = np.flatnonzero(found[at.STATUS] == at.SHORT)
     if left.size:
         rest = np.full((at.RESULT_ROWS, left.size), np.nan)

@@ -11,7 +11,6 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from gradhesion.core.borrowed import borrowed
 from gradhesion.core.cycle.turning import turning_reach
 from gradhesion.core.jit import inlined, kernel
 from gradhesion.core.problem.material import theta_of
@@ -210,7 +209,6 @@ def _is_below_tables(punch: Punch, i: int, least: float, reduced: Floats) -> boo
 @kernel
 def reduce_scenes(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats) -> None:
     """Fill the reduced numbers of all scenes but MOST and STEEP; scenes that differ in the rim alone share the rest."""
-    punch, basis, scenes, reduced = borrowed((punch, basis, scenes, reduced))
     k = nu = theta = depth_factor = crest = steepest = math.nan
     mean, least = mean_of(punch.waves), _LEAST / punch.waves[:, 0].max()
     i = int(np.int64(0))  # a plain 0 would be a type of its own

@@ -7,12 +7,11 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core.borrowed import borrowed
 from gradhesion.core.curve.values import Curve, bin_of
 from gradhesion.core.cycle.disc import profile_of
 from gradhesion.core.cycle.pull_off import Lowest, envelope_place, lowest_load, serves
 from gradhesion.core.edge.pattern import bins_of_wave, bounds_of
-from gradhesion.core.jit import kernel, leaf
+from gradhesion.core.jit import allocating, kernel, leaf
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.cycles import curve_end, solve_exponent
@@ -69,7 +68,6 @@ def _near_lowest(basis: Basis, kept: Kept, place: int, curve: Curve, rim: float)
 @kernel
 def near_forces(basis: Basis, kept: Kept, scenes: Floats, reduced: Floats, out: Floats) -> None:
     """Solve the pull-off alone of scenes in the order of their exponents, once for neighbours of the same curve."""
-    basis, kept, scenes, reduced, out = borrowed((basis, kept, scenes, reduced, out))
     first, k, place = int(np.int64(0)), math.nan, 0  # a plain 0 would be a type of its own
     while first < scenes.shape[1]:
         last = curve_end(math.inf, scenes, reduced, first, scenes.shape[1], out)
@@ -96,7 +94,6 @@ def solve_cycles(
     punch: Punch, wanted: Wanted, tables: Tables, profile: Floats, scenes: Floats, reduced: Floats, out: Floats
 ) -> None:
     """Solve cycles in the order of their exponents; scenes that reach beyond the tables are left as SHORT."""
-    punch, tables, profile, scenes, reduced, out = borrowed((punch, tables, profile, scenes, reduced, out))
     first = int(np.int64(0))  # a plain 0 would be a type of its own, for which callees are compiled once more
     while first < scenes.shape[1]:
         last = end_of_exponent(scenes, first)
@@ -105,10 +102,9 @@ def solve_cycles(
         first = last
 
 
-@kernel
+@allocating
 def far_rims(punch: Punch, width: float, form: int, scenes: Floats, reduced: Floats, out: Floats) -> None:
     """Fill the depths at rims that are beyond the tables of their scenes, on the endless branch."""
-    punch, scenes, reduced, out = borrowed((punch, scenes, reduced, out))
     source = source_of(0.5, punch.exponent, punch.waves, width, 0.0, form)
     for i in range(scenes.shape[1]):
         y = reduced[at.RIM_Y, i]
@@ -124,7 +120,6 @@ def far_rims(punch: Punch, width: float, form: int, scenes: Floats, reduced: Flo
 @kernel
 def far_forces(tables: Tables, scenes: Floats, reduced: Floats, out: Floats) -> None:
     """Solve the pull-off alone of scenes on a long table."""
-    tables, scenes, reduced, out = borrowed((tables, scenes, reduced, out))
     table = tables.long_by_load
     for i in range(scenes.shape[1]):
         curve = Curve(table, reduced[at.BY_POWER, i], reduced[at.BY_WAVES, i], 0.0, 1.0)

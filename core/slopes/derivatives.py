@@ -9,7 +9,6 @@ from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 
-from gradhesion.core.borrowed import borrowed
 from gradhesion.core.curve.trace import END, LANDING
 from gradhesion.core.curve.values import Curve, bin_of, load_curve
 from gradhesion.core.cycle.jumps import JUMP_ROWS, LANDED, LEFT, list_loading_jumps, list_unloading_jumps
@@ -89,18 +88,33 @@ class Near(NamedTuple):
     value: Floats
 
 
-@kernel
-def _near_of(tables: FourTables, basis: Basis, rooms: Rooms, bins: int, filled: int) -> Near:
+def near_of(tables: FourTables, basis: Basis, rooms: Rooms, bins: int) -> Near:
     """Return what neighbours of a scene are made from: what is given, and room that each scene overwrites.
 
     `tables` are of the exponents k + STEP PLACES, `basis` what near ones are filled from, `rooms` for tables with a
-    pattern. `bins` is how many bins each table has room for, which bounds the number of jumps: those of loading and
-    of unloading are one more than branches at most (`room_for`). `filled` is how many bins are filled already, or ALL.
+    pattern. `bins` is how many bins each table has, which bounds the number of jumps: those of loading and of unloading
+    are one more than branches at most (`room_for`).
     """
     jumps, by = np.empty((JUMP_ROWS, 2 * bins + 16)), np.zeros((ROWS, AREA + 1))
     scene, numbers = np.empty((at.PARAMETER_ROWS, 1)), np.empty((at.REDUCED_ROWS, 1))
-    marks = np.array([filled])
-    return Near(tables, basis, np.zeros(NODES), marks, rooms, jumps, scene, numbers, by, np.zeros(AREA + 1))
+    return Near(tables, basis, np.zeros(NODES), np.array([ALL]), rooms, jumps, scene, numbers, by, np.zeros(AREA + 1))
+
+
+@leaf
+def _on(near: Near, tables: FourTables) -> Near:
+    """Return the same with other tables."""
+    return Near(
+        tables,
+        near.basis,
+        near.weights,
+        near.filled,
+        near.rooms,
+        near.jumps,
+        near.scene,
+        near.numbers,
+        near.by,
+        near.value,
+    )
 
 
 @kernel
@@ -297,7 +311,10 @@ def _fill_scene(
         return False
     turns = task.punch.turn != AT_RIM and y < reduced[at.RIM_Y, i]
     frozen = _freeze(task, walked, opened, y, lowest.y, turns, near.jumps)
-    near.scene[:, 0], near.numbers[:, 0] = scenes[:, i], reduced[:, i]
+    for row in range(scenes.shape[0]):
+        near.scene[row, 0] = scenes[row, i]
+    for row in range(reduced.shape[0]):
+        near.numbers[row, 0] = reduced[row, i]
     near.value[:] = 0.0
     _observe(pair, frozen, 1.0, near.value)
     y_end = _farthest(frozen, pair.pattern.rows.shape[1] > 0)
@@ -312,10 +329,9 @@ def solve_slopes(
     punch: Punch,
     wanted: Wanted,
     tables: Tables,
-    neighbours: FourTables,
+    near: Near,
     nodes: Floats,
     polys: Floats,
-    own_rooms: Rooms,
     profile: Floats,
     scenes: Floats,
     reduced: Floats,
@@ -323,27 +339,24 @@ def solve_slopes(
 ) -> None:
     """Store the derivatives of scenes in the order of their exponents; those that reach beyond the tables are SHORT.
 
-    `neighbours` are the long tables of the exponents next to that of `tables`; where it has no long one, `nodes`
-    (4, ROWS, bins + 1) and `polys` (4, bins, LANES, N) have room for near ones. `own_rooms` are for the tables of a
-    scene with a pattern. `out` has the rows of results, of force, of energy and of the unit, (UNIT + 1, scenes).
+    `near` has the long tables of the exponents next to that of `tables`; where it has no long one, `nodes`
+    (4, ROWS, bins + 1) and `polys` (4, bins, LANES, N) have room for near ones. `out` has the rows of results, of
+    force, of energy and of the unit, (UNIT + 1, scenes).
     """
-    punch, tables, neighbours, nodes, polys, own_rooms, profile, scenes, reduced, out = borrowed(
-        (punch, tables, neighbours, nodes, polys, own_rooms, profile, scenes, reduced, out)
-    )
-    basis, bins, filled = tables.basis, tables.long.bins, ALL
     first = int(np.int64(0))  # a plain 0 would be a type of its own to callees
     while first < scenes.shape[1]:
         last, k = end_of_exponent(scenes, first), scenes[at.K, first]
         task = task_of(punch, wanted, tables, profile, scenes, reduced, first, last)
         if tables.long.bins == 0:
-            bins, filled = polys.shape[1], first - first  # not a plain 0, as above
+            basis, bins = near.basis, polys.shape[1]
             neighbours = (
                 table_in(basis, k - 2.0 * STEP, bins, nodes[0], polys[0]),
                 table_in(basis, k - STEP, bins, nodes[1], polys[1]),
                 table_in(basis, k + STEP, bins, nodes[2], polys[2]),
                 table_in(basis, k + 2.0 * STEP, bins, nodes[3], polys[3]),
             )
-        near = _near_of(neighbours, basis, own_rooms, bins, filled)
+            near = _on(near, neighbours)
+            near.filled[0] = 0
         while first < last:
             end = curve_end(task.reach, scenes, reduced, first, last, out)
             if end > first:

@@ -268,7 +268,7 @@ def place_for(basis: Basis, kept: Kept, k: float) -> int:
     return place
 
 
-@kernel
+@leaf
 def fill_kept(basis: Basis, kept: Kept, place: int, low: int, high: int) -> None:
     """Fill the bins `low` to `high` - 1 of a kept table, and those between them and the ones that are filled."""
     k, weights, nodes, polys = kept.k[place], kept.weights[place], kept.nodes[place], kept.polys[place]

@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 
-from gradhesion.core.borrowed import borrowed
-from gradhesion.core.jit import kernel, leaf, quadrature, quadrature_leaf
+from gradhesion.core.jit import allocating, kernel, leaf, quadrature, quadrature_leaf
 from gradhesion.core.table import layout as at
 from gradhesion.core.table.functions import LAST, TAIL, Functions, functions_of, pairs_at
 from gradhesion.core.table.layout import BY_LOAD, EXACT, FIRST, PER_WAVE, POINTS, RATIO, WEIGHTS, N, Source, Table
@@ -65,7 +64,7 @@ def fill_far(
                         factor /= n
 
 
-@kernel
+@allocating
 def source_of(k: float, exponent: float, waves: Floats, width: float, shift: float, form: int) -> Source:
     """Return what bins of an exponent are filled from; `waves` are rows (n, cos, sin)."""
     functions = functions_of(k)
@@ -209,7 +208,6 @@ def fill_bins(source: Source, first: int, geometric: int, count: int, nodes: Flo
 
     Rows of bounds and integrals from 0 are left to `fill_bounds`, for they need all bins from the first one.
     """
-    source, nodes, polys = borrowed((source, nodes, polys))
     k, m, width, shift = source.k, source.exponent, source.width, source.shift
     start, power = (first + shift) * width, -0.5 * (1.0 + k)
     per = source.far_waves.shape[2]

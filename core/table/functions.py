@@ -12,7 +12,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from gradhesion.core.jit import kernel
+from gradhesion.core.jit import allocating, kernel
 from gradhesion.core.types import Floats
 
 FIRST: Final = 2.0
@@ -68,7 +68,7 @@ def _by_series(K: float, z: float) -> tuple[float, float, float, float]:
     return sine * z, sine_slope, cosine, cosine_slope / z
 
 
-@kernel
+@allocating
 def _fill_bins(K: float, at_zero: float, bins: Floats) -> None:
     """Put Taylor coefficients of S and C into `bins` (BINS, 2, TERMS), from the equation; `at_zero` is C(K, 0)."""
     half = 1.0 / 4.0
@@ -113,7 +113,7 @@ def _fill_tail(K: float, real: Floats, imaginary: Floats, slow: Floats) -> None:
             start *= (a - n) * 2.0 * (2.0 * n + 1.0)
 
 
-@kernel
+@allocating
 def functions_of(k: float) -> Functions:
     """Return the functions of an exponent k, about -0.01 to 1.01: 40 microseconds."""
     bins, phase = np.zeros((2, BINS, 2, TERMS)), np.zeros((2, 3))

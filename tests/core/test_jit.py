@@ -39,7 +39,19 @@ def hypotenuse_squared(x, y):
 def of_the_user(x):
     return x + 1.0
 
+@kernel
+def half(x):
+    return 0.5 * x
+
+@leaf
+def quarter(x):
+    return half(half(x))
+
+quarter(1.0)
+code = "".join(half.inspect_llvm().values()) if half.stats.cache_misses else ""
+
 print(json.dumps({
+    "inherits": "alwaysinline" in code,
     "value": hypotenuse_squared(3.0, 4.0), "compiled": sum(hypotenuse_squared.stats.cache_misses.values()),
     "found": sum(hypotenuse_squared.stats.cache_hits.values()), "folder": str(place().folder), "why": place().why,
     "digest": SOURCES, "untouched": numba.config.CACHE_DIR == before, "own": of_the_user.stats.cache_path,
@@ -95,6 +107,7 @@ def test_kernels_are_found_again_compiled_anew_for_other_sources_and_kept_for_a_
     assert (first["compiled"], first["found"], first["why"]) == (1, 0, "")
     assert Path(first["folder"]).parent == Path(first["own"]).parent == cache, "the user's own stay there"
     assert first["untouched"]
+    assert not first["inherits"], "how a kernel is compiled does not depend on who calls it first"
     for name, age in (days | {Path(first["folder"]).name: 31}).items():
         (cache / name / "core").mkdir(parents=True, exist_ok=True)
         then = (cache / name).stat().st_mtime - 86400 * age

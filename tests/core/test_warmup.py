@@ -1,6 +1,9 @@
 """What is compiled ahead is all that is used then."""
 
 import math
+import os
+import subprocess
+import sys
 from collections.abc import Callable
 from typing import Any
 
@@ -52,6 +55,26 @@ ASKED: list[tuple[Callable[..., Any], dict[str, Any], Any, dict[str, Any]]] = [
     (solve, MANY_K, ["pull_off_force"], {}),
     (solve, MANY_K, ["pull_off_force"], {"solver": "asymptotic"}),
 ]  # fmt: skip
+
+ARRAYS = """
+from numba.core.runtime import rtsys
+from gradhesion.core import warm_up
+
+def made_and_kept():
+    warm_up()
+    stats = rtsys.get_allocation_stats()
+    return stats.mi_alloc, stats.mi_alloc - stats.mi_free
+
+(first, kept), (then, now) = made_and_kept(), made_and_kept()
+print(then > first, now - kept)
+"""
+
+
+@pytest.mark.slow
+def test_the_arrays_that_kernels_make_are_given_back() -> None:
+    counting = os.environ | {"NUMBA_NRT_STATS": "1"}
+    done = subprocess.run([sys.executable, "-c", ARRAYS], env=counting, capture_output=True, text=True, check=False)
+    assert (done.stdout, done.stderr, done.returncode) == ("True 0\n", "", 0)
 
 
 @pytest.mark.slow

@@ -8,7 +8,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from gradhesion.core.jit import kernel
+from gradhesion.core.jit import allocating, kernel
 from gradhesion.core.types import Floats, Integers, Truths
 
 _BLOCK: Final = 16  # pieces in a box: of one further away than the nearest piece so far all are skipped
@@ -95,7 +95,7 @@ def _on_piece(
     return t, sign * size, -(rise + slope * run) / unit, (run - slope * rise) / unit
 
 
-@kernel
+@allocating
 def _feet(points: Floats, chain: Floats, tangents: Floats, curved: Truths) -> Feet:
     """Find the feet; arguments are as to `feet`."""
     count, last = points.shape[0], chain.shape[0] - 2

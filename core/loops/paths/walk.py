@@ -14,13 +14,13 @@ from typing import Final
 
 import numpy as np
 
-from gradhesion.core.jit import kernel
+from gradhesion.core.jit import allocating, kernel
 from gradhesion.core.types import Floats, Truths
 
 _NEWTON: Final = 4  # steps to the root of a cubic from that of its chord: they double the digits
 
 
-@kernel
+@allocating
 def between(radius: Floats, states: Floats, at: int, share: float) -> tuple[float, Floats]:
     """Return the radius and the state (4,) at a share of the way from the place before `at` to it."""
     found = states[:, at].copy()
@@ -65,7 +65,7 @@ def met(radius: Floats, states: Floats, jump: Truths, aim: tuple[float, float], 
     return at, _crossing(level[at - 1], level[at], begin, end, target)
 
 
-@kernel
+@allocating
 def _with_tops(radius: Floats, states: Floats, row: int, sign: float) -> tuple[Floats, Floats]:
     """Return radii and states with those among them where a row, times a sign, has its maxima between two radii."""
     places, found = np.empty(2 * radius.size), np.empty((4, 2 * radius.size))
@@ -86,7 +86,7 @@ def _with_tops(radius: Floats, states: Floats, row: int, sign: float) -> tuple[F
     return places[:size], found[:, :size].copy()
 
 
-@kernel
+@allocating
 def climb(radius: Floats, states: Floats, row: int, sign: float, start: float) -> tuple[Floats, Floats, Truths]:
     """Return radii and states that are passed as a row of the states, times a sign, grows from a start.
 
