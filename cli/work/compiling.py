@@ -19,8 +19,8 @@ from gradhesion.cli.work.solve.blocks import solve_block
 from gradhesion.core import SENSITIVITIES, place
 from gradhesion.core.problem.names import PULL_OFF
 
-SECONDS: Final = {"forces": 20, "energies": 60, "sensitivities": 45, "speeds": 15, "curves": 10, "fits": 15}
-"""About how long a free processor compiles what each kind of study needs; a slow one takes twice that."""
+SECONDS: Final = {"forces": 15, "energies": 40, "sensitivities": 45, "speeds": 45, "curves": 40, "fits": 50}
+"""How long a free processor compiles what each kind of study needs, if nothing is compiled yet; a slow one: twice."""
 
 _begun: Final[set[tuple[Path | None, str]]] = set()
 """The folders (None where nothing is kept) and kinds for which this process has compiled."""
@@ -50,7 +50,7 @@ def prepare(study: Study | None = None) -> None:
         return
     if not _begun and place().why:
         messages.say(place().why)
-    messages.say(f"compiling the solver for {need}, about {SECONDS[need]} s of a free processor, once per version")
+    messages.say(f"compiling the solver for {need}, up to {SECONDS[need]} s of a free processor, once per version")
     with alone(need):
         if study is not None and study.kind == "map":  # the first and the last of its scenes
             for places in ([0] * len(study.shape), [size - 1 for size in study.shape]):

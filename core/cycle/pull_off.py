@@ -8,7 +8,7 @@ from typing import Final, NamedTuple
 
 from gradhesion.core.curve.folds import pair_in, swing_in, zero_in
 from gradhesion.core.curve.values import Curve, bin_of, depth_and_load, load_curve, place_of, radius_of, slope_at
-from gradhesion.core.jit import leaf
+from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.table.layout import U1, E, P, T, U, Y, end_of
 
 _MARGIN: Final = 0.006
@@ -79,7 +79,7 @@ def _may_dip(curve: Curve, crest: float, i: int, before: float, after: float, be
     return may
 
 
-@leaf
+@kernel
 def _trough(curve: Curve, i: int, before: float, after: float, rim: float, best: Lowest) -> Lowest:
     """Take in the trough of bin i, at whose edges D is `before` and `after`, if there is one within the rim."""
     low, high, found = -1.0, 1.0, True

@@ -318,7 +318,7 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
         out[at.SATURATION, i] = last_fold * reduced[at.LENGTH, i]
 
 
-@leaf
+@kernel
 def curve_end(reach: float, scenes: Floats, reduced: Floats, start: int, last: int, out: Floats) -> int:
     """Return the end of the scenes from `start` on that share its curve; `start` if it cannot be solved (stored).
 

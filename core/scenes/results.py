@@ -99,7 +99,7 @@ def put_losses(
     return JUMP_IN_TO_RIM if loaded.in_to_rim and cycle.turn == reduced[at.RIM_Y, i] else 0
 
 
-@leaf
+@kernel
 def put_force(lowest: Lowest, reduced: Floats, i: int, out: Floats) -> None:
     """Store the pull-off of scene i, whose cycle ends at its rim; the rest of its column is left as it is."""
     out[at.TURN, i] = reduced[at.RIM_Y, i] * reduced[at.LENGTH, i]
