@@ -66,9 +66,8 @@ FourTables: TypeAlias = tuple[Table, Table, Table, Table]
 class Near(NamedTuple):
     """What neighbours of a scene are made from.
 
-    tables      of the exponents k + STEP PLACES
-    basis, weights  of which their bins are filled, and room for its weights, (NODES,)
-    filled      their bins that are filled, (1,), or ALL
+    basis, weights  of which tables are filled, and room for its weights, (NODES,)
+    filled      the bins of the tables of neighbouring exponents that are filled, (1,), or ALL
     rooms       for tables of interfaces with a pattern
     jumps       those of a cycle, (JUMP_ROWS, .)
     scene, numbers  one scene and its reduced numbers, (PARAMETER_ROWS, 1) and (REDUCED_ROWS, 1)
@@ -76,7 +75,6 @@ class Near(NamedTuple):
     value       what is observed, (AREA + 1,)
     """
 
-    tables: FourTables
     basis: Basis
     weights: Floats
     filled: Integers
@@ -88,43 +86,26 @@ class Near(NamedTuple):
     value: Floats
 
 
-def near_of(tables: FourTables, basis: Basis, rooms: Rooms, bins: int) -> Near:
+def near_of(basis: Basis, rooms: Rooms, bins: int) -> Near:
     """Return what neighbours of a scene are made from: what is given, and room that each scene overwrites.
 
-    `tables` are of the exponents k + STEP PLACES, `basis` what near ones are filled from, `rooms` for tables with a
-    pattern. `bins` is how many bins each table has, which bounds the number of jumps: those of loading and of unloading
-    are one more than branches at most (`room_for`).
+    `basis` is what near tables are filled from, `rooms` are for tables with a pattern. `bins` is how many bins each
+    table has, which bounds the number of jumps: those of loading and of unloading are one more than branches at most
+    (`room_for`).
     """
     jumps, by = np.empty((JUMP_ROWS, 2 * bins + 16)), np.zeros((ROWS, AREA + 1))
     scene, numbers = np.empty((at.PARAMETER_ROWS, 1)), np.empty((at.REDUCED_ROWS, 1))
-    return Near(tables, basis, np.zeros(NODES), np.array([ALL]), rooms, jumps, scene, numbers, by, np.zeros(AREA + 1))
-
-
-@leaf
-def _on(near: Near, tables: FourTables) -> Near:
-    """Return the same with other tables."""
-    return Near(
-        tables,
-        near.basis,
-        near.weights,
-        near.filled,
-        near.rooms,
-        near.jumps,
-        near.scene,
-        near.numbers,
-        near.by,
-        near.value,
-    )
+    return Near(basis, np.zeros(NODES), np.array([ALL]), rooms, jumps, scene, numbers, by, np.zeros(AREA + 1))
 
 
 @kernel
-def _fill_tables(near: Near, y: float) -> None:
+def _fill_tables(near: Near, tables: FourTables, y: float) -> None:
     """See to it that the tables of neighbouring exponents are filled up to a radius."""
-    bins = bin_of(near.tables[0], y) + 1
+    bins = bin_of(tables[0], y) + 1
     if near.filled[0] == ALL or bins <= near.filled[0]:
         return
-    near.filled[0] = min(max(bins, 2 * near.filled[0]), near.tables[0].bins)
-    for table in near.tables:
+    near.filled[0] = min(max(bins, 2 * near.filled[0]), tables[0].bins)
+    for table in tables:
         fill_table(near.basis, table.k, near.weights, near.filled[0], table.nodes, table.polys)
 
 
@@ -225,7 +206,7 @@ def _step_of(near: Near, pattern: Pattern, y_end: float, row: int) -> float:
 
 
 @leaf
-def _fill_by(task: Task, near: Near, pattern: Pattern, frozen: Frozen, y_end: float) -> None:
+def _fill_by(task: Task, near: Near, tables: FourTables, pattern: Pattern, frozen: Frozen, y_end: float) -> None:
     """Fill the derivatives of what is observed by all numbers but those of the turn."""
     near.by[:] = 0.0
     for row in range(OF_RIM):
@@ -239,7 +220,7 @@ def _fill_by(task: Task, near: Near, pattern: Pattern, frozen: Frozen, y_end: fl
             if weight == 0.0:
                 continue
             if row == OF_EXPONENT:
-                table = near.tables[j]
+                table = tables[j]
             else:
                 numbers[number, 0] = value * (1.0 + step * PLACES[j])
             pair = _neighbour(task.punch, task.crest, near.rooms, near.scene, near.numbers, table, y_end)
@@ -300,9 +281,21 @@ def _put_slopes(near: Near, pair: Pair, frozen: Frozen, target: float, out: Floa
 
 @leaf
 def _fill_scene(
-    task: Task, near: Near, walked: Walked, opened: int, y: float, scenes: Floats, reduced: Floats, i: int, out: Floats
+    task: Task,
+    near: Near,
+    tables: FourTables,
+    walked: Walked,
+    opened: int,
+    y: float,
+    scenes: Floats,
+    reduced: Floats,
+    i: int,
+    out: Floats,
 ) -> bool:
-    """Store the derivatives of scene i, which turns at y; return False if the table is too short."""
+    """Store the derivatives of scene i, which turns at y; return False if the table is too short.
+
+    `tables` are of the exponents k + STEP PLACES, filled as far as `near` says.
+    """
     pair = Pair(walked.closing, walked.opening, walked.pattern, walked.ratio)
     own, n = walked.loading, walked.visits
     lowest = lowest_load(pair.opening, y, 0, pair.opening.table.bins)
@@ -318,8 +311,8 @@ def _fill_scene(
     near.value[:] = 0.0
     _observe(pair, frozen, 1.0, near.value)
     y_end = _farthest(frozen, pair.pattern.rows.shape[1] > 0)
-    _fill_tables(near, y_end)
-    _fill_by(task, near, pair.pattern, frozen, y_end)
+    _fill_tables(near, tables, y_end)
+    _fill_by(task, near, tables, pair.pattern, frozen, y_end)
     _put_slopes(near, pair, frozen, reduced[at.TARGET_VALUE, i] / math.sqrt(pair.ratio), out, i)
     return True
 
@@ -330,6 +323,7 @@ def solve_slopes(
     wanted: Wanted,
     tables: Tables,
     near: Near,
+    neighbours: FourTables,
     nodes: Floats,
     polys: Floats,
     profile: Floats,
@@ -339,7 +333,7 @@ def solve_slopes(
 ) -> None:
     """Store the derivatives of scenes in the order of their exponents; those that reach beyond the tables are SHORT.
 
-    `near` has the long tables of the exponents next to that of `tables`; where it has no long one, `nodes`
+    `neighbours` are the long tables of the exponents next to that of `tables`; where it has no long one, `nodes`
     (4, ROWS, bins + 1) and `polys` (4, bins, LANES, N) have room for near ones. `out` has the rows of results, of
     force, of energy and of the unit, (UNIT + 1, scenes).
     """
@@ -355,7 +349,6 @@ def solve_slopes(
                 table_in(basis, k + STEP, bins, nodes[2], polys[2]),
                 table_in(basis, k + 2.0 * STEP, bins, nodes[3], polys[3]),
             )
-            near = _on(near, neighbours)
             near.filled[0] = 0
         while first < last:
             end = curve_end(task.reach, scenes, reduced, first, last, out)
@@ -364,6 +357,6 @@ def solve_slopes(
                 opened, _ = open_curve(walked, task.punch.turn, first, end, out)
                 for i in range(first, end):
                     y = out[at.TURN, i]
-                    if y > 0.0 and not _fill_scene(task, near, walked, opened, y, scenes, reduced, i, out):
+                    if y > 0.0 and not _fill_scene(task, near, neighbours, walked, opened, y, scenes, reduced, i, out):
                         no_value(out, i, at.SHORT)
             first = max(end, first + 1)

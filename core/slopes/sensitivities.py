@@ -63,8 +63,8 @@ def _near(
         nodes, polys = (np.stack([room] * 4) for room in room_of(bins))
         nodes[:, Y] = tables.basis.fixed[0, : bins + 1]  # a table ends where its last bin does, filled or not
         rooms = rooms_for(bins if patterned else 0, patterned)
-        near = near_of((none, none, none, none), tables.basis, rooms, bins)
-        solve_slopes(punch, wanted, tables, near, nodes, polys, profile, scenes, reduced, out)
+        near, four = near_of(tables.basis, rooms, bins), (none, none, none, none)
+        solve_slopes(punch, wanted, tables, near, four, nodes, polys, profile, scenes, reduced, out)
 
 
 def _far(
@@ -83,8 +83,8 @@ def _far(
         long = [long_table(punch, k + STEP * place, EXACT, finer, y_end)[0] for place in PLACES]
         nodes, polys = (np.stack([room] * 4) for room in room_of(0))
         rooms = rooms_for(bins if patterned else 0, patterned)
-        near = near_of((long[0], long[1], long[2], long[3]), tables.basis, rooms, bins)
-        solve_slopes(punch, wanted, tables, near, nodes, polys, profile, own, numbers, found)
+        near, four = near_of(tables.basis, rooms, bins), (long[0], long[1], long[2], long[3])
+        solve_slopes(punch, wanted, tables, near, four, nodes, polys, profile, own, numbers, found)
 
     if within.size:
         found = np.empty((len(out), within.size))
