@@ -6,7 +6,8 @@ meaning everywhere.
 
 Most kernels make no arrays, and count no references to those that they are handed: Python holds them for as long as its
 call lasts, and to count takes up to half of the time of a scene. Those that make arrays count. They may hand their own
-to kernels that do not count, but these must not return them: they would be released once too often.
+to kernels that do not count, but these must not return them: they would be released once too often. Nor may these
+return a part of an array to Python, which would get the whole of it.
 
 Numba notices an edit in the file of a kernel, but not in the files of those that it calls. Code is therefore kept in a
 folder that is named after a digest of all sources of the core. Code that is kept is run unchecked, and numba's index
