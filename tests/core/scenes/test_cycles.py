@@ -206,7 +206,7 @@ def test_a_centre_without_adhesion() -> None:
     assert np.isnan(found["pull_off_radius"])
     assert found["status"] & CLOSE_TO_A_JUMP
     for name in ("dissipated_energy", "loading_energy", "unloading_energy", "delta_jump_out"):
-        assert abs(float(found[name])) < 1e-18, name
+        assert abs(float(found[name])) < 1e-15 * float(found["delta_max"]), name  # of the terms that cancel
 
 
 def test_patterns_are_followed_to_ten_thousand_waves() -> None:
