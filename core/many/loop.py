@@ -222,7 +222,8 @@ def loop_far(
     if not begun.landed and begun.wave <= last:
         begun, _ = land(long, closing, begun)
     left = leave(long, opening, starts, last) if same else Leaving(last + 1, 0.0, 0.0, 0.0, False)
-    from_top, total[:] = begun.wave if begun.landed else last, 0.0
+    from_top = begun.wave if begun.landed else last
+    total[:] = 0.0
     if not sum_waves(long, closing, from_top, min(left.wave, last), last, folds, total):
         return unknown
     if begun.landed:

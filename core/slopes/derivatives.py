@@ -304,7 +304,7 @@ def _fill_scene(
         return False
     turns = task.punch.turn != AT_RIM and y < reduced[at.RIM_Y, i]
     frozen = _freeze(task, walked, opened, y, lowest.y, turns, near.jumps)
-    for row in range(scenes.shape[0]):
+    for row in range(scenes.shape[0]):  # one by one: numba would copy whole columns by way of an array of its own
         near.scene[row, 0] = scenes[row, i]
     for row in range(reduced.shape[0]):
         near.numbers[row, 0] = reduced[row, i]
