@@ -14,7 +14,7 @@ from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.study.reading import any_from, load_any
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.text.quantities import as_written
-from gradhesion.cli.study.text.written import value_of
+from gradhesion.cli.study.text.toml import value_of
 from gradhesion.datasets import as_keywords
 
 

@@ -13,7 +13,7 @@ from gradhesion.cli.errors import StudyError
 from gradhesion.cli.names import fits as names
 from gradhesion.cli.names.outputs import PARAMETER
 from gradhesion.cli.names.scenes import STEEP, STEEP_CONTACT
-from gradhesion.cli.study.fit.loop_file import fingerprint
+from gradhesion.cli.study.fit.loops import fingerprint
 from gradhesion.cli.study.fit.study import FitStudy, unit_of_parameter
 from gradhesion.cli.study.shape_words import shape_in_words
 from gradhesion.cli.terminal.amounts import bytes_in_words

@@ -30,7 +30,7 @@ from gradhesion.cli.names.scenes import SCENE, SOLVER
 from gradhesion.cli.picture.curves import JUMPS, wants_si
 from gradhesion.cli.picture.labels import given
 from gradhesion.cli.picture.looks import check_dimensions, check_names
-from gradhesion.cli.study.text.written import toml_of
+from gradhesion.cli.study.text.toml import toml_of
 from gradhesion.core.problem.inputs import INPUTS
 
 MOST: Final = 20_000_000

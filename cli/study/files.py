@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from gradhesion.cli.study.rules.asked import REQUIRED, Values, value_at
+from gradhesion.cli.study.rules.asked import value_at
 from gradhesion.cli.study.rules.form import ProfileTable
 from gradhesion.cli.study.rules.keys import MOST_VALUES, File
 from gradhesion.cli.study.rules.mistakes import Mistake, line_of
 from gradhesion.cli.study.text.quantities import factor_of_column, scaled, si_value
-from gradhesion.cli.study.text.written import Key, value_of
+from gradhesion.cli.study.text.toml import Key, value_of
 from gradhesion.cli.tables.columns import Columns, ColumnsError, changed
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.wording import did_you_mean, shown
@@ -43,26 +43,19 @@ class FromFile:
     """The key, or the table with `file`, that names it."""
     file: str = ""
     sha256: str = ""
-    inputs: Mapping[str, Values] = field(default_factory=dict)
-    """The inputs that it gives and that are right, in SI units."""
-    wrong: tuple[str, ...] = ()
-    """Those that it gives, or would give, and that are not."""
+    inputs: Mapping[str, NDArray[np.float64]] = field(default_factory=dict)
+    """The inputs that it gives, in SI units; valid values in the place of those that are wrong."""
     mistakes: tuple[Mistake, ...] = ()
     fit: "FittedProfile | None" = None
-    dropped: int = 0
-    """Rows without a number that were left out."""
 
     def beside(self, data: Mapping[str, Any]) -> dict[str, Any]:
-        """Give a study one valid value for each input that the file gives, so that all else can be checked."""
+        """Put what the file gives into a study, where that does not have it, so that all can be checked as one."""
         whole = dict(data)
         if self.key == ("parameters", "points"):
             whole["layout"] = "points" if data.get("layout") == "grid" else data.get("layout", "points")
-        for name in (*self.inputs, *self.wrong):
-            own = INPUTS[name]
-            value = float(np.ravel(self.inputs[name])[0]) if name in self.inputs else REQUIRED.get(name, 1.0)
-            written = f"{value!r} {own.unit}" if own.table == "physical" and np.isfinite(value) else value
-            if isinstance(table := whole.get(own.table, {}), Mapping):
-                whole[own.table] = {name: written, **table}
+        for name, values in self.inputs.items():
+            if isinstance(table := whole.get(INPUTS[name].table, {}), Mapping):
+                whole[INPUTS[name].table] = {name: values, **table}
         return whole
 
 
@@ -84,84 +77,82 @@ def points_of(
             raise ColumnsError(changed(found.sha256, named.sha256, f"write points = {value_of(named.file)}"))
     except ValueError as error:
         return FromFile(key=key, mistakes=((key, str(error)),))
-    sentences, own, wrong = [*_mistakes(data, found)], {}, []
-    for name in (name for name in found.values if name in INPUTS):
-        try:
-            own[name] = _column(name, found)
-        except ColumnsError as error:
-            sentences.append(str(error))
-            wrong.append(name)
-    mistakes = tuple((key, sentence) for sentence in sentences)
-    return FromFile(key=key, file=named.file, sha256=found.sha256, inputs=own, wrong=tuple(wrong), mistakes=mistakes)
+    own: dict[str, NDArray[np.float64]] = {}
+    mistakes = tuple((key, sentence) for sentence in _mistakes(data, found, own))
+    return FromFile(key=key, file=named.file, sha256=found.sha256, inputs=own, mistakes=mistakes)
 
 
-def _mistakes(data: Mapping[str, Any], found: Columns) -> Iterator[str]:
-    """Check that the columns are parameters, each given once, and that the study has points."""
-    for name in found.values:
+def _mistakes(data: Mapping[str, Any], found: Columns, own: dict[str, NDArray[np.float64]]) -> Iterator[str]:
+    """Check columns that are points of a study; fill `own`, with valid values where theirs are none."""
+    rows = next(iter(found.values.values())).size
+    for name, given in found.values.items():
         if name not in INPUTS:
             yield f"column {shown(name)} is no parameter; leave it out or rename it: {did_you_mean(name, [*INPUTS])}"
-        elif isinstance(table := data.get(INPUTS[name].table), Mapping) and name in table:
-            yield f"{name} is given under [{INPUTS[name].table}] and as a column of the file; keep one of the two"
+            continue
+        key = INPUTS[name]
+        own[name] = np.full(rows, 0.5 if key.admits(0.5) else 1.0)
+        if value_at(data, (key.table, name)) is not None:
+            yield f"{name} is given under [{key.table}] and as a column of the file; keep one of the two"
+        try:
+            values = scaled(given, factor_of_column(found, name, name))
+        except ColumnsError as error:
+            yield str(error)
+            continue
+        if not (wrong := np.flatnonzero(~key.admits(values))).size:
+            own[name] = values
+            continue
+        place, value = found.place(int(wrong[0])), float(given[wrong[0]])
+        more = f", and {wrong.size - 1:,} more rows are as well" if wrong.size > 1 else ""
+        if np.isnan(value):
+            yield f"{place}: {name} is missing (NaN){more}; give it, or remove the row"
+        else:
+            yield f"{place}: {name} = {value!r} is out of range{more}; choose a value with {key.allowed}"
     if data.get("layout", "points") == "grid":
         yield 'the rows of a file are points, but layout = "grid"; write layout = "points" or leave it out'
-    if (rows := next(iter(found.values.values())).size) > MOST_VALUES:
+    if rows > MOST_VALUES:
         yield f"the file has {rows:,} rows, but at most {MOST_VALUES:,} are read; split it"
-
-
-def _column(name: str, found: Columns) -> NDArray[np.float64]:
-    """Give a column in the unit of its key; ColumnsError where it has no such unit, or is out of range."""
-    key, given = INPUTS[name], found.values[name]
-    values = scaled(given, factor_of_column(found, name, name))
-    rows = np.flatnonzero(~key.admits(values))
-    if rows.size:
-        place, value = found.place(int(rows[0])), float(given[rows[0]])
-        more = f", and {rows.size - 1:,} more rows are as well" if rows.size > 1 else ""
-        if np.isnan(value):
-            raise ColumnsError(f"{place}: {name} is missing (NaN){more}; give it, or remove the row")
-        raise ColumnsError(f"{place}: {name} = {value!r} is out of range{more}; choose a value with {key.allowed}")
-    return values
 
 
 def measured_in(data: Mapping[str, Any], folder: Path) -> FromFile:
     """Fit the profile of a study, if it comes from a file, which is looked for in a folder."""
-    table, physical = data.get("profile"), data.get("physical")
-    if not isinstance(table, Mapping) or not isinstance(file := table.get("file"), str) or not file:
+    table, file = data.get("profile"), value_at(data, ("profile", "file"))
+    if not isinstance(table, Mapping) or not isinstance(file, str) or not file:
         return FromFile()
-    form, reach = None, math.inf
+    form, reach = ProfileTable(), math.inf
     with suppress(ValueError):  # it has no one length
-        reach = si_value(physical.get("a_max") if isinstance(physical, Mapping) else None, "a_max")
+        reach = si_value(value_at(data, ("physical", "a_max")), "a_max")
     with suppress(ValidationError):  # it is refused
         form = ProfileTable.model_validate({key: table[key] for key in FILE_KEYS & table.keys()})
-    mistakes = [
-        ((key.table, key.name), "this comes from the fit of the profile; remove it, or remove file under [profile]")
+    twice = [
+        key
         for key in INPUTS.values()
         if (key.gives in ("lambda_over_R", "A") or key.name == "R")
         and value_at(data, (key.table, key.name)) is not None
     ]
+    words = "this comes from the fit of the profile; remove it, or remove file under [profile]"
+    mistakes: list[Mistake] = [((key.table, key.name), words) for key in twice]
     if "up_to" not in table and reach == math.inf:
         words = "unless a_max is one finite length, a profile needs the distance up to which it is fitted"
         mistakes.append((("profile", "up_to"), f"{words}; write for example {line_of('profile', 'up_to')}"))
-    told = {INPUTS[str(path[-1])].gives for path, _ in mistakes if path[-1] in INPUTS} - {"modulus"}
-    names = ("R", "wavelength", "amplitude") if isinstance(physical, Mapping) else ("lambda_over_R", "A")
-    gives = tuple(name for name in names if INPUTS[name].gives not in told)
-    fit: FittedProfile | None = None
+    found = {"R": 1.0, "wavelength": 1.0, "amplitude": 1.0, "lambda_over_R": 1.0, "A": 1.0}
+    fit, sha256 = None, ""
     try:
-        if form is not None and (reach := form.up_to or reach) < math.inf:
+        if form.file and (reach := form.up_to or reach) < math.inf:
             from gradhesion.core.answers.profile_fit import fit_profile  # noqa: PLC0415 (500 ms for SciPy)
 
-            r, heights, sha256, dropped = read_profile(folder / file)
+            r, heights, sha256, _ = read_profile(folder / file)
             if form.sha256 not in ("", sha256):
                 raise ColumnsError(changed(sha256, form.sha256, "remove sha256"))
             power = None if form.exponent == "fit" else form.exponent
             fit = fit_profile(r, heights, up_to=reach, terms=form.terms or TERMS, exponent=power)
+            found = {"R": fit.radius, "wavelength": fit.wavelength, "amplitude": fit.amplitude}
+            found |= {"lambda_over_R": fit.wavelength / fit.radius, "A": fit.amplitude / fit.wavelength}
     except ValueError as error:
         mistakes.append((("profile", "file"), str(error)))
-    if mistakes or fit is None:
-        return FromFile(wrong=gives, mistakes=tuple(mistakes))
-    found = {"R": fit.radius, "wavelength": fit.wavelength, "amplitude": fit.amplitude}
-    found |= {"lambda_over_R": fit.wavelength / fit.radius, "A": fit.amplitude / fit.wavelength}
-    inputs = {name: found[name] for name in gives}
-    return FromFile(key=("profile",), file=file, sha256=sha256, inputs=inputs, fit=fit, dropped=dropped)
+    names = ("R", "wavelength", "amplitude") if isinstance(data.get("physical"), Mapping) else ("lambda_over_R", "A")
+    told = {key.name if key.name == "R" else key.gives for key in twice}
+    inputs = {one: np.array(found[one]) for one in names if not {one, INPUTS[one].gives} & told}
+    return FromFile(key=("profile",), file=file, sha256=sha256, inputs=inputs, mistakes=tuple(mistakes), fit=fit)
 
 
 def read_profile(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float64], str, int]:

@@ -1,7 +1,7 @@
 """A study from a file or a mapping: checked as a whole, and expanded."""
 
-import re
 from collections.abc import Iterable, Iterator, Mapping
+from operator import itemgetter
 from pathlib import Path
 from typing import Any, Final
 
@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.files import measured_in, points_of
-from gradhesion.cli.study.fit.columns import LoopFileError
-from gradhesion.cli.study.fit.loop_file import LoopFile
+from gradhesion.cli.study.fit.loops import LoopFile, LoopFileError
 from gradhesion.cli.study.fit.study import FitStudy, fit_of, loops_of
 from gradhesion.cli.study.fit.study import broken as broken_in_fit
 from gradhesion.cli.study.rules.asked import Asked, checked, kind_of, value_at
@@ -23,8 +22,7 @@ from gradhesion.cli.study.rules.mistakes import Mistake
 from gradhesion.cli.study.rules.scenes import broken
 from gradhesion.cli.study.study import Method, Study
 from gradhesion.cli.study.text.quantities import as_written
-from gradhesion.cli.study.text.source import DEEP, Source, included, is_deep, read_source
-from gradhesion.cli.study.text.written import dotted, steps_of, with_fingerprints
+from gradhesion.cli.study.text.toml import Source, dotted, read_source, source_of, steps_of, with_fingerprints
 from gradhesion.cli.terminal.wording import shown
 from gradhesion.core.answers.spectrum import random_profile
 from gradhesion.core.problem.control import Loading
@@ -71,7 +69,7 @@ def study_from(
     StudyError
         The study is wrong; the error has all mistakes.
     """
-    return _of_scenes(_source(data, name, folder), columns)
+    return _of_scenes(source_of(data, name, folder), columns)
 
 
 def load_any(path: str | Path, overrides: Iterable[str] = ()) -> Study | FitStudy:
@@ -81,23 +79,13 @@ def load_any(path: str | Path, overrides: Iterable[str] = ()) -> Study | FitStud
 
 def any_from(data: Mapping[str, Any], name: str = "study", *, folder: str | Path = "") -> Study | FitStudy:
     """Make a study of scenes, or one of a fit, from a mapping; as `study_from`."""
-    return _of_any(_source(data, name, folder))
+    return _of_any(source_of(data, name, folder))
 
 
 def text_of(data: Mapping[str, Any], study: Study) -> str:
     """Write keys as TOML that are known to be those of a valid study, one with the files of this one."""
     files = {study.measured.key: study.measured.sha256} if study.measured.file else {}
     return with_fingerprints(as_written(data), "", files)
-
-
-def _source(data: Mapping[str, Any], name: str, folder: str | Path) -> Source:
-    """Make the source of a study that is a mapping."""
-    if is_deep(data):
-        raise StudyError(f"{name}: not a study, tables or lists are {DEEP}")
-    home, own = Path(folder).absolute(), as_written(data)
-    if "include" in own:
-        own, _ = included(own, home, f"{name}: include = {shown(own['include'])}")
-    return Source(name=name, data=own, text="", place=lambda _: name, folder=home)
 
 
 def _of_any(source: Source) -> Study | FitStudy:
@@ -107,7 +95,7 @@ def _of_any(source: Source) -> Study | FitStudy:
     asked = checked(source.data)
     mistakes = [*asked.mistakes, *_between(asked, source.data, broken_in_fit(asked))]
     loops: tuple[LoopFile, ...] = ()
-    if asked.form.data and not any("data" in path[:1] for path in (*asked.misspelt, *(path for path, _ in mistakes))):
+    if asked.form.data and asked.right("data") and not any("data" in path[:1] for path, _ in mistakes):
         try:
             loops = loops_of(source.folder, asked.form, asked.form.data)
         except LoopFileError as error:
@@ -121,7 +109,7 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
     if kind_of(source.data) == "fit":
         raise StudyError(f"{source.place(('kind',))}: a fit has no scenes; `gradhesion run` and gradhesion.run fit it")
     points, measured = points_of(source.data, source.folder, columns), measured_in(source.data, source.folder)
-    asked = checked(measured.beside(points.beside(source.data)), points.inputs)
+    asked = checked(measured.beside(points.beside(source.data)))
     mistakes = [*asked.mistakes, *_between(asked, source.data, broken(asked))]
     if points.mistakes and not points.file:  # nothing is missing that the file would give
         mistakes = [(path, words) for path, words in mistakes if value_at(source.data, path) is not None]
@@ -135,7 +123,8 @@ def _of_scenes(source: Source, columns: Mapping[str, NDArray[np.float64]] | None
             if form.layout == "grid" and not (np.all(np.diff(values) > 0) or np.all(np.diff(values) < 0)):
                 values.sort()  # CF wants coordinates that rise or fall
             values.flags.writeable = False
-    solver = tuple(form.method.solver) if asked.lists_solvers else form.method.solver[0]
+    solvers = tuple(form.method.solver)
+    solver = solvers if isinstance(asked.at("method.solver"), list) else solvers[0]
     spectrum = form.profile.spectrum.made() if form.profile.spectrum else None
     profile = random_profile(spectrum, 0, float(form.profile.exponent)) if spectrum else shape_of(form.profile)
     ranges = ((name, form.entries[name]) for name in asked.over)
@@ -173,10 +162,10 @@ def _variables_of(kind: str, requested: Iterable[str]) -> tuple[str, ...]:
 
 def _between(asked: Asked, written: Mapping[str, Any], found: Iterable[tuple[str, str]]) -> Iterator[Mistake]:
     """Give the mistakes between keys; none is missing that is misspelt, or in a table that is wrong."""
-    known = {path for path, _ in asked.mistakes} | {*asked.misspelt}
+    known = {path for path, _ in asked.mistakes} | {*asked.wrong}
     for key, words in found:
         path = steps_of(key)
-        if value_at(written, path) is not None or not (path in known or path[:1] in asked.wrong):
+        if value_at(written, path) is not None or not {path, path[:1]} & known:
             yield path, words
 
 
@@ -184,17 +173,13 @@ def _refuse(source: Source, mistakes: Iterable[Mistake]) -> None:
     """Raise StudyError with what is wrong with a study, in the order of its lines, if anything is."""
     sentences = []
     for path, words in mistakes:
-        value = value_at(source.data, path)
+        value, place = value_at(source.data, path), source.place(path)
+        file, _, line = place.rpartition(":")
         written = "" if value is None else f" = {shown(value)}"
-        sentences.append(f"{source.place(path)}: {dotted(path)}{written}: {words}")
-    found = [*source.mistakes, *sorted(sentences, key=_line)]
+        order = (file, int(line)) if line.isdecimal() else ("", 0)
+        sentences.append((order, f"{place}: {dotted(path)}{written}: {words}"))
+    found = [*source.mistakes, *(sentence for _, sentence in sorted(sentences, key=itemgetter(0)))]
     if len(found) > MOST_MISTAKES:
         found[MOST_MISTAKES:] = [f"... and {len(found) - MOST_MISTAKES} more mistakes; fix these first"]
     if found:
         raise StudyError(found)
-
-
-def _line(sentence: str) -> tuple[str, int]:
-    """Sort sentences by the line that they name."""
-    at = re.match(r"(.*?):(\d+):", sentence)
-    return (at[1], int(at[2])) if at else ("", 0)

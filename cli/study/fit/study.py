@@ -7,8 +7,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.cli.study.fit.columns import LoopFileError, is_force_file
-from gradhesion.cli.study.fit.loop_file import LoopFile, fingerprint, read_loops
+from gradhesion.cli.study.fit.loops import LoopFile, LoopFileError, fingerprint, is_force_file, read_loops
 from gradhesion.cli.study.rules.asked import Asked, Found, home
 from gradhesion.cli.study.rules.fit_form import DataTable
 from gradhesion.cli.study.rules.form import Form
@@ -16,7 +15,7 @@ from gradhesion.cli.study.rules.given import Given, given_by
 from gradhesion.cli.study.rules.inputs import inputs, rate, shape_of, together, toughness, waves, works
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import line_of, required
-from gradhesion.cli.study.text.source import Source
+from gradhesion.cli.study.text.toml import Source
 from gradhesion.cli.tables.columns import changed
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.loops.fitted import OFFSETS, Offsets
@@ -150,17 +149,13 @@ def broken(asked: Asked) -> Found:
     for table in ("data", "physical"):
         if table not in asked.data:
             yield table, required(table)
-    if not asked.right("kind") or "physical" not in asked.data:
-        return
-    for rule in (together, inputs, waves, _profile, _columns, _machine, works, toughness, rate, _searched):
-        yield from rule(asked)
-
-
-def _profile(asked: Asked) -> Found:
-    """Check that the punch is one that a loop is drawn of."""
     for name in ("file", "spectrum", "sha256", "terms", "up_to"):
         if asked.has(f"profile.{name}"):
             yield f"profile.{name}", "a loop has one punch; give the harmonics that `gradhesion profile` prints"
+    yield from _columns(asked)
+    if "physical" in asked.data:
+        for rule in (together, inputs, waves, _machine, works, toughness, rate, _searched):
+            yield from rule(asked)
 
 
 def _columns(asked: Asked) -> Found:
@@ -227,5 +222,4 @@ def _searched(asked: Asked) -> Found:
         words = "the loop of a smooth punch, which has no length of its own, does not tell"
         yield home("R"), f"{words} {sizes[0]}, {sizes[1]} and {sizes[2]} apart; give one of them as a number"
     if {"speed", "reference_speed"} <= {*free}:
-        words = "a loop depends on the ratio of the two speeds alone; give one of them as a number"
-        yield "physical.reference_speed", words
+        yield home("reference_speed"), "a loop depends on the ratio of the two speeds; give one of them as a number"

@@ -3,7 +3,6 @@
 import math
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, Final
 
 import numpy as np
@@ -12,8 +11,8 @@ from pydantic import ValidationError
 
 from gradhesion.cli.study.rules.form import KINDS, Entry, Form
 from gradhesion.cli.study.rules.keys import Range
-from gradhesion.cli.study.rules.mistakes import Mistake, mistakes_of, required
-from gradhesion.cli.study.text.written import Key, steps_of
+from gradhesion.cli.study.rules.mistakes import Mistake, mistakes_of
+from gradhesion.cli.study.text.toml import Key, steps_of
 from gradhesion.cli.terminal.wording import nearest
 from gradhesion.core.problem.inputs import INPUTS
 
@@ -23,8 +22,8 @@ Values = float | NDArray[np.float64]
 """The values of a parameter: a float is fixed, an array is an axis."""
 _DIGITS: Final = 12
 """Significant digits of the decimals that the values of a range are moved to, where these are within rounding."""
-REQUIRED: Final = {"k": 0.5, "nu": 0.3}
-"""The parameters that a form needs, with valid values: they stand for wrong ones, so that all else can be read."""
+_REQUIRED: Final[dict[Key, Any]] = {("parameters", "k"): 0.5, ("parameters", "nu"): 0.3, ("data", "file"): "loop.csv"}
+"""Keys that a form needs, with valid values: they stand for wrong ones, so that all else can be read."""
 _KINDS_OF: Final = {
     "outputs": ("map", "curve"),
     **dict.fromkeys(("layout", "states", "method"), ("map", "curve", "optimum")),
@@ -42,22 +41,21 @@ class Asked:
     form: Form
     """The study, but for what is wrong."""
     data: Mapping[str, Any]
-    """The study with something valid in the place of what files give, and without keys of other kinds."""
+    """The study with what files give, and without keys of other kinds."""
     kind: str
     """The kind that is meant."""
     mistakes: list[Mistake]
     """What is wrong with each key for itself."""
     wrong: Collection[Key]
-    """The keys that are wrong or missing: the key itself, where an item of its value is."""
-    misspelt: Collection[Key]
-    """The keys that were meant where others stand."""
+    """The keys that are wrong or missing (those themselves, where an item of their value is), or meant by others."""
     values: dict[str, Values]
     """Of the inputs that are right; the two ends of those that are searched."""
 
-    @cached_property
-    def over(self) -> tuple[str, ...]:
+    @property
+    def over(self) -> list[str]:
         """The inputs that are searched for an optimum: those with two ends alone."""
-        return tuple(str(name) for _, name, _ in _without_num(self.data)) if self.kind == "optimum" else ()
+        written = {} if self.kind != "optimum" else {one: self.at(home(one)) for one in INPUTS}
+        return [name for name, one in written.items() if isinstance(one, Mapping) and "num" not in one]
 
     @property
     def points(self) -> bool:
@@ -70,14 +68,10 @@ class Asked:
         return isinstance(self.data.get("physical"), Mapping)
 
     @property
-    def lists_solvers(self) -> bool:
-        """Whether there is a list of solvers, which stand side by side."""
-        return isinstance(self.at("method.solver"), list)
-
-    @property
     def axes(self) -> dict[str, Values]:
         """The values of the inputs that are not searched."""
-        return {name: values for name, values in self.values.items() if name not in self.over}
+        over = self.over
+        return {name: values for name, values in self.values.items() if name not in over}
 
     def at(self, key: str) -> Any:
         """Give what is written at a key; None if it is not there."""
@@ -88,12 +82,9 @@ class Asked:
         return self.at(key) is not None
 
     def given(self, *names: str) -> list[str]:
-        """List those of some inputs that are there, right or wrong."""
-        return [name for name in names if self.has(home(name))]
-
-    def meant(self, *names: str) -> bool:
-        """Report whether one of some inputs is there, perhaps misspelt or in the wrong table."""
-        return bool(self.given(*names)) or any(steps_of(home(name)) in self.misspelt for name in names)
+        """List those of some inputs that are there, right or wrong, perhaps misspelt or in the wrong table."""
+        paths: dict[str, Key] = {name: (INPUTS[name].table, name) for name in names}
+        return [name for name, path in paths.items() if value_at(self.data, path) is not None or path in self.wrong]
 
     def of(self, group: str) -> list[str]:
         """List the inputs of a group that are there."""
@@ -132,48 +123,33 @@ class Asked:
         return "indentation_max" if self.units else "indentation_max_over_R"
 
 
-def checked(data: Mapping[str, Any], columns: Mapping[str, Values] | None = None) -> Asked:
-    """Check the form of a study, each key for itself; columns of a file stand for what the study has in their place."""
+def checked(data: Mapping[str, Any]) -> Asked:
+    """Check the form of a study, each key for itself; an array is a column of a file, which is right."""
     kind = kind_of(data)
     foreign = {key: kinds[0] for key, kinds in _KINDS_OF.items() if kind not in kinds}
     words = f'a study of kind "{kind}" does not have this; remove it, or write kind = '
     mistakes: list[Mistake] = [((key,), f'{words}"{foreign[key]}"') for key in foreign if key in data]
-    own, form = {key: value for key, value in data.items() if key not in foreign}, None
-    found = {path: required(*path) for path in (_without_num(own) if kind in ("map", "curve") else ())}
-    misspelt: set[Key] = set()
+    own = {key: value for key, value in data.items() if key not in foreign}
+    wrong: set[Key] = set()
     try:
-        form = Form.model_validate(own)
+        form = Form.model_validate(own, context={"kind": kind})
     except ValidationError as error:
-        more, misspelt = mistakes_of(error, own, foreign)
-        found |= more
-    mistakes += [
-        (path, words) for path, words in found.items() if path not in misspelt or value_at(own, path) is not None
-    ]
-    wrong = {path[:2] if len(path) > 1 and isinstance(path[1], str) else path[:1] for path in found}
-    try:
-        form = form or Form.model_validate(_without(own, wrong))
-    except ValidationError as error:  # tables that lack what is wrong
-        wrong |= {(str(one["loc"][0]),) for one in error.errors()}
-        form = Form.model_validate(_without(own, wrong))
+        found, meant = mistakes_of(error, own)
+        meant = {path for path in meant if value_at(own, path) is None}
+        mistakes += [(path, words) for path, words in found.items() if path not in meant]
+        wrong = {path[:2] if len(path) > 1 and isinstance(path[1], str) else path[:1] for path in (*found, *meant)}
+        form = Form.model_validate(_without(own, wrong), context={"kind": kind})
     values: dict[str, Values] = {}
     for name, entry in form.entries.items():
-        if entry == "data" or {(INPUTS[name].table,), (INPUTS[name].table, name)} & wrong:
+        if isinstance(entry, str) or (INPUTS[name].table, name) in wrong:
             continue
         if kind == "fit" and isinstance(entry, Range):  # searched, whatever else it has is refused
             values[name] = np.array(entry.ends)
-        elif amiss := [*range_mistakes(name, entry)]:
+        elif amiss := [*_range_mistakes(home(name), entry)]:
             mistakes += [(steps_of(key), sentence) for key, sentence in amiss]
         else:
-            values[name] = expanded(entry) if columns is None or name not in columns else columns[name]
-    return Asked(form=form, data=own, kind=kind, mistakes=mistakes, wrong=wrong, misspelt=misspelt, values=values)
-
-
-def _without_num(data: Mapping[str, Any]) -> Iterator[Key]:
-    """Give the keys of the numbers of values that ranges lack."""
-    for name, own in INPUTS.items():
-        entry = value_at(data, (own.table, name))
-        if isinstance(entry, Mapping) and not {"num", *Range.foreign} & entry.keys():
-            yield (own.table, name, "num")
+            values[name] = expanded(entry)
+    return Asked(form=form, data=own, kind=kind, mistakes=mistakes, wrong=wrong, values=values)
 
 
 def value_at(data: Mapping[str, Any], path: Key) -> Any:
@@ -186,14 +162,17 @@ def value_at(data: Mapping[str, Any], path: Key) -> Any:
 
 
 def _without(data: Mapping[str, Any], wrong: Iterable[Key]) -> dict[str, Any]:
-    """Leave out the keys that are wrong, but for those that a form needs."""
+    """Leave out the keys that are wrong, and the tables that cannot be without one, but for what a form needs."""
     sound = {key: {**value} if isinstance(value, Mapping) else value for key, value in data.items()}
-    for path in wrong:
-        table: Any = sound if len(path) == 1 else sound.get(str(path[0]), {})
-        table.pop(path[-1], None)
-    if isinstance(sound.get("data"), dict):
-        sound["data"].setdefault("file", "loop.csv")
-    return sound | {"parameters": REQUIRED | sound.get("parameters", {})}
+    for top, *rest in sorted(wrong, key=len, reverse=True):
+        if not rest or top in ("toughness", "rate"):
+            sound.pop(str(top), None)
+        elif isinstance(table := sound.get(str(top)), dict):
+            table.pop(rest[0], None)
+    for (table, name), value in _REQUIRED.items():
+        if table == "parameters" or table in sound:
+            sound.setdefault(str(table), {}).setdefault(name, value)
+    return sound
 
 
 def kind_of(data: Mapping[str, Any]) -> str:
@@ -210,10 +189,11 @@ def home(name: str) -> str:
 def expanded(entry: Entry) -> Values:
     """Expand a valid input of a study; a range begins and ends at exactly its `start` and `stop`."""
     if not isinstance(entry, Range):
-        return np.array(entry, dtype=np.float64) + 0.0 if isinstance(entry, list) else float(entry) + 0.0
+        given = np.asarray(entry, dtype=np.float64) + 0.0  # no negative zeros
+        return given if given.ndim else float(given)
     if entry.num is None:  # searched
         return np.array(entry.ends)
-    ends = np.array([entry.start, entry.stop]) + 0.0  # no negative zeros
+    ends = np.array([entry.start, entry.stop]) + 0.0
     spaced = np.geomspace if entry.spacing == "log" else np.linspace
     values = spaced(ends[0], ends[1], entry.num)
     values = _shortest(values, np.abs(values) if entry.spacing == "log" else np.abs(ends).max())
@@ -233,26 +213,24 @@ def _shortest(values: NDArray[np.float64], size: NDArray[np.float64] | float) ->
     return moved if np.unique(moved).size == np.unique(values).size else values
 
 
-def range_mistakes(name: str, entry: Entry) -> Iterator[tuple[str, str]]:
+def _range_mistakes(key: str, entry: Entry) -> Found:
     """Check that a range makes sense as a whole."""
-    at = home(name)
     if not isinstance(entry, Range):
         return
     if entry.num == 1 and entry.start != entry.stop:
-        yield f"{at}.num", "one value cannot be at both start and stop; use num = 2 or more, or a list of one value"
+        yield f"{key}.num", "one value cannot be at both start and stop; use num = 2 or more, or a list of one value"
     elif entry.start == entry.stop and entry.num != 1:
-        yield at, "start and stop are the same; write another stop, or a number"
+        yield key, "start and stop are the same; write another stop, or a number"
     elif entry.spacing == "log" and entry.ends[0] <= 0.0:
         end = "start" if entry.start <= 0.0 else "stop"
-        yield f"{at}.{end}", 'log spacing needs values > 0; raise it, or use spacing = "linear"'
+        yield f"{key}.{end}", 'log spacing needs values > 0; raise it, or use spacing = "linear"'
 
 
-def repeated(name: str, values: Values) -> Iterator[tuple[str, str]]:
+def repeated(name: str, values: Values) -> Found:
     """Check that an axis has no value twice."""
     unique, counts = np.unique(values, return_counts=True)
     if counts.max(initial=1) > 1:
         value = float(unique[counts.argmax()])
         first, second, *_ = np.flatnonzero(values == value).tolist()
         unit = "" if INPUTS[name].unit == "1" else f" {INPUTS[name].unit}"
-        words = f"the axis repeats the value {value!r}{unit} (items {first} and {second}); remove one"
-        yield home(name), words
+        yield home(name), f"the axis repeats the value {value!r}{unit} (items {first} and {second}); remove one"

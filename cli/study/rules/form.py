@@ -9,6 +9,8 @@ from dataclasses import fields
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, get_args
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import AfterValidator, Field, WithJsonSchema, create_model
 
 from gradhesion.cli.names.outputs import OF_LINEAR, SI
@@ -42,8 +44,8 @@ OUTPUTS_OF: Final = {
     "curve": tuple(dict.fromkeys((*CURVES, *(name for curve in CURVES.values() for name in curve.names)))),
 }
 """What can be asked for, by the kind of study; studies of the other kinds have no outputs."""
-Entry = float | list[float] | Range | Literal["data"]
-"""What a study gives for an input: a number, a list, or a range; quantities in SI units."""
+Entry = float | list[float] | Range | NDArray[np.float64] | Literal["data"]
+"""What a study gives for an input: a number, a list, a range, or a column of a file; quantities in SI units."""
 
 if TYPE_CHECKING:  # made when this is run, which the types cannot show
     Words = list[str]
@@ -62,7 +64,7 @@ else:
     ]
     _power = Annotated[Finite, Field(ge=EXPONENTS[0], le=EXPONENTS[1])]
     _powers = Annotated[
-        tagged(plain=_power, table=range_of(Input("exponent", "", "", "0.3"), _power)),
+        tagged(plain=_power, table=range_of(Input("exponent", "", "", "0.3"), _power, is_axis=False)),
         WithJsonSchema({"anyOf": [{"type": "number"}, {"type": "object"}], "minimum": 0.1, "maximum": 2.0}),
     ]
     _points = (

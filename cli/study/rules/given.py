@@ -7,8 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from gradhesion.cli.study.rules.form import Form
-from gradhesion.cli.study.text.source import Source
-from gradhesion.cli.study.text.written import Key, with_fingerprints
+from gradhesion.cli.study.text.toml import Key, Source, with_fingerprints
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.toughness import Rate, Toughness

@@ -9,7 +9,7 @@ import numpy as np
 from gradhesion.cli.study.rules.asked import Asked, Found, Values, home
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.rules.mistakes import line_of
-from gradhesion.cli.study.text.written import steps_of
+from gradhesion.cli.study.text.toml import steps_of
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL, REDUCED, Input
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.toughness import MOST_WAVES, violation
@@ -45,8 +45,7 @@ def together(asked: Asked) -> Found:
         yield "profile.exponent", "there is no file to fit it to; write a number, for example exponent = 2.0"
     k, nu = asked.beside(*(asked.axes.get(name, 0.5) for name in ("k", "nu")))
     if np.any((k == 1.0) & (nu != 0.5)):
-        words = "with k = 1 and nu other than 0.5 the surface has no stiffness; use nu = 0.5, or k below 1"
-        yield "parameters.k", words
+        yield "parameters.k", "with k = 1 the surface has no stiffness unless nu = 0.5; use that, or k below 1"
 
 
 def inputs(asked: Asked) -> Found:
@@ -57,7 +56,7 @@ def inputs(asked: Asked) -> Found:
         kin = [one for one, its in INPUTS.items() if its.gives == name]
         if own.is_parameter and name not in ("k", "nu") and (not own.group or asked.given(*kin)):
             yield from _ways(asked, own, kin)
-    if asked.form.entries.get("indentation_max") == "data" and asked.kind != "fit":
+    if isinstance(asked.form.entries.get("indentation_max"), str) and asked.kind != "fit":
         yield home("indentation_max"), f"only a fit has data; write for example {INPUTS['indentation_max'].example}"
     first, *others = asked.of("turn") or [""]
     for name in others:
@@ -87,7 +86,7 @@ def _ways(asked: Asked, own: Input, kin: list[str]) -> Found:
         zero, table = own.idle_without, asked.form.uncertainty
         varied = bool(zero) and any(INPUTS[name].gives == zero for name in (table.deviations if table else ()))
         unneeded = bool(zero) and not varied and is_zero(zero, asked.values)
-        if own.group or own.name == "a_max_over_R" or asked.meant(*names) or unneeded:
+        if own.group or own.name == "a_max_over_R" or asked.given(*names) or unneeded:
             continue
         instead = "".join(f", or instead {INPUTS[name].example} under [{INPUTS[name].table}]" for name in names[1:])
         unless = f"{zero} is uncertain: " if varied else f"unless {zero} = 0 everywhere, " if zero else ""
@@ -143,7 +142,7 @@ def _needs_table(asked: Asked, table: str) -> Found:
         return
     names = [name for name, own in INPUTS.items() if own.group == table]
     enough = [name for name in names if name not in ("toughness_amplitude", "reference_speed")]
-    if not asked.meant(*enough):
+    if not asked.given(*enough):
         own = INPUTS[enough[0] if asked.units else enough[-1]]
         yield table, f"it needs {own.example} under [{own.table}]; add it, or remove [{table}]"
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, fields
 from typing import Annotated, Any, ClassVar, Final, Literal, Union, get_args, get_type_hints
 
+import numpy as np
 from pydantic import (
     BaseModel,
     BeforeValidator,
@@ -13,10 +14,14 @@ from pydantic import (
     Discriminator,
     Field,
     Tag,
+    ValidationInfo,
     WithJsonSchema,
+    WrapValidator,
     create_model,
+    field_validator,
     model_validator,
 )
+from pydantic_core import PydanticCustomError
 
 from gradhesion.cli.study.text.quantities import ratio_sentence, si_value
 from gradhesion.core.problem.inputs import Input
@@ -92,14 +97,8 @@ def table_of(kind: type, **more: Any) -> Any:
 class Range(Table):
     """An axis by its ends and its number of values, or the ends between which an input is searched."""
 
-    foreign: ClassVar[Mapping[str, str]] = {
-        "values": "a list of values stands alone, for example [0.1, 0.2, 0.5]",
-        **dict.fromkeys(
-            ("step", "by", "increment", "delta"),
-            'a range has no step; write num, the number of its values, evenly spaced unless spacing = "log"',
-        ),
-    }
-    """What to write in the place of keys that ranges have elsewhere."""
+    is_axis: ClassVar[bool] = True
+    """Whether it has values unless it is searched; else it is always searched."""
 
     start: float
     stop: float
@@ -109,6 +108,7 @@ class Range(Table):
         None,
         ge=1,
         le=MOST_VALUES,
+        validate_default=True,
         json_schema_extra={"type": "integer", "minimum": 1, "maximum": MOST_VALUES},
     )
     spacing: Literal["linear", "log"] = said("whether differences or ratios of neighbours are equal", '"log"', "linear")
@@ -116,10 +116,20 @@ class Range(Table):
     @model_validator(mode="before")
     @classmethod
     def _refuse_foreign(cls, table: dict[str, Any]) -> dict[str, Any]:
-        """Say what a key of other tools' ranges is called here."""
-        for words in (words for key, words in cls.foreign.items() if key in table):
-            raise ValueError(words)
+        """Say what keys of other tools' ranges are called here."""
+        if "values" in table:
+            raise ValueError("a list of values stands alone, for example [0.1, 0.2, 0.5]")
+        if table.keys() & {"step", "by", "increment", "delta"}:
+            raise ValueError('a range has no step; write num, the number of its values, and spacing = "log" for ratios')
         return table
+
+    @field_validator("num")
+    @classmethod
+    def _require(cls, num: int | None, about: ValidationInfo) -> int | None:
+        """Ask for the number of values where nothing is searched, by the kind of the study."""
+        if cls.is_axis and num is None and about.context and about.context["kind"] in ("map", "curve"):
+            raise PydanticCustomError("missing", "required")
+        return num
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -148,16 +158,21 @@ def tagged(**forms: Any) -> Any:
     return Annotated[own, Discriminator(form_of)]
 
 
-def range_of(own: Input, number: Any) -> Any:
+def range_of(own: Input, number: Any, *, is_axis: bool = True) -> Any:
     """Make the table of a range of a number."""
     value = _ONE_VALUE.search(own.value)  # of a range or a list, its first
     example = value[0] if value else "1.0"
     start, stop = ((number, said(f"the {which} value", example)) for which in ("first", "last"))
-    return create_model(f"Range_{own.name}", __base__=Range, start=start, stop=stop)
+    made: Any = create_model(f"Range_{own.name}", __base__=Range, start=start, stop=stop)
+    made.is_axis = is_axis
+    return made
 
 
 def input_key(own: Input) -> tuple[Any, Any]:
-    """Make the key of an input: a number, a list of numbers, or a range table; quantities become numbers in SI."""
+    """Make the key of an input: a number, a list of numbers, or a range table; quantities become numbers in SI.
+
+    An array is a column of a file, in SI units and within the bounds.
+    """
     limits: dict[str, Any] = {"strict": True, "allow_inf_nan": own.infinite, **own.bounds}
     number: Any = Annotated[float, Field(**limits)]
     if own.table == "physical":
@@ -168,6 +183,7 @@ def input_key(own: Input) -> tuple[Any, Any]:
         plain = Annotated[float | Literal["data"], read]
     ends = range_of(own, Annotated[number, Field(allow_inf_nan=False)])
     forms = tagged(plain=plain, list=Annotated[list[number], Field(min_length=1, max_length=MOST_VALUES)], table=ends)
+    forms = Annotated[forms, WrapValidator(lambda value, read: value if isinstance(value, np.ndarray) else read(value))]
     return forms, said(own.about, own.value, ... if own.name in ("k", "nu") else None)
 
 
@@ -187,8 +203,8 @@ class Deviation:
     uniform: bool = False
 
 
-def deviation_of(value: object, own: Input) -> Deviation:
-    """Read the deviation of an input; ValueError says what to write instead of what is none."""
+def deviation_key(own: Input) -> tuple[Any, Any]:
+    """Make the key of the deviation of an input."""
     forms = f'write for example {own.name} = "5 %", a standard deviation in its unit, or {{ low = .., high = .. }}'
 
     def number(one: object) -> float:
@@ -198,23 +214,20 @@ def deviation_of(value: object, own: Input) -> Deviation:
             return float(one)
         raise ValueError((isinstance(one, str) and ratio_sentence(one, own.name)) or f"not a deviation; {forms}")
 
-    if isinstance(value, Mapping):
-        if {*value} != {"low", "high"}:
-            raise ValueError(f"a uniform distribution has both low and high, and nothing else; {forms}")
-        low, high = number(value["low"]), number(value["high"])
-        if not (low < high < math.inf and own.admits(low) and own.admits(high)):
-            raise ValueError(f"out of range; choose low below high with {own.allowed}, both finite")
-        return Deviation(low=low, high=high, uniform=True)
-    low = own.bounds.get("ge", own.bounds.get("gt", -math.inf))
-    share = _PERCENTAGE.fullmatch(value) if isinstance(value, str) else None
-    deviation = float(share[1]) / 100.0 if share else number(value)
-    if not 0.0 < deviation < math.inf or (share and deviation > 1.0):
-        raise ValueError(f"a deviation is above 0 and finite, a percentage at most 100; {forms}, or remove this key")
-    return Deviation(deviation=deviation, relative=share is not None, low=low, high=own.bounds.get("le", math.inf))
+    def read(value: object) -> Deviation:
+        if isinstance(value, Mapping):
+            if {*value} != {"low", "high"}:
+                raise ValueError(f"a uniform distribution has both low and high, and nothing else; {forms}")
+            low, high = number(value["low"]), number(value["high"])
+            if not (low < high < math.inf and own.admits(low) and own.admits(high)):
+                raise ValueError(f"out of range; choose low below high with {own.allowed}, both finite")
+            return Deviation(low=low, high=high, uniform=True)
+        low, high = own.bounds.get("ge", own.bounds.get("gt", -math.inf)), own.bounds.get("le", math.inf)
+        share = _PERCENTAGE.fullmatch(value) if isinstance(value, str) else None
+        deviation = float(share[1]) / 100.0 if share else number(value)
+        if not 0.0 < deviation < math.inf or (share and deviation > 1.0):
+            raise ValueError(f"a deviation is above 0 and finite, at most 100 %; {forms}, or remove this key")
+        return Deviation(deviation=deviation, relative=share is not None, low=low, high=high)
 
-
-def deviation_key(own: Input) -> tuple[Any, Any]:
-    """Make the key of the deviation of an input."""
-    schema = {"type": ["number", "string", "object"]}
-    kind = read_by(lambda value: deviation_of(value, own), schema, Deviation | None)
+    kind = read_by(read, {"type": ["number", "string", "object"]}, Deviation | None)
     return kind, said(f"uncertainty of {own.name}: {own.about}", '"5 %"', None)

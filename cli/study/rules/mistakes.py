@@ -1,9 +1,9 @@
 """What is wrong with the form of a study, each key for itself, in sentences that say what to write instead."""
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from functools import cache
-from typing import Any, get_args
+from typing import Any, Final, get_args
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
@@ -11,42 +11,35 @@ from pydantic_core import ErrorDetails
 from gradhesion.cli.study.rules.form import Form
 from gradhesion.cli.study.rules.keys import Table
 from gradhesion.cli.study.text.quantities import ratio_sentence
-from gradhesion.cli.study.text.written import Key, dotted
+from gradhesion.cli.study.text.toml import Key, dotted
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
 from gradhesion.core.problem.inputs import INPUTS
 
 Mistake = tuple[Key, str]
 """A key, and what is wrong with it and what to do about it."""
+_OF_INPUTS: Final = (("parameters",), ("physical",))
 
 
-def mistakes_of(
-    error: ValidationError, data: Mapping[str, Any], absent: Collection[str]
-) -> tuple[dict[Key, str], set[Key]]:
-    """Say what pydantic found in a study, by its keys, and which were meant; its kind has none that is `absent`."""
+def mistakes_of(error: ValidationError, data: Mapping[str, Any]) -> tuple[dict[Key, str], set[Key]]:
+    """Say what pydantic found in a study, by its keys, and which keys were meant by unknown ones."""
     found: dict[Key, str] = {}
     meant: set[Key] = set()
     for detail in error.errors(include_url=False):
-        path = _path(detail, data)
+        path: Key = ()
+        value: Any = data
+        *_, last = detail["loc"]
+        for step in detail["loc"]:  # some are forms (plain, list, table), which are not in the study
+            if isinstance(value, list) if isinstance(step, int) else isinstance(value, Mapping) and step in value:
+                path, value = (*path, step), value[step]
+        path = (*path, last) if detail["type"] == "missing" else path
         if path in found:
             continue
         if detail["type"] == "extra_forbidden":
-            other, found[path] = _unknown_key(path, absent)
+            other, found[path] = _unknown_key(path)
             meant.add(other)
         else:
             found[path] = _sentence(detail, path)
     return found, meant
-
-
-def _path(detail: ErrorDetails, data: Mapping[str, Any]) -> Key:
-    """Take the names of forms (plain, list, table) out of pydantic's path: what is left is in the study, or missing."""
-    path: list[str | int] = []
-    value: Any = data
-    *_, last = steps = detail["loc"]
-    for step in steps:
-        if isinstance(value, list) if isinstance(step, int) else isinstance(value, Mapping) and step in value:
-            path.append(step)
-            value = value[step]
-    return (*path, last) if detail["type"] == "missing" else tuple(path)
 
 
 @cache
@@ -86,12 +79,8 @@ def _sentence(detail: ErrorDetails, path: Key) -> str:
         return required(*path)
     if kind == "literal_error":
         known = re.findall("'([^']+)'", detail["ctx"]["expected"])
-        words = (
-            f"one of its words; {did_you_mean(str(value), known)}"
-            if known
-            else f"{detail['ctx']['expected']}; write one"
-        )
-        return f"this must be {words}"
+        remedy = did_you_mean(str(value), known) if known else f"write {detail['ctx']['expected']}"
+        return f"this must be one of its values; {remedy}"
     text = value if kind == "float_type" and isinstance(value, str) and (own or "," in value) else ""
     if words := ratio_sentence(text, own.name if own else "A"):
         return words if own else f"this must be a number; {words}"
@@ -105,28 +94,25 @@ def _sentence(detail: ErrorDetails, path: Key) -> str:
     return f"{words.replace('dictionary', 'table')}{limits}; write for example {line_of(*path)}"
 
 
-def _unknown_key(path: Key, absent: Collection[str]) -> tuple[Key, str]:
+def _unknown_key(path: Key) -> tuple[Key, str]:
     """Report which key was meant, and say so."""
     table, key = path[:-1], str(path[-1])
     keys_of = {place: [*one.model_fields] for place, one in tables_of(Form).items()}
     known = keys_of.get(tuple(step for step in table if isinstance(step, str)), [])
-    homes = {place: keys for place, keys in keys_of.items() if len(place) < 2 and not {*place} & {*absent}}
-    homes[()] = [name for name in homes[()] if name not in absent]
-    if ("uncertainty",) in homes:
-        homes["uncertainty",] = ["samples", "seed"]  # the others are inputs
+    others = {place for place in keys_of if len(place) < 2} - {table, ("uncertainty",)}  # that has all inputs again
+    homes = {place: keys for place, keys in keys_of.items() if place in others}
     near = nearest(key, known)
     called = [name for name, one in INPUTS.items() if key.lower() in one.called]
-    slip = (near or "").lower() == key.lower()
-    found = [(other, key) for other, keys in homes.items() if other != table and key in keys]
-    if not found and called and near not in called and not slip and table in (("parameters",), ("physical",)):
+    found = [(other, key) for other, keys in homes.items() if key in keys]
+    if not found and called and near not in called and (near or "").lower() != key.lower() and table in _OF_INPUTS:
         found = [((INPUTS[called[0]].table,), called[0])]
     if not (found or table or near):
         found = [(other, one) for other, keys in homes.items() if (one := nearest(key, keys))]
-    place, near = found[0] if found else (table, near)
-    if place == table:
+    if not found or found[0] == (table, near):
         return (*table, near or ""), f"unknown key; {did_you_mean(key, known)}"
+    place, near = found[0]
     where = f"under [{dotted(place)}]" if place else "at the top, before the first [table]"
-    path = (*place, str(near))
+    path = (*place, near)
     if near == key:
         return path, f"this key belongs {where}; move it there, as {dotted(path)}"
     return path, f'unknown key; did you mean "{near}", {where}?'

@@ -6,13 +6,12 @@ from typing import Final
 
 import numpy as np
 
-from gradhesion.cli.names import curves
 from gradhesion.cli.names.outputs import OF_LINEAR, SI, SPREADABLE, UNITS
 from gradhesion.cli.study.rules.asked import Asked, Found, home, repeated
 from gradhesion.cli.study.rules.form import OUTPUTS_OF, Optimum
 from gradhesion.cli.study.rules.inputs import inputs, rate, shape_of, together, toughness, waves, works
 from gradhesion.cli.study.rules.mistakes import line_of, required
-from gradhesion.cli.study.text.written import steps_of
+from gradhesion.cli.study.text.toml import steps_of
 from gradhesion.cli.terminal.wording import did_you_mean, nearest, shown
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.names import GIVEN_UP, INTEGERS, SENSITIVITIES, SOLVERS, WITHOUT_LOAD
@@ -25,6 +24,8 @@ MOST_SEARCHED: Final = 3
 """Inputs that are searched at once: a sweep has a power of the resolution."""
 MOST_POINTS: Final = 2**24
 """Points of the sweep of one cell: all are in memory."""
+CURVE_OF: Final = {name: curve.name for curve in CURVES.values() for name in (curve.name, *curve.names)}
+"""The curve that an output is, or is a variable of."""
 
 
 def broken(asked: Asked) -> Found:
@@ -47,32 +48,22 @@ def _axes(asked: Asked) -> Found:
             yield home(name), f"it has {length} values, but {first} has {lengths[first]}; give all lists one length"
 
 
-def _curve_of(name: str) -> str:
-    """Name the curve that an output is, or is a variable of; empty for another."""
-    return name if name in CURVES else curves.curve_of(name) or ""
-
-
 def _outputs(asked: Asked) -> Found:
     """Check that each output belongs to the kind of the study, is asked for once, and is known of its scenes."""
     names, known = asked.data.get("outputs"), OUTPUTS_OF.get(asked.kind, ())
     if known and names is None:
         yield "outputs", required("outputs")
-    listed = names if isinstance(names, list) and known else []
+    listed = [name if isinstance(name, str) else "" for name in names] if isinstance(names, list) and known else []
     other = "map" if asked.kind == "curve" else "curve"
     for i, name in enumerate(listed):
-        if not isinstance(name, str):
-            continue
-        at, curve = f"outputs[{i}]", _curve_of(name)
-        if name not in known and name in OUTPUTS_OF[other]:
-            yield at, f'an output of studies of kind "{other}"; {did_you_mean(name, known)}, or write that kind'
-        elif name in GIVEN_UP:
+        at, curve = f"outputs[{i}]", CURVE_OF.get(name)
+        if name in GIVEN_UP:
             yield at, f"this output is given up, remove it: {GIVEN_UP[name]}"
-        elif name not in known:
-            yield at, f"not an output; {did_you_mean(name, known)}"
-        elif name in listed[:i]:
-            yield at, "this output is listed twice; remove one of the two"
-        elif curve in listed and curve != name:
-            yield at, f'a variable of "{curve}", which is listed as a whole; remove one of the two'
+        elif name and name not in known:
+            what = f'an output of kind "{other}": write that kind' if name in OUTPUTS_OF[other] else "not an output"
+            yield at, f"{what}; {did_you_mean(name, known)}"
+        elif name and (name in listed[:i] or (curve in listed and curve != name)):
+            yield at, "this output is listed twice, by its own name or that of its curve; remove one of the two"
         yield from ((at, words) for words in _unknown_of(name, asked))
     for way in ("maximise", "minimise"):
         for name in getattr(asked.form.optimum, way, ()):
@@ -81,11 +72,10 @@ def _outputs(asked: Asked) -> Found:
 
 def _unknown_of(name: str, asked: Asked) -> Iterator[str]:
     """Say why an output is not known of the scenes of a study."""
-    form, own, curve = asked.form, OUTPUTS.get(name.removesuffix(SI)), CURVES.get(_curve_of(name))
-    other = _approximate(asked)
-    if own and own.exact_alone and other:
+    form, own, curve = asked.form, OUTPUTS.get(name.removesuffix(SI)), CURVES.get(CURVE_OF.get(name, ""))
+    if own and own.exact_alone and (other := _approximate(asked)):
         yield f'the solver "{other}" has no such output; remove it, or write solver = "exact"'
-    if own and own.needs == "range" and not asked.meant("adhesion_range", "adhesion_range_over_R"):
+    if own and own.needs == "range" and not asked.of("range"):
         key = INPUTS["adhesion_range" if asked.units else "adhesion_range_over_R"]
         yield f"this output needs the range of the attraction; add {key.example} under [{key.table}]"
     if own and own.needs == "rate" and form.rate is None and asked.right("rate"):
@@ -104,8 +94,7 @@ def _unknown_of(name: str, asked: Asked) -> Iterator[str]:
     unequal = asked.given("work_of_adhesion_closing", "closing_ratio")
     equal = np.all(np.asarray(asked.values.get("closing_ratio", 0.0)) == 1.0)
     if own and own.needs_turn and unequal and not equal and not asked.ends and asked.right("parameters", "physical"):
-        words = f"{own.about.split(',')[0]} has no bound on an unbounded punch that closes at less work"
-        yield f"{words}; give {asked.turn} or a finite radius of the punch, or remove this"
+        yield f"on an unbounded punch that closes at less work this has no bound; give {asked.turn} or a finite radius"
 
 
 def _approximate(asked: Asked) -> str:
@@ -117,13 +106,12 @@ def _method(asked: Asked) -> Found:
     """Check that each solver is known, named once, and solves what is asked; and that a study of curves has none."""
     method, form = asked.form.method, asked.form
     if asked.kind == "curve":
-        if method.solver != ["exact"]:
-            yield "method.solver", "outputs select the curves of a curve study; name them there, and remove this key"
-        if not method.check_contact:
-            yield "method.check_contact", "the path of a curve study is always checked; remove this key"
+        for key in ("solver", "check_contact"):
+            if getattr(method, key) != getattr(type(method)(), key):
+                yield f"method.{key}", "curves are selected by outputs, and always checked; remove this key"
         return
     for i, one in enumerate(method.solver):
-        at = f"method.solver[{i}]" if asked.lists_solvers else "method.solver"
+        at = f"method.solver[{i}]" if isinstance(asked.at("method.solver"), list) else "method.solver"
         if one not in SOLVERS:
             yield at, f"not a solver; {did_you_mean(one, SOLVERS)}"
         elif one in method.solver[:i]:
@@ -143,14 +131,12 @@ def _punch(asked: Asked) -> Found:
     table = asked.form.profile
     if (spectrum := table.spectrum) is not None:
         if not 0 <= spectrum.last - spectrum.first < MOST_HARMONICS:
-            words = f"a series has 1 to {MOST_HARMONICS} waves, from first on; use another last, or another first"
-            yield "profile.spectrum.last", words
+            yield "profile.spectrum.last", f"a series has 1 to {MOST_HARMONICS} waves, from first on; use another last"
         if asked.kind != "map":
             yield "profile.spectrum", 'only maps have random roughness; write kind = "map", or give harmonics'
     single = not table.file and not spectrum and len(table.harmonics or (1,)) == 1
     if asked.given("a_max_over_a2") and not (single and shape_of(table) == Profile()):
-        words = "only one cosine on a paraboloid has a radius a_2; give a_max_over_R, or remove [profile]"
-        yield "parameters.a_max_over_a2", words
+        yield "parameters.a_max_over_a2", "only one cosine on a paraboloid has a radius a_2; give a_max_over_R instead"
 
 
 def _machine(asked: Asked) -> Found:
@@ -168,7 +154,7 @@ def _machine(asked: Asked) -> Found:
 def _states(asked: Asked) -> Found:
     """Check that the radii of states are drawn, differ, and lie within every punch."""
     radii, at = asked.form.states.contact_radius_over_R or [], "states.contact_radius_over_R"
-    drawn = any(CURVES[curve].of_a_state for curve in map(_curve_of, asked.form.outputs) if curve)
+    drawn = any(CURVES[CURVE_OF[name]].of_a_state for name in asked.form.outputs if name in CURVE_OF)
     if radii and asked.form.outputs and not drawn:
         yield at, 'no curve of states is requested; add "pressure" or "surface" to outputs, or remove [states]'
     rim = float(np.min(asked.values.get("a_max_over_R", math.inf)))
@@ -210,7 +196,7 @@ def _uncertain(asked: Asked) -> Found:
         yield "uncertainty", 'no input is uncertain; add for example modulus = "5 %", or remove [uncertainty]'
     for name, one in own.items():
         at, values = f"uncertainty.{name}", np.atleast_1d(asked.values.get(name, 1.0))
-        if not asked.meant(name):
+        if not asked.given(name):
             same = [other for other in form.entries if INPUTS[other].gives == INPUTS[name].gives]
             near = [other for other in same if INPUTS[name].instead_of == other or INPUTS[other].instead_of == name]
             kin = (*near, *same, name)[0]
@@ -252,14 +238,14 @@ def _optimum(asked: Asked) -> Found:
                 yield f"optimum.require.maximum.{name}", "the maximum is below the minimum; exchange the two"
     if table.require.one_disc and (method.solver != ["exact"] or not method.check_contact):
         yield "optimum.require.one_disc", "this needs the exact solver and check_contact = true; change [method]"
-    if asked.lists_solvers:
+    if isinstance(asked.at("method.solver"), list):
         yield "method.solver", "an optimum has one solver; choose one of these"
 
 
 def _goals(asked: Asked, table: Optimum) -> Found:
     """Check that one goal or two are named, each an output with one value a scene."""
     ways, goals = ("optimum.maximise", "optimum.minimise"), table.goals
-    if not goals and asked.right(*ways) and not {*map(steps_of, ways)} & {*asked.misspelt}:
+    if not goals and asked.right(*ways):
         yield ways[0], f"there is no goal; write for example {line_of('optimum', 'maximise')}"
     if len(goals) > 2:
         yield ways[len(table.maximise) < 3], "at most two goals are possible; remove the others"
@@ -281,7 +267,7 @@ def _over(asked: Asked, table: Optimum) -> Found:
         at, entry = f"optimum.over[{i}]", asked.at(home(name)) if name in INPUTS else None
         if name in table.over[:i]:
             yield at, "this input is named twice; remove one of the two"
-        elif entry is None and not (name in INPUTS and asked.meant(name)):
+        elif entry is None and not (name in INPUTS and asked.given(name)):
             near = nearest(name, asked.given(*INPUTS))
             remedy = f'did you mean "{near}"?' if near else f"add {name} = {{ start = .., stop = .. }}"
             yield at, f"the study gives no {name} to search; {remedy}"

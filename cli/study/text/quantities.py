@@ -185,32 +185,27 @@ def apart(value: Any) -> tuple[Any, str]:
 
 def _in_a_known_unit(value: Any, numbers: str, unit: str, base: str) -> tuple[Any, str]:
     """Give a quantity in its own unit, or in base units where its registry means something else by it than ours."""
+
+    def text_of(own: Any) -> str:  # as pint reads it
+        return (f"{own:C}" if hasattr(own, "dimensionality") else str(own)) or "dimensionless"
+
     array, own = np.asanyarray(getattr(value, numbers)), getattr(value, unit)
     if array.dtype == object:  # of decimals or fractions
         with suppress(TypeError, ValueError):
             array = array.astype(np.float64)
-
-    def in_base(size: int) -> tuple[float, str]:
-        made = getattr(size * own, base)
-        made = made() if callable(made) else made
-        return float(getattr(made, numbers)), _text(getattr(made, unit))
-
-    text = _text(own)
+    text = text_of(own)
     try:
-        (nothing, _), (scale, base_text) = in_base(0), in_base(1)
+        ends = [getattr(size * own, base) for size in (0, 1)]
+        nothing, one = (end() if callable(end) else end for end in ends)
+        scale, base_text = float(getattr(one, numbers)), text_of(getattr(one, unit))
+        is_scale = float(getattr(nothing, numbers)) == 0.0 and factor_between(base_text, base_text) is not None
     except (ArithmeticError, LookupError, TypeError, ValueError):
         return array, text
-    if nothing or factor_between(base_text, base_text) is None:  # a scale with an offset, or a dimension of its own
-        return array, text
     known = factor_between(text, base_text) if len(text) <= LONGEST - 26 else None  # beside the longest number
-    if array.dtype.kind not in "iuf" or (known and math.isclose(float(known), scale)):  # as constants are measured anew
+    same = known and math.isclose(float(known), scale)  # as constants are measured anew
+    if same or not is_scale or array.dtype.kind not in "iuf":
         return array, text
     return scaled(array, Decimal(f"{scale:.15g}")), base_text
-
-
-def _text(unit: Any) -> str:
-    """Write a unit so that pint reads it."""
-    return (f"{unit:C}" if hasattr(unit, "dimensionality") else str(unit)) or "dimensionless"
 
 
 def as_written(value: Any, path: tuple[str, ...] = (), *, bare: bool = True) -> Any:
@@ -232,13 +227,13 @@ def as_written(value: Any, path: tuple[str, ...] = (), *, bare: bool = True) -> 
         return array.astype(str if array.dtype.kind == "m" else "M8[us]").tolist()  # and no bare integers
     if array.dtype == object:
         return as_written(array.tolist(), path, bare=bare) if array.ndim else array.item()
+    if unit in ("percent", "%") and path[:1] == ("uncertainty",) and len(path) == 2:
+        unit = "%"
+    elif bare and unit and array.dtype.kind in "iuf" and (factor := factor_between(unit, "1")):
+        return scaled(array, factor).tolist()
     if not unit:
         return array.tolist()
-    if unit in ("percent", "%") and path[:1] == ("uncertainty",) and len(path) == 2:
-        return _with(array.tolist(), "%")
-    if bare and array.dtype.kind in "iuf" and (factor := factor_between(unit, "1")):
-        return scaled(array, factor).tolist()
-    return _with(array.tolist(), unit)
+    return np.reshape([f"{one!r} {unit}" for one in array.ravel().tolist()], array.shape).tolist()
 
 
 def filled(numbers: Any) -> NDArray[Any]:
@@ -246,8 +241,3 @@ def filled(numbers: Any) -> NDArray[Any]:
     if not np.ma.isMaskedArray(numbers):
         return np.asarray(numbers)
     return np.ma.filled(numbers if numbers.dtype == object else numbers.astype(float), np.nan)
-
-
-def _with(value: Any, unit: str) -> Any:
-    """Write numbers with a unit."""
-    return [_with(item, unit) for item in value] if isinstance(value, list) else f"{value!r} {unit}"

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Any, Final, NamedTuple
 
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.study.fit.loop_file import LoopFile
+from gradhesion.cli.study.fit.loops import LoopFile
 from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.core.closed.applicability import validity
 from gradhesion.core.closed.reduced import parameters_from

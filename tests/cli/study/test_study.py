@@ -17,7 +17,7 @@ from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.study.rules.asked import expanded
 from gradhesion.cli.study.rules.keys import Range
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.study.text.written import lines_of
+from gradhesion.cli.study.text.toml import lines_of
 from gradhesion.cli.study.tiling import Tiling, size_of
 from gradhesion.core import draw_curves, solve
 from gradhesion.core.problem.toughness import Rate, Toughness, ToughnessHarmonic
