@@ -11,9 +11,9 @@ import xarray
 from numpy.typing import NDArray
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
-from gradhesion.cli.dataset.dataset import attributes, compute, with_steep_contact
-from gradhesion.cli.dataset.describe import Variable, variables
+from gradhesion.cli.dataset.describe import Variable, attributes, steep_contact, variables
 from gradhesion.cli.dataset.read.model_range import slope_warnings
+from gradhesion.cli.dataset.writer import compute
 from gradhesion.cli.names.outputs import labels_of
 from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER, STEEP
 from gradhesion.cli.study.reading import study_from
@@ -241,7 +241,9 @@ def _solved(study: Study, parameters: Arrays, threads: int | None = None) -> xar
     # Twice as fast as xarray.Dataset(made).set_coords(beside), and the same.
     dataset = xarray.Coordinates(made).to_dataset().reset_coords([name for name in described if name in found])
     dataset.attrs = about
-    dataset = with_steep_contact(dataset, study, steep)
+    if steep.any() and (mark := steep_contact(study)):
+        dims = [str(dim) for dim in dataset["status"].dims]
+        dataset = dataset.assign_coords({STEEP: _as_read(mark, dims, steep, [])})
     _say_once(tuple(slope_warnings(dataset)))
     others = _other_coordinates(parameters, dataset)
     return dataset.assign_coords(others) if others else dataset

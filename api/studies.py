@@ -99,8 +99,8 @@ def run(
     elif set:
         study = any_from(_changed(tomllib.loads(study.text), _checked(set)), folder=study.folder)
     with checked():  # of what needs the compiler, for which `load` has no use
-        from gradhesion.cli.dataset.dataset import compute  # noqa: PLC0415
         from gradhesion.cli.dataset.fits import compute_fit  # noqa: PLC0415
+        from gradhesion.cli.dataset.writer import compute  # noqa: PLC0415
 
     return compute_fit(study) if isinstance(study, FitStudy) else compute(study, threads=threads)
 

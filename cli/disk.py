@@ -66,6 +66,8 @@ def writing(path: Path) -> Iterator[None]:
     """Turn a failure to write into a sentence about `path`."""
     try:
         yield
+    except BrokenPipeError:  # of a message, whose reader has gone
+        raise
     except (OSError, RuntimeError, UnicodeError) as error:  # RuntimeError is what netCDF4 makes of a failure of HDF5
         reason = getattr(error, "strerror", None) or str(error)
         with suppress(OSError):

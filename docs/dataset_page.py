@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import Any, Final
 
 from docs.tables import code, table
-from gradhesion.cli.dataset.dataset import attributes
+from gradhesion.cli.dataset.describe import attributes
 from gradhesion.cli.names.curves import CURVES, EXTENTS, MEANINGS, RAGGED
 from gradhesion.cli.names.fits import (
     FIT,

@@ -94,7 +94,7 @@ def merge(files: tuple[Path, ...], output: Path | None, overwrite: bool, quiet: 
     if output is not None and len(files) > 1:
         if len({*files}) < len(files):
             raise click.UsageError("the same dataset is named twice; name each once")
-        study, written = _joined(files, output, overwrite=overwrite)
+        study, written = _join(files, output, overwrite=overwrite)
         finish(output, study.scenes, written, time.monotonic() - start, quiet=quiet)
     elif output is not None or len(files) > 1:
         raise click.UsageError("several datasets are joined into an output, named with -o; one, of shards, needs no -o")
@@ -123,25 +123,16 @@ def _of_shards(file: Path) -> "Study | None":
     return study
 
 
-def _joined(files: tuple[Path, ...], output: Path, *, overwrite: bool) -> "tuple[Study, Written]":
-    """Join datasets along the axes in which they differ."""
-    import numpy as np
-
-    from gradhesion.cli.dataset.dataset import cautions, flagged_in
+def _join(files: tuple[Path, ...], output: Path, *, overwrite: bool) -> "tuple[Study, Written]":
+    """Write the dataset of several that are joined along the axes in which they differ."""
     from gradhesion.cli.dataset.joining import joined
     from gradhesion.cli.dataset.read.reader import opened
-    from gradhesion.cli.dataset.select import write_dataset
-    from gradhesion.cli.dataset.writer import Written
+    from gradhesion.cli.dataset.writer import of_values, write
     from gradhesion.cli.disk import refuse_existing
-    from gradhesion.cli.names.scenes import STEEP
-    from gradhesion.core import FAILED
 
     refuse_existing(output, overwrite=overwrite)
     with ExitStack() as stack:
         sources = {file: stack.enter_context(opened(file)) for file in files}
         history = "\n".join([*(str(source.attrs["history"]) for source in sources.values()), shared.history_now()])
-        study, dataset = joined(sources, history)
-        write_dataset(dataset, output, overwrite=overwrite)
-    status, steep = dataset["status"].values, int(dataset[STEEP].sum()) if STEEP in dataset else 0
-    failed = int(np.count_nonzero(status & FAILED))
-    return study, Written(failed=failed, cautions=tuple(cautions(study, flagged_in(status), steep)))
+        study, values = joined(sources)
+    return study, write(study, output, history=history, overwrite=overwrite, engine=partial(of_values, values))

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from gradhesion.cli.dataset.dataset import compute
+    from gradhesion.cli.dataset.writer import compute
 
 __all__ = ["compute"]
 
@@ -12,6 +12,6 @@ def __getattr__(name: str) -> Any:
     """Import what is public when it is first asked for."""
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from gradhesion.cli.dataset import dataset  # noqa: PLC0415 (numpy)
+    from gradhesion.cli.dataset import writer  # noqa: PLC0415 (numpy)
 
-    return getattr(dataset, name)
+    return getattr(writer, name)

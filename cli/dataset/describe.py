@@ -1,7 +1,9 @@
-"""The variables of a study's dataset by CF-1.11: dimensions, types and attributes, and where coordinates come from."""
+"""A study's dataset by CF-1.11: its variables, where coordinates come from, and what it says of itself."""
 
+import platform
 from collections.abc import Callable, Mapping
-from functools import partial
+from functools import cache, partial
+from importlib.metadata import version
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -9,8 +11,10 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.names import curves, outputs
 from gradhesion.cli.names.outputs import BEST, OF_PHYSICAL, ON_BOUND, PARETO_POINT, SI, labels_of, unit_of
-from gradhesion.cli.names.scenes import IDLE, REALISATION, SOLVER, SOLVERS, STATUS, STEEP_CONTACT
+from gradhesion.cli.names.scenes import IDLE, REALISATION, REFERENCES, SOLVER, SOLVERS, STATUS, STEEP_CONTACT
 from gradhesion.cli.study.files import COMMENT
+from gradhesion.cli.study.fit.study import FitStudy
+from gradhesion.cli.study.shape_words import profile_table, rate_in_words, shape_in_words, toughness_in_words
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of
 from gradhesion.cli.work.solve.scenes import blank_of, scenes_from
@@ -27,6 +31,8 @@ RMS: Final = {
     "chi": "roughness parameter chi = r/s of one cosine as high as the rms height of the random waviness",
 }
 """What the amplitude is of random roughness."""
+_version: Final = cache(version)
+"""Gives the version of a package, which takes a millisecond to read."""
 
 
 class Variable(NamedTuple):
@@ -92,7 +98,7 @@ def _labels(study: Study) -> dict[str, Variable]:
 
 def _words(name: str, words: object, about: str) -> Variable:
     """Describe a dimension whose items are words."""
-    return Variable((name,), "str", {"long_name": about}, np.array(words, dtype=object))
+    return Variable((name,), "str", {"long_name": about}, np.array(words, dtype=str))
 
 
 def _parameters(study: Study) -> dict[str, Variable]:
@@ -131,38 +137,47 @@ def _made(study: Study, name: str, own: tuple[str, ...], block: Block) -> NDArra
 
 
 def _output(study: Study, name: str) -> Variable:
-    """Describe a result, perhaps in SI units."""
-    plain = name.removesuffix(SI)
-    found = _of_curve(study, plain) if study.kind == "curve" else _of_scenes(study, plain)
-    if plain != name:
-        unit = unit_of(name)
-        found.attributes.update(units=unit, long_name=without_scale(found.attributes["long_name"], unit))
-    return found
-
-
-def _of_scenes(study: Study, name: str) -> Variable:
-    """Describe a value of each scene of a map, or of each optimum."""
-    if name == ON_BOUND:
+    """Describe a result: a value of each scene of a map, of each optimum, or of a curve; perhaps in SI units."""
+    plain, scenes = name.removesuffix(SI), tuple(study.sizes)
+    if plain == ON_BOUND:
         ends = [f"{one}_at_its_{end}_bound" for one in study.searched for end in ("lower", "upper")]
         about: dict[str, Any] = {"units": "1", "long_name": "bounds at which the optimum lies (0: none)"}
-        about |= flags_of({end: 1 << i for i, end in enumerate(ends)}, "i1")
-        return Variable(tuple(study.sizes), "i1", about)
-    attributes = {"units": "1", "ancillary_variables": "status", "long_name": _long_name(study, name)}
-    if name.endswith("_std"):
+        return Variable(scenes, "i1", about | flags_of({end: 1 << i for i, end in enumerate(ends)}, "i1"))
+    unit, meaning = unit_of(name), _long_name(study, plain)
+    about = {"units": unit, "ancillary_variables": "status"}
+    about["long_name"] = meaning if plain == name else without_scale(meaning, unit)
+    if study.kind == "curve":
+        return _of_curve(scenes, plain, about)
+    if plain.endswith("_std"):
         sampled = bool(study.uncertainty.samples)
-        attributes["comment"] = "of samples of the uncertain inputs" if sampled else "linear, by sensitivities"
-    if name.removeprefix(BEST) in INPUTS:
-        attributes["units"] = unit_of(name)
-    if name.endswith("_jumps") and not study.search:
-        return Variable(tuple(study.sizes), "i4", attributes)
-    labels = (labels_of(name),) if labels_of(name) else ()
+        about["comment"] = "of samples of the uncertain inputs" if sampled else "linear, by sensitivities"
+    if plain.endswith("_jumps") and not study.search:
+        return Variable(scenes, "i4", about)
+    labels = (labels_of(plain),) if labels_of(plain) else ()
     points = (PARETO_POINT,) if study.search.is_front else ()
-    return Variable((*study.sizes, *labels, *points), "f8", attributes, blank=np.nan)
+    return Variable((*scenes, *labels, *points), "f8", about, blank=np.nan)
+
+
+def _of_curve(scenes: tuple[str, ...], name: str, about: dict[str, Any]) -> Variable:
+    """Describe a variable of a curve, along a dimension of its own."""
+    curve, dtype = curves.curve_of(name) or "", curves.INTEGERS.get(name, "f8")
+    extent = curves.EXTENTS[curve]
+    if name in curves.MEANINGS:
+        about |= {"flag_values": np.array([0, 1], dtype=dtype), "flag_meanings": curves.MEANINGS[name]}
+    if name in curves.RAGGED.values():
+        return Variable(scenes, dtype, about | {"sample_dimension": extent})
+    if curves.is_ragged(name):
+        del about["ancillary_variables"]  # `status` has other dimensions
+        return Variable((extent,), dtype, about)
+    states = (curves.STATE,) if curve in curves.STATE_CURVES else ()
+    return Variable((*scenes, *states, extent), dtype, about, blank=blank_of(name))
 
 
 def _long_name(study: Study, name: str) -> str:
-    """Say what a variable of a map or of optima is, also the sensitivity of one in SI units."""
+    """Say what a result is, also the sensitivity of one in SI units."""
     plain = name.removeprefix(BEST)
+    if study.kind == "curve":
+        return curves.CURVES[curves.curve_of(name) or ""][name]
     if plain in INPUTS:
         return f"best {INPUTS[plain].about}"
     meaning = (outputs.OUTPUTS | outputs.SPREADS)[plain.removesuffix(OF_PHYSICAL)]
@@ -175,20 +190,34 @@ def _long_name(study: Study, name: str) -> str:
     return meaning
 
 
-def _of_curve(study: Study, name: str) -> Variable:
-    """Describe a variable of a curve, along a dimension of its own."""
-    scenes, dtype = tuple(study.sizes), curves.INTEGERS.get(name, "f8")
-    attributes: dict[str, Any] = {"units": "1", "ancillary_variables": "status"}
-    curve = curves.curve_of(name) or ""
-    extent = curves.EXTENTS[curve]
-    attributes["long_name"] = curves.CURVES[curve][name]
-    if name in curves.MEANINGS:
-        attributes |= {"flag_values": np.array([0, 1], dtype=dtype), "flag_meanings": curves.MEANINGS[name]}
-    if name in curves.RAGGED.values():
-        attributes["sample_dimension"] = extent
-        return Variable(scenes, dtype, attributes)
-    if curves.is_ragged(name):
-        del attributes["ancillary_variables"]  # `status` has other dimensions
-        return Variable((extent,), dtype, attributes)
-    states = (curves.STATE,) if curve in curves.STATE_CURVES else ()
-    return Variable((*scenes, *states, extent), dtype, attributes, blank=blank_of(name))
+def attributes(study: Study, history: str) -> dict[str, Any]:
+    """List the global attributes of a study's dataset: what it is, where it comes from, how to make it again."""
+    own: dict[str, Any] = {"profile": shape_in_words(study.profile, study.spectrum)}
+    if (fit := study.measured.fit) is not None:
+        own |= {"profile_file": study.measured.file, "profile_sha256": study.measured.sha256}
+        own |= {"profile_fit": profile_table(study.profile)}
+        own |= {"profile_residual_rms": fit.residual_rms, "profile_residual_max": fit.residual_max}
+    return origin(study, history, own | driven_in_words(study))
+
+
+def driven_in_words(study: Study | FitStudy) -> dict[str, Any]:
+    """Say how the punch is driven; how its toughness varies, and grows with the speed of its edge, if it does."""
+    toughness = {} if study.toughness is None else {"toughness": toughness_in_words(study.toughness)}
+    rate = {} if study.rate is None else {"rate": rate_in_words(study.rate)}
+    return {"control": study.loading.control, **toughness, **rate}
+
+
+def origin(study: Study | FitStudy, history: str, own: Mapping[str, Any]) -> dict[str, Any]:
+    """List the global attributes of any dataset, those of its `own` among them."""
+    return {
+        "Conventions": "CF-1.11",
+        "title": study.title,
+        "source": f"gradhesion {_version('gradhesion')}",
+        "history": history,
+        "references": REFERENCES,
+        **own,
+        "study": study.text,
+        "study_sha256": study.sha256,
+        "python_version": platform.python_version(),
+        **{f"{package}_version": _version(package) for package in ("numpy", "numba", "scipy")},
+    }

@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.cli.dataset.dataset import CONE, driven_in_words, origin
-from gradhesion.cli.dataset.describe import flags_of
-from gradhesion.cli.dataset.read.model_range import tabor_warnings
+from gradhesion.cli.dataset.describe import driven_in_words, flags_of, origin
+from gradhesion.cli.dataset.read.model_range import CONE, tabor_warnings
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.names import fits as names
 from gradhesion.cli.names.outputs import PARAMETER

@@ -75,9 +75,6 @@ def _with_fit(dataset: xarray.Dataset, data: dict[str, Any]) -> dict[str, Any]:
 def _check(dataset: xarray.Dataset, study: Study, path: Path) -> None:
     """Check that a dataset has what its study describes, along its axes, at its parameters, or at a part of them."""
     lengths = {str(axis): size for axis, size in dataset["status"].sizes.items()}
-    for axis, size in lengths.items():
-        if size > (own_size := study.sizes.get(axis, 0)):
-            raise _apart(path, f"its study has {own_size:,} items of {axis}, the dataset {size:,}")
     lengths |= {name: len(words) for name, words in study.labels.items()}
     for name, variable in variables(study).items():
         if name not in dataset.variables:
@@ -113,14 +110,12 @@ def _apart(path: Path, what: str) -> DatasetError:
     return DatasetError(f"{path}: {what}: {remedy}")
 
 
-def joined(sources: Mapping[Path, xarray.Dataset], history: str) -> tuple[Study, xarray.Dataset]:
-    """Join datasets in memory; where several have a scene, the first one's values hold.
+def joined(sources: Mapping[Path, xarray.Dataset]) -> tuple[Study, dict[str, NDArray[Any]]]:
+    """Join datasets: the study of all, and its values; where several have a scene, the first one's hold.
 
     DatasetError: they differ in something else than the values of axes, in nothing, or lack scenes of the grid of all;
     or one was changed since it was written.
     """
-    from gradhesion.cli.dataset.dataset import assembled  # noqa: PLC0415 (the compiler, which `verify` does without)
-
     studies = {file: study_of(dataset, file, ("map", "optimum"), WANTED) for file, dataset in sources.items()}
     (first, one), *_ = studies.items()
     for file, study in studies.items():
@@ -144,7 +139,7 @@ def joined(sources: Mapping[Path, xarray.Dataset], history: str) -> tuple[Study,
         files = ", ".join(map(str, studies))
         raise DatasetError(f"{files}: have the same scenes; join datasets that differ in an axis")
     study = study_from(_with_axes(tomllib.loads(one.text), axes), one.name)
-    return study, assembled(study, _values(study, studies, sources, axes), history)
+    return study, _values(study, studies, sources, axes)
 
 
 def _with_axes(data: dict[str, Any], axes: Mapping[str, NDArray[np.float64]]) -> dict[str, Any]:
@@ -165,18 +160,21 @@ def _values(
 ) -> dict[str, NDArray[Any]]:
     """Put the values of all sources where they belong in the dataset of their common study."""
     names = [*study.variables, "status", *([STEEP] if any(STEEP in source for source in sources.values()) else [])]
-    types: dict[str, Any] = {}
-    whole = xarray.Dataset()
-    for file, source in sources.items():
-        none = xarray.zeros_like(source["status"].variable)  # no scene is marked
-        part = xarray.Dataset({name: source[name].variable if name in source else none for name in names})
-        types |= {name: part[name].dtype for name in names}
-        part = part.expand_dims([axis for axis in axes if axis not in part.dims])
+    values: dict[str, NDArray[Any]] = {}
+    is_there = np.zeros(study.shape, dtype=bool)
+    for file in reversed([*sources]):  # so that the first one's values hold
+        source = sources[file]
         # Of its study: a logarithmic axis of another numpy may be off in the last place.
-        own = {axis: np.atleast_1d(studies[file].parameters[axis]) for axis in axes}
-        whole = whole.combine_first(part.assign_coords(own))
-    if missing := int(whole["status"].isnull().sum()):
+        own = {axis: np.searchsorted(all_of_it, studies[file].parameters[axis]) for axis, all_of_it in axes.items()}
+        items = (np.atleast_1d(own.get(axis, np.arange(size))) for axis, size in study.sizes.items())
+        place = np.ix_(*items)
+        is_there[place] = True
+        for name in names:
+            part = source.get(name, xarray.zeros_like(source["status"]))  # no scene is marked
+            part = part.expand_dims([axis for axis in axes if axis not in part.dims]).transpose(*study.sizes, ...)
+            whole = values.setdefault(name, np.empty((*study.shape, *part.shape[len(study.shape) :]), part.dtype))
+            whole[place] = part.values
+    if missing := np.count_nonzero(~is_there):
         lack = f"{missing:,} scenes of the grid of all along {' and '.join(axes)} are in none of them"
         raise DatasetError(f"{', '.join(map(str, sources))}: {lack}; join datasets that fill it")
-    whole = whole.sel(axes).transpose(*study.sizes, ...)
-    return {name: whole[name].values.astype(types[name]) for name in names}
+    return values

@@ -46,7 +46,8 @@ def _reduced(dataset: xarray.Dataset, selection: Selection) -> xarray.Dataset:
             made[name] = variable.reduce(np.bitwise_or.reduce, going, keep_attrs=True)
             continue
         made[name] = selection.taken(variable, status).values.transpose(*axes, ...)
-        made[name].attrs["long_name"] = f"{variable.attrs.get('long_name', name)}; {words}"
+        about = f"{variable.attrs.get('long_name', name)}; {words}"
+        made[name] = made[name].assign_attrs(long_name=about, reduced=words)
     kept = {str(name): one for name, one in dataset.coords.items() if not {*one.dims} & {*going}}
     if STEEP in dataset.coords:
         kept[STEEP] = dataset[STEEP].max(going, keep_attrs=True)
@@ -75,10 +76,11 @@ def one_loop(dataset: xarray.Dataset, choices: Sequence[str]) -> xarray.Dataset:
 def write_dataset(dataset: xarray.Dataset, path: Path, *, overwrite: bool) -> None:
     """Write a dataset out of memory, which takes the place of `path` when it is whole and on disk (OutputError)."""
     packed = {"zlib": True, "complevel": 1, "shuffle": True}
-    encoding = {}
-    for name, variable in dataset.variables.items():
-        is_packed = variable.ndim and variable.dtype.kind in "fiu"
-        encoding[name] = (packed if is_packed else {}) | {"_FillValue": variable.encoding.get("_FillValue")}
+    encoding = {
+        name: {"_FillValue": variable.encoding.get("_FillValue")}
+        | (packed if variable.ndim and variable.dtype.kind in "fiu" else {})
+        for name, variable in dataset.variables.items()
+    }
     dataset = dataset.drop_encoding()  # that of the whole: chunks, and names of coordinates that may be gone
     with replacement(path, overwrite=overwrite) as temporary, writing(path):
         dataset.to_netcdf(temporary, format="NETCDF4", engine="netcdf4", encoding=encoding)

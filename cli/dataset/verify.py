@@ -33,12 +33,14 @@ Progress = Callable[[int], AbstractContextManager[Callable[[int], None]]]
 
 @dataclass(frozen=True, kw_only=True)
 class Scene:
-    """A cell of a dataset: its place along each axis, its parameters, and those of them that distinguish it."""
+    """A scene of a dataset."""
 
-    index: Mapping[str, int]
+    cell: xarray.Dataset
+    """What the dataset has of it."""
     solver: str
     parameters: Mapping[str, float]
     place: Mapping[str, float | str]
+    """What distinguishes it from others: some of its parameters, its solver, its realisation."""
     shape: Shape
     """Of its punch, and what is prescribed."""
 
@@ -92,11 +94,14 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
     if not known or study.rate is not None:
         accepted = f"the solvers {' and '.join(stated.SOLVERS)}, and edges at rest"
         raise DatasetError(f"{path}: has no independent twin; `gradhesion verify` accepts {accepted}")
+    dataset = dataset.assign_coords({name: one.compute() for name, one in dataset.coords.items()})  # for all scenes
+    if SOLVER in dataset.dims:
+        dataset = dataset.isel({SOLVER: np.flatnonzero(np.isin(solvers, known))})
     outputs = [name for name in study.outputs if name in stated.KNOWN]
     unknown = [name for name in (*study.outputs, *study.spreads) if name not in outputs]
     found = Recomputed(
         seed=random.SystemRandom().randrange(10**6) if seed is None else seed,
-        total=dataset["status"].size // len(solvers) * len(known),
+        total=dataset["status"].size,
         solvers=known,
         unknown=(*unknown, *(f"all of the solver {solver}" for solver in solvers if solver not in known)),
     )
@@ -104,7 +109,7 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
     scenes.sort(key=lambda scene: scene.parameters["k"])  # scenes of one exponent share what is known of it
     with progress(len(scenes)) as advance:
         for scene in scenes:
-            found.deviations += _compared(dataset, scene, outputs, found)
+            found.deviations += _compared(scene, outputs, found)
             advance(1)
     if not found.deviations:
         reasons = f"{found.beyond} have too many waves, {found.failed} no value, {found.unsure} two folds that meet"
@@ -116,20 +121,18 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
 
 def _drawn(dataset: xarray.Dataset, study: Study, outputs: list[str], sample: int, found: Recomputed) -> list[Scene]:
     """Draw scenes until `sample` of them have values that can be recomputed."""
-    names = [name for name in (*study.parameters, *study.made, SOLVER, REALISATION) if name in dataset.coords]
-    cells = dataset[names].load().assign(status=dataset["status"])
-    if SOLVER in cells.dims:
-        cells = cells.isel({SOLVER: np.flatnonzero(np.isin(cells[SOLVER].values.astype(str), found.solvers))})
+    sizes = dataset["status"].sizes
     scenes: list[Scene] = []
     for candidate in random.Random(found.seed).sample(range(found.total), min(found.total, CANDIDATES * sample)):
         if len(scenes) == sample:
             break
-        scene = _scene(dataset, study, cells, candidate, found.solvers[0])
-        status = int(dataset["status"][scene.index])
+        cell = dataset.isel(dict(zip(sizes, np.unravel_index(candidate, [*sizes.values()]), strict=True)))
+        scene = _scene(cell, study, found.solvers[0])
+        status = int(cell["status"])
         if status & FAILED:
             found.failed += 1
             for name in study.variables if status & NO_VALUE else ():
-                value = math.nan if labels_of(name) else float(dataset[name][scene.index])
+                value = math.nan if labels_of(name) else float(cell[name])
                 if not (math.isnan(value) or (name.endswith("_jumps") and value == -1.0)):
                     found.deviations.append(Deviation(name, scene.place, value, "none, by its status"))
         elif missing := [name for name in PARAMETERS if math.isnan(scene.parameters[name])]:
@@ -143,21 +146,17 @@ def _drawn(dataset: xarray.Dataset, study: Study, outputs: list[str], sample: in
     return scenes
 
 
-def _scene(dataset: xarray.Dataset, study: Study, cells: xarray.Dataset, number: int, solver: str) -> Scene:
-    """Find the cell of a number among those that can be recomputed; `solver` is theirs where they have no other."""
-    status = cells["status"]
-    index = dict(zip(map(str, status.dims), map(int, np.unravel_index(number, status.shape)), strict=True))
-    values = {str(name): one.item() for name, one in cells.isel(index).coords.items()}
-    solver = str(values.pop(SOLVER, solver))
-    place = {name: value for name, value in values.items() if isinstance(study.parameters.get(name), np.ndarray)}
-    if SOLVER in dataset.coords:
-        place = {SOLVER: solver} | place
-    if SOLVER in index:  # among all solvers
-        index[SOLVER] = dataset[SOLVER].values.tolist().index(solver)
+def _scene(cell: xarray.Dataset, study: Study, solver: str) -> Scene:
+    """Describe the scene of a cell; `solver` is that of a dataset with no other."""
+    parameters = {name: float(cell[name]) for name in (*study.parameters, *study.made)}
+    place: dict[str, float | str] = {}
+    if SOLVER in cell.coords:
+        place[SOLVER] = solver = str(cell[SOLVER].item())
+    place |= {name: parameters[name] for name, values in study.parameters.items() if isinstance(values, np.ndarray)}
     profile = study.profile
     if study.spectrum is not None:
-        place[REALISATION] = values.pop(REALISATION)
-        profile = random_profile(study.spectrum, int(place[REALISATION]), profile.exponent)
+        place[REALISATION] = number = int(cell[REALISATION])
+        profile = random_profile(study.spectrum, number, profile.exponent)
     pattern = () if study.toughness is None else study.toughness.harmonics
     shape = Shape(
         profile.exponent,
@@ -166,11 +165,10 @@ def _scene(dataset: xarray.Dataset, study: Study, cells: xarray.Dataset, number:
         tuple((wave.n, wave.cos, wave.sin) for wave in pattern if wave.cos != 0.0 or wave.sin != 0.0),
         "toughness" if study.toughness is None else study.toughness.of,
     )
-    parameters = {name: float(value) for name, value in values.items()}
-    return Scene(index=index, solver=solver, parameters=parameters, place=place, shape=shape)
+    return Scene(cell=cell, solver=solver, parameters=parameters, place=place, shape=shape)
 
 
-def _compared(dataset: xarray.Dataset, scene: Scene, outputs: list[str], found: Recomputed) -> Iterator[Deviation]:
+def _compared(scene: Scene, outputs: list[str], found: Recomputed) -> Iterator[Deviation]:
     """Recompute one scene and compare."""
     try:
         expected = stated.expected(scene.parameters, outputs, scene.solver, scene.shape)
@@ -180,12 +178,12 @@ def _compared(dataset: xarray.Dataset, scene: Scene, outputs: list[str], found: 
     if "R" in scene.parameters:
         expected |= stated.in_si(expected, scene.parameters)
     found.scenes += 1
-    flagged = bool(int(dataset["status"][scene.index]) & CLOSE_TO_A_JUMP)
+    flagged = bool(int(scene.cell["status"]) & CLOSE_TO_A_JUMP)
     for name, one in expected.items():
-        value = scene.parameters[name] if name in scene.parameters else float(dataset[name][scene.index])
+        value = float(scene.cell[name])
         error = one.error
-        if f"{name}_error" in dataset.data_vars:  # of this very value; the last bit of a double is nobody's error
-            error = float(dataset[f"{name}_error"][scene.index]) + 2.0**-52 * abs(value)
+        if f"{name}_error" in scene.cell:  # of this very value; the last bit of a double is nobody's error
+            error = float(scene.cell[f"{name}_error"]) + 2.0**-52 * abs(value)
         deviation = stated.deviation(value, one)
         near = one.near or ("its status says so" if flagged and name.removesuffix(SI) in stated.BY_STEPS else "")
         if near and deviation > error:

@@ -1,4 +1,4 @@
-"""The dataset of a study written block by block; the blocks are kept until it is whole, and reused by the next run."""
+"""The dataset of a study made block by block: in memory, or in a file, where blocks are kept until it is whole."""
 
 from collections import Counter
 from collections.abc import Generator, Iterable, Iterator, Sequence
@@ -7,31 +7,41 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import chain
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.dataset import attributes, cautions, flagged_in
-from gradhesion.cli.dataset.describe import Variable, steep_contact, variables
+from gradhesion.cli.dataset.describe import Variable, attributes, steep_contact, variables
+from gradhesion.cli.dataset.read.model_range import cautions, flagged_in
 from gradhesion.cli.disk import refuse_existing, settle, writing
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names.curves import RAGGED, STATE, is_ragged
+from gradhesion.cli.names.curves import RAGGED, is_ragged
 from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, size_of
-from gradhesion.cli.terminal import interrupts
+from gradhesion.cli.terminal import interrupts, messages
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.progress import Advance
+from gradhesion.cli.work.compiling import prepare
 from gradhesion.cli.work.folder import Parts, claimed, clear, is_written, mark_of
 from gradhesion.cli.work.solve.blocks import Engine, in_threads, within
 from gradhesion.cli.work.solve.scenes import Arrays
 from gradhesion.core import FAILED
 
+if TYPE_CHECKING:
+    import xarray
+
 CACHE: Final = 2**22
 """Bytes of chunks to be held of each variable: blocks are whole chunks, so there is nothing to wait for. The
 library's own choice took more memory than all else that a run has."""
+PACKED: Final[dict[str, Any]] = {"compression": "zlib", "complevel": 1, "shuffle": True}
+"""How the values in a file are kept small."""
+IN_MEMORY: Final = "memory"
+"""The name of what is no file."""
+ENCODED: Final = ("_FillValue", "coordinates", "dtype")
+"""What is said of the cells of a dataset in memory."""
 POINTS: Final = 1024
 """Points of a curve in a chunk: most curves have fewer, and unwritten chunks take no room."""
 
@@ -49,6 +59,39 @@ class Written:
     """What is to be known of its answers."""
     complete: bool = False
     """Whether an earlier run had written it, and was killed before it could say so."""
+
+
+def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
+    """Compute a study in memory.
+
+    Parameters
+    ----------
+    study
+        From `load_study` or `study_from`.
+    threads
+        Threads to use, as many as the process may use if None; the values do not depend on it.
+
+    Returns
+    -------
+    The dataset that `gradhesion run` writes to a file, as xarray reads it.
+
+    Notes
+    -----
+    The first study of a version compiles the solver, which a line on stderr reports.
+    """
+    import xarray  # noqa: PLC0415 (450 ms that `run` does not need)
+
+    prepare(study)
+    blocks = in_threads(study, range(len(study.tiling)), threads)
+    with netCDF4.Dataset(IN_MEMORY, "w", diskless=True) as file:
+        said = _filled(file, study, "computed in memory", blocks)
+        messages.say(*(f"{study.name}: {sentence}" for sentence in said))
+        store: Any = xarray.backends.NetCDF4DataStore(file)  # type: ignore[no-untyped-call]
+        found = xarray.open_dataset(store).load()
+    found.encoding = {}
+    for variable in found.variables.values():  # chunks and the like are those of a file
+        variable.encoding = {key: one for key, one in variable.encoding.items() if key in ENCODED}
+    return found
 
 
 def write(
@@ -70,17 +113,15 @@ def write(
     solved by the `engine`, or by `threads` of this process.
     """
     parts = Parts(path, study)
-    with ExitStack() as stack:
-        with writing(path):
-            if shard or not parts.folder.is_dir():
-                refuse_existing(path, overwrite=overwrite)
-            stack.enter_context(claimed(path, f"-{shard[0]}-of-{shard[1]}" if shard else ""))
+    with writing(path), ExitStack() as stack:
+        if shard or not parts.folder.is_dir():
+            refuse_existing(path, overwrite=overwrite)
+        stack.enter_context(claimed(path, f"-{shard[0]}-of-{shard[1]}" if shard else ""))
         if not (overwrite or shard) and (complete := _written_before(parts)) is not None:
             clear(parts.folder)
             return complete
         refuse_existing(path, overwrite=overwrite)
-        with writing(path):
-            parts.begin(fresh=fresh)
+        parts.begin(fresh=fresh)
         first, step = (shard[0] - 1, shard[1]) if shard else (0, 1)
         numbers, written = range(first, len(study.tiling), step), Written()
         engine = engine or partial(in_threads, threads=threads)
@@ -89,7 +130,8 @@ def write(
             for _ in blocks:  # each is kept
                 pass
             return written
-        written.cautions = _merge(parts, history, blocks)
+        with netCDF4.Dataset(parts.merged, "w") as file:
+            written.cautions = _filled(file, study, history, blocks)
         settle(parts.merged, path, overwrite=overwrite)
         clear(parts.folder)
     return written
@@ -98,27 +140,24 @@ def write(
 def _blocks(
     parts: Parts, numbers: Sequence[int], engine: Engine, written: Written, advance: Advance
 ) -> Generator[tuple[int, Arrays], None, None]:
-    """Give blocks by their numbers, and count them: those not kept are solved, and kept if there are several."""
+    """Give blocks by their numbers, and count them: those that are kept, whole; then the others, which are solved."""
     several = parts.study.has_parts
-    kept = {number for number in numbers if several and parts.part(number).exists()}
-    damaged: list[int] = []
+    missing: list[int] = []
 
-    def solved(waiting: Sequence[int]) -> Iterator[tuple[int, Arrays, bool]]:
-        for number, values in engine(parts.study, waiting):
+    def kept() -> Iterator[tuple[int, Arrays, bool]]:
+        for number in numbers:
+            if several and (values := parts.read(number)) is not None:
+                yield number, values, True
+            else:
+                missing.append(number)
+
+    def solved() -> Iterator[tuple[int, Arrays, bool]]:
+        for number, values in engine(parts.study, missing):
             if several:
-                with writing(parts.output):
-                    parts.write(number, values)
+                parts.write(number, values)
             yield number, values, False
 
-    def read() -> Iterator[tuple[int, Arrays, bool]]:
-        for number in sorted(kept):
-            if (values := parts.read(number)) is None:
-                damaged.append(number)
-            else:
-                yield number, values, True
-
-    missing = [number for number in numbers if number not in kept]
-    for number, values, reused in chain(solved(missing), read(), solved(damaged)):
+    for number, values, reused in chain(kept(), solved()):
         interrupts.check()  # a cluster may have swallowed it
         written.failed += int(np.count_nonzero(values["status"] & FAILED))
         written.reused += reused
@@ -137,33 +176,27 @@ def only_kept(output: Path, study: Study, numbers: Sequence[int]) -> Iterator[tu
     return iter(())
 
 
-def _merge(parts: Parts, history: str, blocks: Iterable[tuple[int, Arrays]]) -> tuple[str, ...]:
-    """Write the dataset in the making, block by block, as they come; tells what is to be known of its answers."""
-    study, path = parts.study, parts.output
+def of_values(values: Arrays, study: Study, numbers: Sequence[int]) -> Iterator[tuple[int, Arrays]]:
+    """Solve nothing, in the place of an engine: cut the blocks out of the values of all scenes."""
+    for number in numbers:
+        yield number, {name: one[within(name, study.tiling[number], one)] for name, one in values.items()}
+
+
+def _filled(file: netCDF4.Dataset, study: Study, history: str, blocks: Iterable[tuple[int, Arrays]]) -> tuple[str, ...]:
+    """Fill a file with a dataset, block by block, as they come; tells what is to be known of its answers."""
     flagged = Counter[str]()
     steep = begun = 0  # scenes; items of ragged curves
-    with writing(path):
-        file = netCDF4.Dataset(parts.merged, "w", format="NETCDF4")
-    try:
-        with writing(path):
-            _define(file, study, history)
-        for number, values in blocks:
-            block = study.tiling[number]
-            with writing(path):
-                for name, part in values.items():
-                    if name == STEEP:
-                        steep += _mark(file, study, block, part)
-                    else:
-                        file[name][within(name, block, part, begun) or ...] = part
-            begun += sum(int(values[one].item()) for one in RAGGED.values() if one in values)
-            flagged.update(flagged_in(values["status"]))
-    except BaseException:
-        with suppress(OSError, RuntimeError):  # what went wrong first counts
-            file.close()
-        raise
-    with writing(path):
-        file.close()
-    return tuple(cautions(study, flagged, steep))
+    _define(file, study, history)
+    for number, values in blocks:
+        block = study.tiling[number]
+        for name, part in values.items():
+            if name == STEEP:
+                steep += _mark(file, study, block, part)
+            else:
+                file[name][within(name, block, part, begun) or ...] = part
+        begun += sum(int(values[one].item()) for one in RAGGED.values() if one in values)
+        flagged.update(flagged_in(values["status"]))
+    return tuple(cautions(study, flagged, steep, file.variables.get("A")))
 
 
 def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
@@ -172,8 +205,8 @@ def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
         file.set_fill_off()
     file.setncatts(attributes(study, history))
     described = variables(study)
-    sizes = study.sizes | {name: len(labels) for name, labels in study.labels.items()}
-    sizes |= {STATE: np.asarray(described[STATE].values).size} if STATE in described else {}
+    own = {name: one.values for name, one in described.items() if one.dimensions == (name,)}
+    sizes = study.sizes | {name: values.size for name, values in own.items() if values is not None}
     for name, size in sizes.items():
         file.createDimension(name, size)
     for name, variable in described.items():
@@ -195,7 +228,7 @@ def _create(file: netCDF4.Dataset, study: Study, name: str, described: Variable)
         *scenes, last = (file.dimensions[one] for one in described.dimensions)
         own = (*(1 for _ in scenes), min(POINTS, study.cells))  # a curve has its own chunks, all else those of blocks
         chunks = own if last.isunlimited() else Tiling(tuple(map(len, (*scenes, last))), study.cells).chunk
-        settings |= {"compression": "zlib", "complevel": 1, "shuffle": True, "chunksizes": chunks}
+        settings |= {"chunksizes": chunks} | ({} if file.filepath() == IN_MEMORY else PACKED)
     if described.blank is not None:
         settings["fill_value"] = described.blank
     dtype = str if described.dtype == "str" else described.dtype

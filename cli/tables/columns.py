@@ -2,7 +2,9 @@
 
 import math
 import re
+from array import array
 from collections.abc import Callable, Collection, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Final
@@ -10,7 +12,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.terminal.wording import did_you_mean
+from gradhesion.cli.terminal.wording import did_you_mean, shown
 
 _NUMBER: Final = re.compile(
     r"[+-]?(?:(?:\d+(?:\.\d*)?|\.\d+)(?:e[+-]?\d+)?|inf(?:inity)?|nan)", re.ASCII | re.IGNORECASE
@@ -26,22 +28,15 @@ _LARGEST: Final = 2.0**53
 
 def number(cell: str) -> float:
     """Give the number in a cell; NaN if it is empty, or an error of a spreadsheet."""
-    try:
-        value = float(cell)
-        if math.isfinite(value) and "_" not in cell and cell.isascii():
-            return value
-    except ValueError:
-        pass
     cell = cell.strip()
-    if not cell or re.fullmatch(ERRORS, cell):
-        return math.nan
-    if not _NUMBER.fullmatch(cell):
-        remedy = "write one" + (_FORM if any(map(str.isdigit, cell)) else "")
-        raise ValueError(f"is not a number; {remedy}")
-    value = float(cell)
-    if math.isinf(value) and "n" not in cell.lower():
-        raise ValueError("is beyond 1.8e308, the largest number; write it in a larger unit, or inf")
-    return value
+    if _NUMBER.fullmatch(cell):
+        value = float(cell)
+        if math.isinf(value) and "n" not in cell.lower():
+            raise ValueError("is beyond 1.8e308, the largest number; write it in a larger unit, or inf")
+        return value
+    if cell and not re.fullmatch(ERRORS, cell):
+        raise ValueError("is not a number; write one" + (_FORM if any(map(str.isdigit, cell)) else ""))
+    return math.nan
 
 
 def is_number(cell: str) -> bool:
@@ -113,6 +108,24 @@ class Columns:
     """Says where a row is, counted from 0."""
     others: tuple[str, ...] = ()
     """The columns that are not read."""
+
+
+def converted(
+    name: str, cells: Sequence[str], read: Callable[[str], float], place: Callable[[int], str]
+) -> NDArray[np.float64]:
+    """Read the cells of a column; ColumnsError names the place of the first one that is wrong."""
+    if read is number and (whole := "".join(cells)).isascii() and "_" not in whole:
+        with suppress(ValueError):
+            plain = np.array(cells, dtype=np.float64)  # all at once, which is ten times as fast
+            if not np.isinf(plain).any():
+                return plain
+    found = array("d")
+    for row, cell in enumerate(cells):
+        try:
+            found.append(read(cell))
+        except ValueError as error:
+            raise ColumnsError(f"{place(row)}: {name} = {shown(cell)} {error}") from None
+    return np.array(found)
 
 
 def tidy(units: Mapping[str, str]) -> dict[str, str]:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.disk import kind_by_content, kind_of, read_at_most
-from gradhesion.cli.tables.columns import Columns, ColumnsError, Wanted, number, tidy
+from gradhesion.cli.tables.columns import Columns, ColumnsError, Wanted, converted, number, tidy
 from gradhesion.cli.tables.text import of_text
 
 MOST_BYTES: Final = 2**29
@@ -29,7 +29,7 @@ def read_columns(
     beginning, UTF-16). Lines of that which begin with # are left out; the first other one (or a comment above numbers)
     is the header, `name` or `name [unit]` between commas, semicolons or tabs (or else spaces), or a row of names and
     one of units; each line that follows is a row of numbers, nan and inf among them. Commas are decimal where they can
-    be nothing else. 10^6 rows of six columns take some 3 s, three times that where there is anything but numbers.
+    be nothing else. 10^6 rows of six columns take some 6 s, and 20 s with decimal commas.
     """
     wanted = Wanted(only=only, words=words or {}, whole=whole)
     try:
@@ -91,10 +91,5 @@ def _values(name: str, column: Any, wanted: Wanted) -> NDArray[np.float64]:
     read = wanted.reader(name)
     if read is number:
         return np.ma.filled(column.astype(np.float64), np.nan)
-    found = []
-    for row, value in enumerate(np.ma.asarray(column).tolist()):
-        try:
-            found.append(read("" if value is None else str(value)))
-        except ValueError as error:
-            raise ColumnsError(f"{_place(row)}: {name} {error}") from None
-    return np.array(found)
+    cells = ["" if value is None else str(value) for value in np.ma.asarray(column).tolist()]
+    return converted(name, cells, read, _place)

@@ -4,15 +4,12 @@ import csv
 import io
 import re
 from array import array
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from typing import Final
 
-import numpy as np
-from numpy.typing import NDArray
-
-from gradhesion.cli.tables.columns import ERRORS, Columns, ColumnsError, Wanted, is_number, number, tidy
+from gradhesion.cli.tables.columns import ERRORS, Columns, ColumnsError, Wanted, converted, is_number, number, tidy
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.wording import shown
 
@@ -54,17 +51,27 @@ def of_text(content: bytes, sha256: str, wanted: Wanted) -> Columns:
     """Read the columns of a text."""
     text = _decoded(content)
     header = _header_of(text, wanted)
-    others = tuple(name for i, name in enumerate(header.names) if i not in header.read)
+    lines, columns = array("q"), {i: list[str]() for i in header.read}
+    for line, cells in _rows(text, header):
+        lines.append(line)
+        for i, column in columns.items():
+            column.append(cells[i])
     readers = {i: wanted.reader(header.names[i]) for i in header.read}
-    plain = _plain(text, header) if {*readers.values()} == {number} else None
-    found = _read(text, header, readers) if plain is None else {i: plain[i].copy() for i in readers}
+    numeric = {header.names[i]: columns[i] for i, read in readers.items() if read is number}
+    if "," in text and (header.separator != "," or '"' in text) and _has_decimal_commas(numeric, lines):
+        for i, column in columns.items():
+            columns[i] = [cell.replace(",", ".") if _COMMA.fullmatch(cell) else cell for cell in column]
 
     def place(row: int) -> str:
-        line = next(islice((line for line, _ in _rows(text, header)), row, None), None)
-        return f"line {line}" if line else f"row {row}"
+        return f"line {lines[row]}"
 
-    values = {header.names[i]: column for i, column in found.items()}
-    return Columns(values=values, units=header.units, sha256=sha256, place=place, others=others)
+    return Columns(
+        values={header.names[i]: converted(header.names[i], own, readers[i], place) for i, own in columns.items()},
+        units=header.units,
+        sha256=sha256,
+        place=place,
+        others=tuple(name for i, name in enumerate(header.names) if i not in header.read),
+    )
 
 
 def _decoded(content: bytes) -> str:
@@ -184,48 +191,20 @@ def _rows(text: str, header: Header) -> Iterator[tuple[int, list[str]]]:
         yield place, cells
 
 
-def _plain(text: str, header: Header) -> NDArray[np.float64] | None:
-    """Read a table of nothing but numbers by NumPy, which is four times as fast; None where anything else is in it."""
-    if '"' in text:
-        return None
-    lines = io.StringIO(text, newline=None)
-    try:
-        table = np.loadtxt(lines, delimiter=header.separator, skiprows=header.last, ndmin=2, unpack=True)
-    except ValueError:
-        return None
-    return None if len(table) != len(header.names) or np.isinf(table).any() else table
-
-
-def _read(text: str, header: Header, readers: Mapping[int, Callable[[str], float]]) -> dict[int, NDArray[np.float64]]:
-    """Read the columns of a table; `readers` says for each of them by its place what reads a cell."""
-    numeric = [i for i, read in readers.items() if read is number]
-    commas = (header.separator != "," or '"' in text) and "," in text and _has_decimal_commas(text, header, numeric)
-    found = {i: array("d") for i in readers}
-    for place, cells in _rows(text, header):
-        for i, read in readers.items():
-            cell = cells[i].replace(",", ".") if commas and _COMMA.fullmatch(cells[i]) else cells[i]
-            try:
-                found[i].append(read(cell))
-            except ValueError as error:
-                raise ColumnsError(f"line {place}: {header.names[i]} = {shown(cells[i])} {error}") from None
-    return {i: np.array(values) for i, values in found.items()}
-
-
-def _has_decimal_commas(text: str, header: Header, columns: list[int]) -> bool:
-    """Tell whether the numbers of a table have decimal commas."""
-    points = commas = 0
-    first, sure = "", False
-    for place, cells in _rows(text, header):
-        for i in columns:
-            if "." in cells[i] and is_number(cells[i]):
-                points = points or place
-            elif "," in cells[i] and _COMMA.fullmatch(cells[i]):
-                commas, first = commas or place, first or f"{header.names[i]} = {shown(cells[i])}"
-                sure = sure or not _THOUSANDS.fullmatch(cells[i])
+def _has_decimal_commas(columns: Mapping[str, Sequence[str]], lines: Sequence[int]) -> bool:
+    """Tell whether numbers have decimal commas (ColumnsError where that cannot be told)."""
+    commas, points = list[tuple[int, str, str]](), list[int]()
+    for name, column in columns.items():
+        for line, cell in zip(lines, column, strict=True):
+            if "." in cell and is_number(cell):
+                points.append(line)
+            elif "," in cell and _COMMA.fullmatch(cell):
+                commas.append((line, name, cell))
     remedy = "write points for the decimals, and nothing between thousands"
     if commas and points:
-        raise ColumnsError(f"line {commas} has a comma and line {points} a point in a number; {remedy}")
-    if commas and not sure:
-        words = f"line {commas}: {first} may be a decimal or thousands, like every number of the file with a comma"
-        raise ColumnsError(f"{words}; {remedy}")
+        raise ColumnsError(f"line {min(commas)[0]} has a comma and line {min(points)} a point in a number; {remedy}")
+    if commas and all(_THOUSANDS.fullmatch(cell) for *_, cell in commas):
+        line, name, cell = min(commas)
+        doubt = "may be a decimal or thousands, like every number of the file with a comma"
+        raise ColumnsError(f"line {line}: {name} = {shown(cell)} {doubt}; {remedy}")
     return bool(commas)

@@ -202,8 +202,8 @@ def _sensitivities(variable: xarray.DataArray, name: str) -> Iterator[str]:
     """Tell which parameter is the strongest in how many scenes, and between what each sensitivity lies."""
     labels = [str(label) for label in variable[labels_of(name)].values]
     values = variable.transpose(..., labels_of(name)).values.reshape(-1, len(labels))
-    is_reduced = " over " in str(variable.attrs.get("long_name", "")).rpartition(";")[2]  # signs decide what is largest
-    place = np.full(len(values), -1) if is_reduced else strongest(values, labels)
+    # Of what `select` has reduced signs have decided what is largest.
+    place = np.full(len(values), -1) if "reduced" in variable.attrs else strongest(values, labels)
     shares = pd.Series(place[place >= 0]).value_counts(normalize=True)
     if shares.size:
         written = (f"{labels[i]} in {100.0 * share:.3g} % of the scenes" for i, share in shares.items())

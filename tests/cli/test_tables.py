@@ -119,7 +119,9 @@ def test_netcdf_has_variables_of_one_dimension(tmp_path: Path) -> None:
         assert one.values.keys() == {"A", "n"}
         assert one.units == {"A": "nm"}
         np.testing.assert_array_equal(one.values["n"], [2.0**52 + 1, np.nan, 2.0**52])  # with all digits
-    with pytest.raises(ColumnsError, match=r"row 2, .*: A is not a whole number of at most 15 digits; write one"):
+    with pytest.raises(
+        ColumnsError, match=r'row 2, .*: A = "2.5" is not a whole number of at most 15 digits; write one'
+    ):
         read_columns(path, whole=["A"])
     with netCDF4.Dataset(path, "a") as file:
         file.createDimension("other", 2)

@@ -26,7 +26,7 @@ import netCDF4
 import numpy as np
 
 from gradhesion.cli.commands.status import status_of
-from gradhesion.cli.dataset.dataset import compute
+from gradhesion.cli.dataset.writer import compute
 from gradhesion.cli.main import main as gradhesion
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.terminal import interrupts

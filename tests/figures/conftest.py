@@ -6,7 +6,7 @@ from functools import cache
 import pytest
 import xarray
 
-from gradhesion.cli.dataset.dataset import compute
+from gradhesion.cli.dataset.writer import compute
 from gradhesion.cli.study.reading import load_study
 from tests.conftest import ROOT
 

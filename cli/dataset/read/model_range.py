@@ -2,7 +2,7 @@
 
 import math
 import tomllib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from operator import gt, lt
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
@@ -13,17 +13,21 @@ from gradhesion.cli.dataset.read.reader import tiling_of
 from gradhesion.cli.names.curves import curve_of
 from gradhesion.cli.names.outputs import BEST, value_of
 from gradhesion.cli.names.scenes import STEEP
-from gradhesion.cli.study.tiling import Block
-from gradhesion.cli.terminal.amounts import counted
+from gradhesion.cli.study.study import Study
+from gradhesion.cli.study.tiling import Block, Tiling
+from gradhesion.cli.terminal.amounts import counted, share_of
 from gradhesion.core import doubts_about
-from gradhesion.core.answers.flags import LINEAR_DEVIATION_OFF, RESOLUTION_TOO_COARSE
-from gradhesion.core.closed.reach import SMALL
+from gradhesion.core.answers.flags import ANSWER_FLAGS, LINEAR_DEVIATION_OFF, RESOLUTION_TOO_COARSE
+from gradhesion.core.closed.reach import SMALL, depends_on_contact
 from gradhesion.core.problem.names import CONTACT_SLOPE, RANGE, TURNS
 from gradhesion.core.problem.profile import Harmonic, Profile, rows_of, swings
-from gradhesion.core.problem.status import DOUBTFUL
+from gradhesion.core.problem.status import DOUBTFUL, FLAGS
 
 if TYPE_CHECKING:
+    import netCDF4
     import xarray
+
+    Amplitude = xarray.DataArray | netCDF4.Variable[Any]
 
 DOUBTS: Final = DOUBTFUL | LINEAR_DEVIATION_OFF | RESOLUTION_TOO_COARSE
 """All bits that cast doubt on some variable."""
@@ -35,6 +39,20 @@ ONE_DISC: Final = 2.0 / np.sqrt(np.pi)
 """Johnson's alpha at chi = 1/2, up to which short waves keep the contact one disc (docs/theory.md, section 12)."""
 STEEPEST: Final = 0.5
 """A slope of waves that is no longer small: a linear half-space errs by about its square."""
+CONE: Final = "the punch is a cone of slope 1, which is not small, at every contact radius of {}"
+"""What is said once of a study of a cone."""
+_MANY: Final = 0.1
+"""The share of scenes from which on it is said that they are not one disc."""
+_NOT_ONE_DISC: Final = "loading_contact_not_one_disc"
+_SAID: Final = {
+    "steep": f"contact reaches slopes above {SMALL:g} (a > R) in {{share}}: not small; bound a_max or indentation_max",
+    "waves": f"the waves have slopes above {STEEPEST:g} in {{share}}, which are not small; lower A",
+    _NOT_ONE_DISC: "contact on loading is not one disc in {share}, and its values doubtful; lower A (johnson_alpha)",
+    "resolution_too_coarse": "a finer sweep finds another optimum in {share}; raise optimum.resolution ({resolution})",
+    "nothing_feasible": "no point meets the requirements in {share}; require less, or widen the bounds",
+    "linear_deviation_off": "the linear deviation is off in {share}: the value bends; see uncertainty.samples",
+}
+"""What is said of a share of the scenes of a run, most of it by the flag."""
 
 
 def doubts_of(variable: str, dataset: "xarray.Dataset") -> int:
@@ -99,7 +117,8 @@ def count_beyond(number: str, dataset: "xarray.Dataset") -> int:
     if number == CONTACT_SLOPE and is_cone(dataset):
         return dataset["status"].size
     if number == "wave_slope" and number not in dataset:
-        return _steep_waves(dataset)
+        profiles = _profiles_of(dataset) if "A" in dataset.coords else []
+        return _steep_waves(dataset["A"], profiles, dataset["status"].size) if profiles else 0
     blocks = (beyond_by(number, dataset, block) for block in tiling_of(dataset["status"]))
     return sum(int(beyond.sum()) for beyond in blocks if beyond is not None)
 
@@ -133,26 +152,45 @@ def tabor_warnings(number: float, comment: str) -> Iterator[str]:
     yield f"Tabor parameter {number:.2g} ({comment}) is below {limit:g}: {words}"
 
 
-def steepness(rows: NDArray[np.float64]) -> float:
-    """Give the steepest slope of waves over A, by their rows (n, cos, sin): 2 pi of one cosine.
-
-    >>> steepness(np.array([[1.0, 1.0, 0.0]])) == 2.0 * math.pi
-    True
-    """
-    return 2.0 * math.pi * max(swings(-1.0, tuple(map(tuple, rows.tolist())))) if len(rows) else 0.0
+def flagged_in(status: NDArray[np.integer]) -> dict[str, int]:
+    """Count the cells that have each flag that a run has something to say of."""
+    flags = ANSWER_FLAGS | {_NOT_ONE_DISC: FLAGS[_NOT_ONE_DISC]}
+    return {name: int(np.count_nonzero(status.astype(np.int16) & bit)) for name, bit in flags.items()}
 
 
-def _steep_waves(dataset: "xarray.Dataset") -> int:
-    """Count the scenes whose waves are steep; 0 where that is not known: without a study, or of random waves."""
-    if "study" not in dataset.attrs or "A" not in dataset.coords:
-        return 0
+def cautions(study: Study, flagged: Mapping[str, int], steep: int, amplitude: "Amplitude | None") -> Iterator[str]:
+    """Say of each flag in what share of the cells it is set, and what to do; and how many contacts are `steep`."""
+    counts = {"steep": steep, **flagged}
+    if study.is_cone and depends_on_contact(study.solved):
+        yield CONE.format(f"all of {counted(study.scenes, 'scene')}")
+        counts["steep"] = 0
+    if amplitude is not None and "wave_slope" not in study.variables:
+        _, _, profiles = study.apart(tuple(slice(0, size) for size in study.shape))
+        counts["waves"] = _steep_waves(amplitude, profiles, study.scenes)
+    if counts[_NOT_ONE_DISC] < _MANY * study.scenes:
+        counts[_NOT_ONE_DISC] = 0
+    for name, sentence in _SAID.items():
+        if count := counts.get(name):
+            yield sentence.format(share=share_of(count, study.scenes), resolution=study.search.resolution)
+
+
+def _steep_waves(amplitude: "Amplitude", profiles: Sequence[Profile], scenes: int) -> int:
+    """Count the scenes whose waves are steep, by their amplitudes and the shapes of their punches."""
+    rows = [tuple(map(tuple, rows_of(profile).tolist())) for profile in profiles]
+    slopes = [2.0 * math.pi * max(swings(-1.0, own)) for own in rows]  # over A, the steepest of each shape
+    steep = 0
+    for block in Tiling(amplitude.shape):
+        values = np.asarray(amplitude[block or ...])
+        steep += sum(int(np.count_nonzero(values * slope > STEEPEST)) for slope in slopes)
+    return steep * scenes // (math.prod(amplitude.shape) * len(slopes))
+
+
+def _profiles_of(dataset: "xarray.Dataset") -> list[Profile]:
+    """Give the shape of the punch of a dataset, by its study; none where that is not known, or of random waves."""
     try:
         table: Any = tomllib.loads(dataset.attrs["study"]).get("profile", {})
         table = tomllib.loads(dataset.attrs["profile_fit"]) if "profile_fit" in dataset.attrs else table
         harmonics = tuple(Harmonic(**one) for one in table.get("harmonics", [{"n": 1}]))
-    except (ValueError, TypeError, AttributeError, RecursionError):
-        return 0
-    if "spectrum" in table:
-        return 0
-    steep = dataset["A"].values * steepness(rows_of(Profile(harmonics=harmonics))) > STEEPEST
-    return int(np.count_nonzero(steep)) * dataset["status"].size // steep.size
+    except (LookupError, ValueError, TypeError, AttributeError, RecursionError):
+        return []
+    return [] if "spectrum" in table else [Profile(harmonics=harmonics)]

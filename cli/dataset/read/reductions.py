@@ -62,15 +62,13 @@ def reduced(taken: Taken, axis: str, how: str) -> Taken:
     going = [name for name in taken.values.coords if axis in taken.values[name].dims]
     values, status = (one.drop_vars(going, errors="ignore") for one in (taken.values, taken.status))
     there = values.notnull()
-    if how in ("mean", "sum", *QUANTILES):
+    if not how.endswith(("max", "min")):
         flags = status.where(there, 0).astype(status.dtype).reduce(np.bitwise_or.reduce, axis)
-        if how == "mean":
-            made = values.mean(axis, skipna=True, keep_attrs=True)
-        elif how == "sum":
-            made = values.sum(axis, skipna=True, min_count=1, keep_attrs=True)
-        else:
-            with catch_warnings(action="ignore"):  # where all are NaN, so is the quantile
+        with catch_warnings(action="ignore"):  # where all are NaN, so is what is made of them
+            if how in QUANTILES:
                 made = values.quantile(QUANTILES[how], axis, skipna=True, keep_attrs=True).drop_vars("quantile")
+            else:
+                made = getattr(values, how)(axis, skipna=True, keep_attrs=True).where(there.any(axis))
         return Taken(values=made, status=flags, left_out=taken.left_out)
     place = values.fillna(-np.inf).argmax(axis) if how.endswith("max") else values.fillna(np.inf).argmin(axis)
     found = there.any(axis)
@@ -79,8 +77,7 @@ def reduced(taken: Taken, axis: str, how: str) -> Taken:
     if how.startswith("arg"):
         least, greatest = values.min(axis), values.max(axis)
         equal = (greatest - least) <= FLAT * np.maximum(abs(least), abs(greatest))
-        rank = np.argsort(np.argsort(coordinate, kind="stable"), kind="stable")[place.values]  # an axis may fall
-        at_end = found & ~equal & ((rank == 0) | (rank == coordinate.size - 1))
-        made, flat = place.copy(data=coordinate[place.values]).where(found & ~equal), int(equal.sum())
+        made = place.copy(data=coordinate[place.values]).where(found & ~equal)
+        at_end, flat = made.isin([coordinate.min(), coordinate.max()]), int(equal.sum())
     made = made.rename(values.name).assign_attrs(values.attrs)
     return Taken(values=made, status=flags, left_out=taken.left_out, at_end=at_end, flat=flat)

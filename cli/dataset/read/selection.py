@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 import xarray
@@ -25,9 +25,7 @@ from gradhesion.core import FAILED
 from gradhesion.core.problem.inputs import INPUTS, PHYSICAL
 
 SLACK: Final = 1e-9
-"""How far beyond an end of an axis a value may be, over the end: it is typed with fewer digits than it has."""
-SAME: Final = 1e-12
-"""Values this near to each other, over their size, are one: ends of ranges are rounded."""
+"""Values that differ by less, over their size, are one: they are typed with fewer digits than they have."""
 QUANTITY: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\D.*)?")
 """A number, and its unit if it has one."""
 
@@ -105,28 +103,22 @@ def selection_of(
             fixed[axis] = known.index(text)
             continue
         values = np.asarray(dataset[axis].values, dtype=float)
-        if ":" in text:
-            low, high = ends_in(text, axis, option)
-            left = np.flatnonzero((low - SLACK * abs(low) <= values) & (values <= high + SLACK * abs(high)))
-            if not left.size:
-                least, most = values.min(), values.max()
-                raise DatasetError(f"{option}: no value of the axis is within; it has {least:g} to {most:g}")
+        place = None if ":" in text else _between(option, values, axis, value_in(text, axis, option))
+        if place is None:
+            left = _within(option, values, ends_in(text, axis, option))
         else:
-            value = value_in(text, axis, option)
-            nearest = _nearest(option, values, axis, value)
-            near = float(values[nearest])
-            left = np.flatnonzero(values == near)
-            is_there = np.isinf(value) or abs(near - value) <= SAME * abs(value)
-            if not (is_there or interpolate):
-                notes.append(f"{option}: shows {axis} = {near:.10g}{_unit(axis)}, its nearest value")
+            nearest = place.items[round(place.share)]
+            left = np.flatnonzero(values == values[nearest])
+            if place.share > 0.0 and not interpolate:
+                notes.append(f"{option}: shows {axis} = {values[nearest]:.10g}{_unit(axis)}, its nearest value")
         if axis not in dims:  # of points, which have it along their scenes
             if interpolate:
                 raise DatasetError(f"{option}: points cannot be interpolated; leave --interpolate out")
             parts[SCENE] = np.intersect1d(parts.get(SCENE, left), left)
-        elif ":" in text:
+        elif place is None:
             parts[axis] = left
-        elif interpolate and not is_there:
-            between.append(_between(values, axis, value))
+        elif interpolate and place.share > 0.0:
+            between.append(place)
         else:
             fixed[axis] = nearest
     if not parts.get(SCENE, np.zeros(1)).size:
@@ -224,30 +216,25 @@ def ends_in(text: str, name: str, option: str) -> tuple[float, float]:
     return low, high
 
 
-def _nearest(option: str, values: NDArray[np.float64], axis: str, value: float) -> int:
-    """Find the item of an axis nearest to a value within its range, by ratio where it is log-spaced."""
-    finite = values[np.isfinite(values)]
-    inside = finite.size and finite.min() <= value <= finite.max()
-    if not (inside or np.isclose(value, values, rtol=SLACK, atol=0.0).any()):
+def _within(option: str, values: NDArray[np.float64], ends: tuple[float, float]) -> NDArray[np.intp]:
+    """Find the items of an axis within a range."""
+    low, high = ends
+    left = np.flatnonzero((low - SLACK * abs(low) <= values) & (values <= high + SLACK * abs(high)))
+    if not left.size:
+        raise DatasetError(f"{option}: no value of the axis is within; it has {values.min():g} to {values.max():g}")
+    return left
+
+
+def _between(option: str, values: NDArray[np.float64], axis: str, value: float) -> Between:
+    """Find the two items that a value lies between, by ratio if the axis is log-spaced; or twice that which has it."""
+    if (same := np.flatnonzero(np.isclose(values, value, rtol=SLACK, atol=0.0))).size:
+        item = int(same[0] if np.isinf(value) else same[np.argmin(np.abs(values[same] - value))])
+        return Between(axis=axis, value=value, items=(item, item), share=0.0)
+    rising = np.argsort(values, kind="stable")[: np.isfinite(values).sum()]
+    upper = int(np.searchsorted(values[rising], value))
+    if not 0 < upper < rising.size:
         written = f"{values.min():g} to {values.max():g}{_unit(axis)}"
         raise DatasetError(f"{option}: outside the axis, which has values of {written}; choose one within")
-    if np.isinf(value):
-        return int(np.flatnonzero(values == value)[0])
-    along, place = _in_its_scale(values, value)
-    return int(np.argmin(np.abs(along - place)))
-
-
-def _between(values: NDArray[np.float64], axis: str, value: float) -> Between:
-    """Find the two items of an axis that a value lies between."""
-    along, place = _in_its_scale(values, value)
-    order: NDArray[Any] = np.argsort(along, kind="stable")
-    upper = min(int(np.searchsorted(along[order], place)), int(np.isfinite(along).sum()) - 1)
-    items = (int(order[upper - 1]), int(order[upper]))
-    low, high = along[[*items]]
-    share = float(np.clip((place - low) / (high - low), 0.0, 1.0))
-    return Between(axis=axis, value=value, items=items, share=share)
-
-
-def _in_its_scale(values: NDArray[np.float64], value: float) -> tuple[NDArray[np.float64], float]:
-    """Give an axis, and a value of it, by their logarithms if it is log-spaced."""
-    return (np.log(values), float(np.log(value))) if is_log(values) else (values, value)
+    items = (int(rising[upper - 1]), int(rising[upper]))
+    low, place, high = (np.log if is_log(values) else np.array)([values[items[0]], value, values[items[1]]])
+    return Between(axis=axis, value=value, items=items, share=float((place - low) / (high - low)))

@@ -41,19 +41,20 @@ def spread(dataset: xarray.Dataset) -> tuple[xarray.Dataset, dict[str, list[str]
     The first has the name of the sensitivity and numbers the parameters from 0 on in the order of its `parameters`;
     the others have the name of the parameter added, and are listed by that of the sensitivity as well.
     """
-    parts = {str(name): own for name in dataset.data_vars if (own := parts_of(dataset, str(name)))}
     made: dict[str, xarray.DataArray] = {}
+    parts: dict[str, list[str]] = {}
     for name, variable in ((str(name), one) for name, one in dataset.data_vars.items()):
-        own = parts.get(name, {})
+        own = parts_of(dataset, name)
         if not own:
             made[name] = variable
             continue
-        place = strongest(variable.values, [*own.values()])
-        first = variable.isel({labels_of(name): 0}, drop=True)
-        made[name] = first.copy(data=np.where(place < 0, np.nan, place)).assign_attrs(parameters=" ".join(own.values()))
-        made |= {part: variable.isel({labels_of(name): i}, drop=True) for i, part in enumerate(own)}
+        parts[name], labels = [*own], [*own.values()]
+        each = [variable.isel({labels_of(name): i}, drop=True) for i in range(len(own))]
+        place = strongest(variable.values, labels)
+        made[name] = each[0].copy(data=np.where(place < 0, np.nan, place)).assign_attrs(parameters=" ".join(labels))
+        made |= zip(own, each, strict=True)
     whole = dataset.drop_vars([*parts, *map(labels_of, parts)]).assign(made)[list(made)] if parts else dataset
-    return whole, {name: [*own] for name, own in parts.items()}
+    return whole, parts
 
 
 def parameters_of(variable: xarray.DataArray) -> list[str]:

@@ -12,7 +12,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 import gradhesion as gr
-from gradhesion.cli.dataset.dataset import compute
+from gradhesion.cli.dataset.writer import compute
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.study.rules.asked import expanded
 from gradhesion.cli.study.rules.keys import Range
