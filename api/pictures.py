@@ -143,11 +143,12 @@ def plot(
     """
     with as_keywords(), data_of(dataset) as values:
         looks = looks_of(
+            variables=_listed(variables), at=_wishes(at), over=_wishes(over), interpolate=interpolate, x=x, y=y,
             kind=kind, width=width, height=height, colour_map=colour_map, levels=levels, labels=labels, title=title,
-            caption=caption, xlabel=xlabel, ylabel=ylabel, clabel=clabel, style=style, xlim=xlim, ylim=ylim, band=band,
+            caption=caption, xlabel=xlabel, ylabel=ylabel, clabel=clabel, style=style, data=data, xlim=xlim, ylim=ylim,
+            band=band,
         )  # fmt: skip
-        wishes: dict[str, Any] = {"at": _wishes(at), "over": _wishes(over), "interpolate": interpolate, "x": x, "y": y}
-        figure = picture_of(values, _listed(variables), looks, **wishes, data=None if data is None else Path(data))
+        figure = picture_of(values, looks)
     return Panels(figure, looks)
 
 

@@ -110,10 +110,9 @@ def plot(
     from gradhesion.cli.picture.picture import picture_of
     from gradhesion.cli.picture.pictured import save
 
-    choices = {name: settings.pop(name) for name in ("at", "over", "interpolate", "x", "y", "data")}
-    chosen, notes = looks_of(**settings), list[str]()
+    chosen, notes = looks_of(variables=shared.listed(variables), **settings), list[str]()
     with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary:
-        figure = picture_of(dataset, shared.listed(variables), chosen, **choices, notes=notes.append)
+        figure = picture_of(dataset, chosen, notes.append)
         with writing(path):
             save(figure, temporary, form, chosen)
     if not quiet:

@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from types import MappingProxyType
 from typing import Any, Final
 
 import numpy as np
@@ -64,7 +63,7 @@ def rounded(values: NDArray[Any]) -> NDArray[np.floating[Any]]:
     return near.astype(np.float32) if fits else near
 
 
-def study_data(dataset: xarray.Dataset, units: Mapping[str, Unit] = MappingProxyType({})) -> tuple[Entry, list[Entry]]:
+def study_data(dataset: xarray.Dataset, units: Mapping[str, Unit] | None = None) -> tuple[Entry, list[Entry]]:
     """Make the data of a page from a dataset that is cut down to what it shall show; `units` are those of variables.
 
     Returns
@@ -77,7 +76,7 @@ def study_data(dataset: xarray.Dataset, units: Mapping[str, Unit] = MappingProxy
     dataset = dataset.isel({axis: np.argsort(dataset[axis].values, kind="stable") for axis in numeric})
     axes = [axis for axis in dims if dataset.sizes[axis] > 1]
     dataset = dataset.isel({axis: 0 for axis in dims if axis not in axes})
-    variables = [_variable(dataset, str(name), units) for name in dataset.data_vars if name != "status"]
+    variables = [_variable(dataset, str(name), units or {}) for name in dataset.data_vars if name != "status"]
     if not any(np.isfinite(variable["values"]).any() for variable in variables):
         listed = ", ".join(variable["name"] for variable in variables)
         raise DatasetError(f"{listed}: no value in any scene; `gradhesion info` reports why")

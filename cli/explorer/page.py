@@ -2,7 +2,6 @@
 
 import tomllib
 from collections.abc import Sequence
-from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
 
@@ -42,7 +41,11 @@ BAR: Final = 66
 BARE: Final = 16
 """Pixels to the right of frames, on a page with bars of colours and without: frames stand in line."""
 Part = dict[str, Any]
-LOOKS: Final[Part] = {"tools": "pan,wheel_zoom,box_zoom,reset,save", "toolbar_location": "above", "min_border": 4}
+LOOKS: Final[Part] = {
+    "tools": "pan,wheel_zoom,box_zoom,reset,save", "toolbar_location": "above", "active_drag": None,
+    "min_border": 4, "min_border_left": 78, "sizing_mode": "stretch_both", "output_backend": "canvas",
+}  # fmt: skip
+"""The looks of every figure; a finger that moves the page is not caught."""
 _SCRIPTS: Final = ("numbers", "scene", "controls", "maps", "sections", "curves", "address", "downloads", "explorer")
 """The script of a page, in the order in which its parts need each other."""
 
@@ -50,24 +53,26 @@ _SCRIPTS: Final = ("numbers", "scene", "controls", "maps", "sections", "curves",
 def write_page(
     dataset: xarray.Dataset, file: str, variables: Sequence[str], places: Sequence[str], path: Path, *, overwrite: bool
 ) -> None:
-    """Write the page of a dataset into a file (DatasetError, OutputError); the rest is as for `page`."""
+    """Write a dataset, whose name is `file`, as a page: some variables (all if none), at AXIS=VALUE of some axes.
+
+    DatasetError says what it lacks, OutputError why the page cannot be written.
+    """
     with replacement(path, overwrite=overwrite) as temporary:
         if is_fit(dataset):
             raise DatasetError(f"{file}: contains a fit, and a page needs scenes; `gradhesion plot` draws it")
         check_dimensions(dataset)
-        text = page(dataset, file, variables, places)
+        text = _page(dataset, file, chosen(dataset, variables, places))
         with writing(path):
             temporary.write_text(text, encoding="utf-8")
 
 
-def page(dataset: xarray.Dataset, file: str, variables: Sequence[str], places: Sequence[str]) -> str:
-    """Make a dataset, whose name is `file`, a page: some variables (all if none), at AXIS=VALUE of some axes."""
-    cut = chosen(dataset, variables, places)
+def _page(dataset: xarray.Dataset, file: str, cut: xarray.Dataset) -> str:
+    """Make the page of a dataset, of which it shows what is cut out."""
     planes, units, tracks = lines_of(cut) if has_curves(dataset) else ([], {}, {})
     study, shown = study_data(cut, units)
     kind = "curves" if planes else _kind_of(study)
     count, maps = 0 if planes else min(2, len(shown)), kind == "maps"
-    sides, shared = ("x", "y") if maps else ("x",), _ranges()
+    sides, shared = ("x", "y") if maps else ("x",), {side: Range1d(start=0, end=1) for side in ("x", "y")}
     parts: Part = {
         "ranges": shared,
         "maps": [_map_of(i, shared) for i in range(count if maps else 0)],
@@ -75,7 +80,7 @@ def page(dataset: xarray.Dataset, file: str, variables: Sequence[str], places: S
         "planes": [],
     }
     for i, (x, y) in enumerate(planes):
-        plot = _figure(f"plane{i}", f"plane{i}", _ranges(), BARE)
+        plot = _figure(f"plane{i}", BARE)
         parts["planes"].append({"figure": plot, "lines": _lines(plot), "x": x, "y": y})
     document = Document(title=str(dataset.attrs["title"]))
     sections = [section for both in parts["sections"] for section in both.values()]
@@ -140,17 +145,16 @@ def _kind_of(study: Entry) -> str:
 
 def _study_of_a_scene(dataset: xarray.Dataset) -> Entry:
     """Describe the study of one scene: the keys that give it, each with its table, and all else that it has as TOML."""
-    stored: dict[str, Any] = {}
-    with suppress(tomllib.TOMLDecodeError, RecursionError):
-        stored = tomllib.loads(str(dataset.attrs.get("study", "")))
+    stored = tomllib.loads(str(dataset.attrs.get("study", "")))
     keys = {name: INPUTS[name].table for name in given(dataset.coords)}
     own = [str(name) for name in dataset.data_vars if name != "status" and not str(name).endswith(SI)]
     head = {"title": f"A scene of: {dataset.attrs.get('title', 'a dataset')}", "outputs": stored.get("outputs", own)}
-    tables: dict[str, str] = {}
-    for name, table in stored.items():
-        if isinstance(table, dict) and name not in ("parameters", "physical"):
-            others = {key: value for key, value in table.items() if key not in keys}
-            tables |= {name: toml_of({name: others}).partition("]\n")[2].strip()} if others else {}
+    others = {
+        name: {key: value for key, value in one.items() if key not in keys}
+        for name, one in stored.items()
+        if isinstance(one, dict) and name not in ("parameters", "physical")
+    }
+    tables = {name: toml_of({name: one}).partition("]\n")[2].strip() for name, one in others.items() if one}
     return {"given": keys, "head": toml_of(head | ({"kind": "curve"} if has_curves(dataset) else {})), "tables": tables}
 
 
@@ -159,14 +163,9 @@ def _read(name: str) -> str:
     return (Path(__file__).parent / name).read_text(encoding="utf-8")
 
 
-def _ranges() -> Part:
-    """Make a range for each side; maps share theirs."""
-    return {side: Range1d(start=0, end=1) for side in ("x", "y")}
-
-
 def _map_of(number: int, shared: Part) -> Part:
     """Make a map: an image, the lines through its cell, and a bar of colours."""
-    plot = _figure(f"map{number}", "map", shared, BAR)
+    plot = _figure(f"map{number}", BAR, "map", shared)
     image = ColumnDataSource({"image": [np.zeros((1, 1), np.uint32)], "x": [0.0], "y": [0.0], "dw": [1.0], "dh": [1.0]})
     plot.image_rgba(image="image", x="x", y="y", dw="dw", dh="dh", source=image)
     cell = _source("x", "y", "left", "right", "bottom", "top")
@@ -185,7 +184,7 @@ def _map_of(number: int, shared: Part) -> Part:
 
 def _section_of(number: int, side: str, right: int) -> Part:
     """Make a section: the values along one axis through the cell, or over a parameter."""
-    plot = _figure(f"section{number}{side}", f"section{number}{side}", _ranges(), right)
+    plot = _figure(f"section{number}{side}", right)
     lines = _lines(plot)
     dots = _source("x", "y", "marker", "size", "fill", "colour")
     looks: Part = {"marker": "marker", "size": "size", "fill_color": "fill", "line_color": "colour", "line_width": 1.2}
@@ -209,14 +208,16 @@ def _lines(plot: figure) -> ColumnDataSource:
     return lines
 
 
-def _figure(name: str, place: str, sides: Part, right: int) -> figure:
-    """Make a figure that fills its place in the page, with the ticks of the script, at a size that can be read."""
-    own: Part = {"name": name, "x_range": sides["x"], "y_range": sides["y"], "sizing_mode": "stretch_both"}
-    own["active_drag"] = None  # a finger that moves the page must not be caught
-    plot = figure(**LOOKS, **own, min_border_left=78, min_border_right=right, output_backend="canvas")
+def _figure(name: str, right: int, place: str = "", ranges: Part | None = None) -> figure:
+    """Make a figure that fills its place in the page, at a size that can be read.
+
+    The script gives it ticks by the name of a place, its own if none; maps share their ranges.
+    """
+    sides = {f"{side}_range": one for side, one in (ranges or {"x": (0, 1), "y": (0, 1)}).items()}
+    plot = figure(name=name, **LOOKS, **sides, min_border_right=right)
     plot.toolbar.update(logo=None, autohide=True)
     for side, axis in (("x", plot.xaxis[0]), ("y", plot.yaxis[0])):
-        axis.update(**_ticks(f"{place}.{side}"))
+        axis.update(**_ticks(f"{place or name}.{side}"))
         for part in ("axis", "major"):
             axis.update(**{f"{part}_label_text_font_size": FONT, f"{part}_label_text_color": INK})
         axis.update(axis_label_text_font_style="normal", minor_tick_line_color=None)

@@ -3,21 +3,19 @@
 from collections.abc import Callable, Iterable, Sequence
 from itertools import cycle
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.curves import RAGGED, STATE, STATE_CURVES, variables_of_curves
 from gradhesion.cli.names.outputs import SI, UNITS
-from gradhesion.cli.picture.labels import fixed, number, suit
+from gradhesion.cli.picture.labels import Values, fixed, number, suit
 from gradhesion.cli.picture.looks import Looks, check_names
-from gradhesion.cli.picture.pictured import finish, make_room, stacked, styled
+from gradhesion.cli.picture.pictured import finish, make_room, side_by_side
 from gradhesion.cli.picture.tracks import QUANTITIES, Plane, Points, draw_panel, finite, legend_of, scenes_of, tracks_in
 from gradhesion.cli.study.text.quantities import factor_of_column, scaled
 from gradhesion.cli.tables.columns import Columns, ColumnsError
@@ -29,68 +27,51 @@ PLANES: Final = (("indentation", "load"), ("contact_radius", "indentation"), ("c
 OF_STATES: Final = {"pressure": ("pressure_radius", "pressure"), "surface": ("surface_radius", "surface_displacement")}
 """What each panel has along and up, unless that is chosen; and each curve of a state."""
 JUMPS: Final = 'jumps are not drawn, but listed by `gradhesion info --jumps`; draw the cycle: add "path" to the outputs'
-FEW: Final = 60
-"""Points that are circles on top of the lines; more are grey dots below them, which would hide the lines."""
-CIRCLES: Final[dict[str, Any]] = {"mfc": "white", "mec": "0.1", "mew": 0.5, "ms": 2.8, "zorder": 3}
-DOTS: Final[dict[str, Any]] = {"mfc": "0.6", "mec": "none", "ms": 2.6, "zorder": 1.8, "rasterized": True}
 DASHES: Final = ("-", (0, (5, 1.5)), (0, (2, 1)), (0, (6, 1.5, 1, 1.5)))
 """What distinguishes states where colours do not print."""
 
 
-def drawn_curves(
-    dataset: xarray.Dataset,
-    asked: Sequence[str],
-    x: str | None,
-    y: str | None,
-    looks: Looks,
-    data: Path | None,
-    note: Callable[[str], None],
-) -> Figure:
+def drawn_curves(dataset: xarray.Dataset, looks: Looks, note: Callable[[str], None]) -> Figure:
     """Draw curves of a dataset into three panels, or those with x and y, in units if it has them; all if none is asked.
 
-    Curves of states, over the distance from the axis, are drawn where they alone are asked for or there. Measured
-    points come from a file, `data`; `note` takes what is left out of it.
+    Curves of states, over the distance from the axis, are drawn where they alone are asked for or there. `note` takes
+    what is left out of measured points.
     """
-    if looks.kind == "map":
-        raise DatasetError("--map: curves are drawn as lines; leave it out")
-    looks.refuse(["levels", "clabel", "band"], "curves are drawn as lines, without colours or a spread")
-    planes, chosen = _planes(x, y), _chosen(dataset, asked)
+    options = ["levels", "clabel", "band", *(["kind"] if looks.kind == "map" else [])]
+    looks.refuse(options, "curves are drawn as lines, without colours or a spread")
+    planes, chosen = _planes(looks.x, looks.y), _chosen(dataset, looks.variables)
     of_states = [curve for curve in chosen if curve in STATE_CURVES]
     chosen = [curve for curve in chosen if curve not in of_states]
-    if of_states and (asked or not chosen):
-        others = [*chosen, *(f"--{name} {value}" for name, value in (("data", data), ("x", x), ("y", y)) if value)]
-        if others:
-            raise DatasetError(f"{others[0]}: {of_states[0]} is drawn over the distance from the axis; leave one out")
+    if of_states and (looks.variables or not chosen):
+        why = f"{of_states[0]} is drawn over the distance from the axis"
+        looks.refuse(["data", "x", "y"], why)
+        if chosen:
+            raise DatasetError(f"--variable {chosen[0]}: {why}; leave one of them out")
         return _drawn_states(dataset, of_states, looks)
-    scenes, caption = scenes_of(dataset, looks)
-    si = wants_si(map(str, dataset.data_vars), asked)
-    known = [track for track in tracks_in(dataset, si=si, many=len(scenes) > 1) if track.curve in chosen]
+    si = wants_si(map(str, dataset.data_vars), looks.variables)
+    known = [one for one in tracks_in(dataset, si=si, many=dataset["status"].size > 1) if one.curve in chosen]
     there = {plane: [one for one in known if {one.variables[side] for side in plane} <= {*dataset}] for plane in planes}
     panels = {plane: tracks for plane, tracks in there.items() if tracks}
     if not panels:
+        wanted = f"--x {looks.x or 'any'} --y {looks.y or 'any'}"
         raise DatasetError(
-            f"--x {x or 'any'} --y {y or 'any'}: {', '.join(chosen)} lacks two of contact radius, depth and load; "
+            f"{wanted}: {', '.join(chosen)} lacks two of contact radius, depth and load; "
             f'name whole curves in the outputs of the study, as in outputs = ["{chosen[0]}"]'
         )
-    rows = [track.points(scene.values, plane) for plane, own in panels.items() for track in own for scene in scenes]
-    if not any(np.isfinite(row).all(axis=0).any() for row in rows):
-        raise DatasetError("no value in any scene drawn; `gradhesion info` reports why")
     for choice, sides in zip(("xlim", "ylim"), zip(*panels, strict=True), strict=True):
         if len({*sides}) > 1:
             looks.refuse([choice], "the panels differ; choose one with --x indentation --y load")
-    points = None if data is None else read_points(data, [*panels], si=si)
-    if points and points.left_out:
-        note(points.left_out)
-    below = stacked(len(panels), 1.7, looks)
+    drawn = {one.variables[side] for plane, tracks in panels.items() for one in tracks for side in plane}
+    scenes, caption = scenes_of(dataset, looks, drawn)
+    points, left_out = read_points(looks.data, [*panels], si=si) if looks.data else ({}, 0)
+    if left_out:
+        note(f"{looks.data}: {counted(left_out, 'row')} left out, without a number in each column")
+    figure, grid, below = side_by_side(len(panels), 1.7, looks)
+    for axes, (plane, tracks) in zip(grid, panels.items(), strict=True):
+        draw_panel(axes, plane, tracks, scenes, looks, points)
+    used = [track for track in known if any(track in tracks for tracks in panels.values())]
     size = looks.width or max(4.0, 2.5 * len(panels)), 2.4 * below + 0.6
-    with styled(looks):
-        figure = Figure(layout="constrained")
-        grid = figure.subplots(below, len(panels) // below, squeeze=False).ravel()
-        for axes, (plane, tracks) in zip(grid, panels.items(), strict=True):
-            draw_panel(axes, plane, tracks, scenes, points, looks)
-        used = [track for track in known if any(track in tracks for tracks in panels.values())]
-        handles = [*legend_of(scenes, used, looks), *([Line2D([], [], **points.looks)] if points else [])]
-        finish(figure, dataset, looks, grid, caption, handles, size=size)
+    finish(figure, dataset, looks, grid, caption, [*legend_of(scenes, used, looks, points)], size=size)
     return figure
 
 
@@ -125,8 +106,8 @@ def _chosen(dataset: xarray.Dataset, requested: Sequence[str]) -> list[str]:
     return [curve for curve, own in there.items() if not requested or {curve, *own} & {*requested}]
 
 
-def read_points(file: Path, planes: Sequence[Plane], *, si: bool) -> Points:
-    """Read measured points for a picture with some planes, from a table (CSV or NetCDF).
+def read_points(file: Path, planes: Sequence[Plane], *, si: bool) -> tuple[Points, int]:
+    """Read measured points for a picture with some planes, from a table (CSV or NetCDF); count rows that are left out.
 
     It has two or more of the columns indentation, load (positive presses) and contact_radius; other columns are left
     aside, and so are rows without a number. The header has units if the picture has; else the columns are delta/R,
@@ -145,13 +126,10 @@ def read_points(file: Path, planes: Sequence[Plane], *, si: bool) -> Points:
     sound = np.isfinite([*values.values()]).all(axis=0)
     if not sound.any():
         raise DatasetError(f"--data {file}: no row has numbers in all of {', '.join(there.values())}; add some")
-    count = int(np.count_nonzero(~sound))
-    left_out = f"{file}: {counted(count, 'row')} left out, without a number in each column" if count else ""
-    looks = {"ls": "", "marker": "o", "label": "measured"} | (CIRCLES if sound.sum() <= FEW else DOTS)
-    return Points({name: row[sound] for name, row in values.items()}, looks, left_out)
+    return {name: row[sound] for name, row in values.items()}, int(np.count_nonzero(~sound))
 
 
-def _scaled(found: Columns, quantity: str, word: str, *, si: bool) -> NDArray[np.float64]:
+def _scaled(found: Columns, quantity: str, word: str, *, si: bool) -> Values:
     """Give a column in the units of the dataset; a radius is a length as a depth is."""
     if si:
         key = "load" if quantity == "load" else "indentation"
@@ -172,16 +150,13 @@ def _drawn_states(dataset: xarray.Dataset, chosen: Sequence[str], looks: Looks) 
             f"{chosen[0]}: no value in any state drawn, `gradhesion info` reports why; or its radius or value is "
             "missing: run a study with this curve as a whole"
         )
-    below = stacked(len(panels), 2.4, looks)
+    figure, grid, below = side_by_side(len(panels), 2.4, looks)
+    for axes, (x, y) in zip(grid, panels, strict=True):
+        si = SI if x + SI in scene and y + SI in scene else ""
+        _draw_states(axes, scene, x + si, y + si, "surface_gap" + si, looks)
+    handles, _ = grid[-1].get_legend_handles_labels()
     size = looks.width or 4.0 * len(panels), 2.5 * below + 0.2
-    with styled(looks):
-        figure = Figure(layout="constrained")
-        grid = figure.subplots(below, len(panels) // below, squeeze=False).ravel()
-        for axes, (x, y) in zip(grid, panels, strict=True):
-            si = SI if x + SI in scene and y + SI in scene else ""
-            _draw_states(axes, scene, x + si, y + si, "surface_gap" + si, looks)
-        handles, _ = grid[-1].get_legend_handles_labels()
-        finish(figure, dataset, looks, grid, fixed(dataset), handles, size=size)
+    finish(figure, dataset, looks, grid, fixed(scene, dataset), handles, size=size)
     return figure
 
 

@@ -1,17 +1,15 @@
 """Pictures of fits: of one loop, of several, and of a measured profile."""
 
 import math
-from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
 import xarray
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.select import one_loop
-from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.fits import LOOP
 from gradhesion.cli.names.outputs import PARAMETER
 from gradhesion.cli.names.symbols import SYMBOLS
@@ -40,22 +38,18 @@ LISTED: Final = 12
 """Loops that have room for the names of their files."""
 
 
-def drawn_fits(
-    dataset: xarray.Dataset, looks: Looks = PLAIN, choices: Sequence[str] = (), at: Sequence[str] = ()
-) -> Figure:
+def drawn_fits(dataset: xarray.Dataset, looks: Looks = PLAIN) -> Figure:
     """Draw a fit, or of several loops a panel for each parameter: values with intervals, or a histogram of many.
 
-    `choices` are the options that were chosen of axes and variables, which fits do not have; `at` takes one of several
-    loops, `loop=FILE` or `loop=NUMBER`.
+    Of several loops one is drawn by itself, `--at loop=FILE` or `--at loop=NUMBER`.
     """
     several = LOOP in dataset.dims
     why = f"fits are drawn as a whole, or one with --at {LOOP}=0" if several else "a fit is drawn as a whole"
-    if refused := [*choices, *(["--at"] if at and not several else [])]:
-        raise DatasetError(f"{refused[0]}: {why}; leave it out")
-    looks.refuse(["band", "levels", "clabel", *(["xlim", "ylim"] if several and not at else [])], why)
-    if several and not at:
+    looks.refuse(["over", "variables", "x", "y", "data", "band", "levels", "clabel", *([] if several else ["at"])], why)
+    if several and not looks.at:
+        looks.refuse(["xlim", "ylim"], why)
         return _draw_loops(dataset, looks)
-    return _draw_fit(one_loop(dataset, at) if at else dataset, looks)
+    return _draw_fit(one_loop(dataset, looks.at) if several else dataset, looks)
 
 
 def _draw_fit(dataset: xarray.Dataset, looks: Looks) -> Figure:
@@ -63,37 +57,36 @@ def _draw_fit(dataset: xarray.Dataset, looks: Looks) -> Figure:
     depth, load, back = (dataset[f"measured_{name}"].values for name in ("indentation", "load", "unloading"))
     along, up, ways = (dataset[f"fitted_{name}"].values for name in ("indentation", "load", "unloading"))
     turn = int(np.count_nonzero(ways <= 0))
-    with styled(looks):
-        figure = Figure(layout="constrained")
-        top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=[3, 1])
-        for way, words in enumerate(("loading", "unloading")):
-            own, part = (back > 0) == bool(way), slice(turn - 1, None) if way else slice(0, turn)
-            top.plot(along[part], up[part], color=COLOURS[way], lw=0.7, zorder=1.9, label=f"fit, {words}")
-            if own.any():
-                top.plot(depth[own], load[own], color=COLOURS[way], **DOTS, label=f"measured, {words}")
-                bottom.plot(depth[own], dataset["residual"].values[own], color=COLOURS[way], **DOTS)
-        make_room(top, "x", depth)
-        suit(top, "x", ALONG, looks.xlim)
-        suit(top, "y", UP, looks.ylim)
-        words = "displacement of the machine" if dataset.attrs.get("control") == "machine" else "depth"
-        bottom.set(xlabel=top.get_xlabel().replace(r"depth $\delta$", words), ylabel="residual (sd)")
-        top.set(xlabel="", ylabel=top.get_ylabel().replace(" $P$", ""))
-        top.legend()
-        bottom.axhline(0.0, color="0.3", lw=0.6)
-        rows = zip(*(dataset[name].values.tolist() for name in (PARAMETER, "value", "low", "high")), strict=True)
-        caption = [*(in_words(*row) for row in rows), "in brackets 95 % intervals"]
-        caption.append(rf"reduced $\chi^2$ = {float(dataset['chi_square']) / int(dataset['degrees_of_freedom']):.3g}")
-        if looks.ylabel is not None:  # the residual keeps its own
-            top.set_ylabel(drawable(looks.ylabel))
-        finish(figure, dataset, replace(looks, ylabel=None), [top, bottom], caption, size=(4.8, 4.4))
+    figure = Figure(layout="constrained")
+    top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=[3, 1])
+    parts = (("loading", back <= 0, slice(0, turn)), ("unloading", back > 0, slice(turn - 1, None)))
+    for colour, (words, own, part) in zip(COLOURS, parts, strict=True):
+        top.plot(along[part], up[part], color=colour, lw=0.7, zorder=1.9, label=f"fit, {words}")
+        if own.any():
+            top.plot(depth[own], load[own], color=colour, **DOTS, label=f"measured, {words}")
+            bottom.plot(depth[own], dataset["residual"].values[own], color=colour, **DOTS)
+    make_room(top, "x", depth)
+    suit(top, "x", ALONG, looks.xlim)
+    suit(top, "y", UP, looks.ylim)
+    words = "displacement of the machine" if dataset.attrs.get("control") == "machine" else "depth"
+    bottom.set(xlabel=top.get_xlabel().replace(r"depth $\delta$", words), ylabel="residual (sd)")
+    own_label = looks.ylabel if looks.ylabel is None else drawable(looks.ylabel)  # the residual keeps its own
+    top.set(xlabel="", ylabel=top.get_ylabel().replace(" $P$", "") if own_label is None else own_label)
+    top.legend()
+    bottom.axhline(0.0, color="0.3", lw=0.6)
+    rows = zip(*(dataset[name].values.tolist() for name in (PARAMETER, "value", "low", "high")), strict=True)
+    caption = [*(in_words(*row) for row in rows), "in brackets 95 % intervals"]
+    caption.append(rf"reduced $\chi^2$ = {float(dataset['chi_square']) / int(dataset['degrees_of_freedom']):.3g}")
+    finish(figure, dataset, looks.model_copy(update={"ylabel": None}), [top, bottom], caption, size=(4.8, 4.4))
     return figure
 
 
 def named(name: str, values: Any) -> tuple[str, Unit]:
     """Name what is fitted, with a unit that suits its values.
 
-    >>> named("load_slope", [2e-3]), named("exponent", [0.5])
-    (('tilt of the load', Unit(symbol='mN/m', power=-3)), ('exponent', Unit(symbol='', power=0)))
+    >>> words, unit = named("load_slope", [2e-3])
+    >>> words, unit.symbol, unit.power
+    ('tilt of the load', 'mN/m', -3)
     """
     words, quantity = OFFSETS.get(name, (SYMBOLS.get(name, name), name))
     return words, unit_for(quantity, values)
@@ -123,41 +116,40 @@ def _draw_loops(dataset: xarray.Dataset, looks: Looks) -> Figure:
     doubts, few = doubtful(dataset)[sound], len(files) <= FEW
     across = 2 if len(names) == 4 else min(3, len(names))
     down = math.ceil(len(names) / across)
-    with styled(looks):
-        figure = Figure(layout="constrained")
-        grid = figure.subplots(down, across, squeeze=False, sharey=few)
-        panels = grid.flat[: len(names)]
-        for axes in grid.flat[len(names) :]:
-            axes.remove()
-        for place, (axes, name) in enumerate(zip(panels, names, strict=True)):
-            own = dataset[["value", "low", "high"]].isel({PARAMETER: place, LOOP: sound})
-            words, unit = named(name, own["value"].values)
-            axes.set_xlabel(f"{words} ({unit.symbol})" if unit.symbol else words)
-            value, low, high = (own[one].values / 10.0**unit.power for one in own)
-            log = value.min() > 0.0 and value.max() > 20.0 * value.min()
-            axes.set_xscale("log" if log else "linear")
-            if few:
-                ends = np.maximum([value - low, high - value], 0.0)
-                for which, colour in ((~doubts, COLOURS[0]), (doubts, COLOURS[1])):
-                    dots: dict[str, Any] = {"ls": "", "marker": "o", "ms": 3.0, "lw": 0.9, "color": colour}
-                    axes.errorbar(value[which], sound[which], xerr=ends[:, which], **dots)
-                continue
+    figure = Figure(layout="constrained")
+    panels: list[Axes] = []
+    for place, name in enumerate(names):
+        axes = figure.add_subplot(down, across, place + 1, sharey=panels[0] if few and panels else None)
+        panels.append(axes)
+        own = dataset[["value", "low", "high"]].isel({PARAMETER: place, LOOP: sound})
+        words, unit = named(name, own["value"].values)
+        axes.set_xlabel(f"{words} ({unit.symbol})" if unit.symbol else words)
+        value, low, high = (own[one].values / 10.0**unit.power for one in own)
+        log = value.min() > 0.0 and value.max() > 20.0 * value.min()
+        axes.set_xscale("log" if log else "linear")
+        if few:
+            axes.tick_params(labelleft=place % across == 0)
+            ends = np.maximum([value - low, high - value], 0.0)
+            for which, colour in ((~doubts, COLOURS[0]), (doubts, COLOURS[1])):
+                dots: dict[str, Any] = {"ls": "", "marker": "o", "ms": 3.0, "lw": 0.9, "color": colour}
+                axes.errorbar(value[which], sound[which], xerr=ends[:, which], **dots)
+        else:
             bins = max(8, min(40, round(1.5 * math.sqrt(value.size))))
             edges: Any = np.histogram_bin_edges(np.log(value) if log else value, bins)
             parts = [value[~doubts], value[doubts]]  # those in doubt on top
             axes.hist(parts, bins=np.exp(edges) if log else edges, stacked=True, color=list(COLOURS))
             axes.axvline(float(np.median(parts[0] if parts[0].size else value)), color="0.2", lw=0.8, ls="--")
-        for axes in grid[:, 0]:
+        if place % across == 0:
             axes.set_ylabel("loops" if not few else "loop" if len(files) > LISTED else "")
-            if len(files) <= LISTED:
-                axes.set_yticks(range(len(files)), files, fontsize="x-small")
-        if few:
-            grid[0, 0].set_ylim(len(files) - 0.5, -0.5)  # the first on top
-        missing, poor = len(files) - sound.size, int(doubts.sum())
-        caption = [counted(sound.size, "loop"), "bars: 95 % intervals" if few else "dashed: median"]
-        caption += [f"red: {counted(poor, 'fit')} in doubt"] if poor else []
-        caption += [f"{counted(missing, 'loop')} without a fit"] if missing else []
-        finish(figure, dataset, looks, panels, caption, size=(2.6 * across + 1.0, 2.2 * down))
+    if few:
+        panels[0].set_ylim(len(files) - 0.5, -0.5)  # the first on top
+    if len(files) <= LISTED:
+        panels[0].set_yticks(range(len(files)), files, fontsize="x-small")
+    missing, poor = len(files) - sound.size, int(doubts.sum())
+    caption = [counted(sound.size, "loop"), "bars: 95 % intervals" if few else "dashed: median"]
+    caption += [f"red: {counted(poor, 'fit')} in doubt"] if poor else []
+    caption += [f"{counted(missing, 'loop')} without a fit"] if missing else []
+    finish(figure, dataset, looks, panels, caption, size=(2.6 * across + 1.0, 2.2 * down))
     return figure
 
 
@@ -169,24 +161,23 @@ def doubtful(dataset: xarray.Dataset) -> NDArray[np.bool_]:
 
 def drawn_profile(fit: FittedProfile, name: str) -> Figure:
     """Draw a fitted profile over the distance from the centre: heights, what the power leaves of them, the residual."""
-    rho = fit.distance
-    fine = np.linspace(0.0, rho[-1], 2000)
+    rho, fine = fit.distance, np.linspace(0.0, fit.distance[-1], 2000)
     heights, model = fit.heights(rho) + fit.residual, fit.heights(fine)
     powers = [one**fit.exponent / (fit.exponent * fit.radius ** (fit.exponent - 1.0)) for one in (rho, fine)]
+    rows = (
+        ("height (µm)", 1e6 * heights, 1e6 * model),
+        ("without the power (nm)", 1e9 * (heights - powers[0]), 1e9 * (model - powers[1])),
+        ("residual (nm)", 1e9 * fit.residual, np.zeros(fine.size)),
+    )
     with styled():
         figure = Figure(figsize=(4.6, 5.2), layout="constrained")
-        top, middle, bottom = figure.subplots(3, 1, sharex=True, height_ratios=[2, 2, 1])
-        dots, line = DOTS | {"color": "0.55"}, {"color": "C3", "lw": 0.9}
-        top.plot(1e6 * rho, 1e6 * heights, **dots, label="measured")
-        top.plot(1e6 * fine, 1e6 * model, **line, label="fit")
-        middle.plot(1e6 * rho, 1e9 * (heights - powers[0]), **dots)
-        middle.plot(1e6 * fine, 1e9 * (model - powers[1]), **line)
-        bottom.plot(1e6 * rho, 1e9 * fit.residual, **dots)
-        bottom.axhline(0.0, **line)
-        top.set_ylabel("height (µm)")
-        top.legend()
-        middle.set_ylabel("without the power (nm)")
-        bottom.set(xlabel="distance from the centre (µm)", ylabel="residual (nm)")
+        panels = figure.subplots(3, 1, sharex=True, height_ratios=[2, 2, 1])
+        for axes, (words, points, line) in zip(panels, rows, strict=True):
+            axes.plot(1e6 * rho, points, **DOTS, color="0.55", label="measured")
+            axes.plot(1e6 * fine, line, color="C3", lw=0.9, label="fit")
+            axes.set_ylabel(words)
+        panels[0].legend()
+        panels[-1].set_xlabel("distance from the centre (µm)")
         words = (
             rf"$m$ = {fit.exponent:.4g}, $R$ = {1e6 * fit.radius:.4g} µm, "
             rf"$\lambda$ = {1e6 * fit.wavelength:.4g} µm, residual {1e9 * fit.residual_rms:.3g} nm rms"

@@ -2,42 +2,42 @@
 
 import math
 import re
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.axis import Axis
-from matplotlib.ticker import EngFormatter, Formatter, FuncFormatter, Locator, LogLocator, MaxNLocator, NullLocator
+from matplotlib.ticker import EngFormatter, Formatter, Locator, LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
+from gradhesion.cli.dataset.read.reductions import FLAT
 from gradhesion.cli.dataset.read.selection import is_log
 from gradhesion.cli.names.outputs import unit_of
-from gradhesion.cli.names.scenes import IDLE
+from gradhesion.cli.names.scenes import IDLE, REALISATION, SOLVER
 from gradhesion.cli.names.symbols import CURVE_SYMBOLS, SYMBOLS
 from gradhesion.cli.picture.looks import limits_of
 from gradhesion.core.problem.inputs import INPUTS
 
 Side = Literal["x", "y"]
 Ends = tuple[float, float]
-Places = NDArray[np.float64]
+Values = NDArray[np.float64]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Unit:
+class Unit(Formatter):
     """How values are written: in a unit with a prefix, which stands for a power of ten. What is drawn stays in SI."""
 
-    symbol: str = ""
-    power: int = 0
+    def __init__(self, symbol: str = "", power: int = 0) -> None:
+        self.symbol, self.power = symbol, power
 
-    def number(self, value: float, _: object = None) -> str:
-        """Write a value in this unit; matplotlib gives the place of its tick too."""
-        return number(value / 10.0**self.power)
+    def __call__(self, value: float, _: object = None) -> str:
+        """Write a value in this unit."""
+        return self.format_ticks([value])[0]
 
-    def numbers(self, values: Any) -> list[str]:
+    def format_ticks(self, values: Any) -> list[str]:
         """Write values in this unit, with so many digits that what differs reads differently.
 
-        >>> Unit().numbers([1.0, 1.00001]), Unit(symbol="nm", power=-9).numbers([2e-6, 2.00025e-6])
+        >>> Unit().format_ticks([1.0, 1.00001]), Unit("nm", -9).format_ticks([2e-6, 2.00025e-6])
         (['1', '1.00001'], ['2000', '2000.25'])
         """
         listed = np.asarray(values, dtype=float)
@@ -50,24 +50,21 @@ class Unit:
 
 
 def unit_for(name: str, values: Any, *, log: bool = False) -> Unit:
-    """Choose a unit for values in SI: the greatest of them is 1 to 1000; on a logarithmic axis as many as can be.
+    """Choose a unit for values in SI: the greatest of them is 1 to 1000, or that in their middle on a logarithmic axis.
 
-    >>> unit_for("R", [5e-9, 5e-6]), unit_for("R", [5e-9, 5e-6], log=True), unit_for("A", [0.1])
-    (Unit(symbol='µm', power=-6), Unit(symbol='nm', power=-9), Unit(symbol='', power=0))
+    >>> [unit_for("R", [5e-9, 5e-6], log=log).symbol for log in (False, True)], unit_for("A", [0.1]).symbol
+    (['µm', 'nm'], '')
     """
-    unit = unit_of(name)
-    symbol = "" if unit == "1" else re.sub(r"\^(\d)", r"$^\1$", unit)
+    symbol = "" if unit_of(name) == "1" else re.sub(r"\^(\d)", r"$^\1$", unit_of(name))
     sizes = np.abs(np.asarray(values, dtype=float))
     sizes = sizes[np.isfinite(sizes) & (sizes > 0.0)]
     if not symbol or not sizes.size:
-        return Unit(symbol=symbol)
+        return Unit(symbol)
     least, most = np.log10([sizes.min(), sizes.max()])
-    power = 3 * math.floor((most + 1e-9) / 3)  # a value this short of a power counts as it: 10^-6 m is 1 µm
-    if log:
-        power = min(range(power, power - 9, -3), key=lambda one: max(0.0, one - least) + max(0.0, most - one - 3))
-    prefixes = EngFormatter.ENG_PREFIXES
-    power = min(max(power, min(prefixes)), max(prefixes))
-    return Unit(symbol=prefixes[power] + symbol, power=power)
+    size = 0.5 * (least + most) if log else most
+    power = 3 * math.floor((size + 1e-9) / 3)  # a value this short of a power counts as it: 10^-6 m is 1 µm
+    power = int(np.clip(power, min(EngFormatter.ENG_PREFIXES), max(EngFormatter.ENG_PREFIXES)))
+    return Unit(EngFormatter.ENG_PREFIXES[power] + symbol, power)
 
 
 def number(value: float, digits: int = 4) -> str:
@@ -96,18 +93,17 @@ def equations(name: str, values: Any) -> list[str]:
         return [str(value) for value in listed]
     unit = unit_for(name, listed, log=True)
     symbol = f" {unit.symbol}" if unit.symbol else ""
-    written = zip(unit.numbers(listed), listed, strict=True)
+    written = zip(unit.format_ticks(listed), listed, strict=True)
     return [f"{SYMBOLS[name]} = {one}{symbol if np.isfinite(value) else ''}" for one, value in written]
 
 
-def label(name: str, unit: Unit | None = None) -> str:
+def label(name: str, unit: Unit) -> str:
     """Name a variable at an axis of a picture.
 
-    >>> label("A"), label("R"), label("path_contact_radius_si", Unit(symbol="nm", power=-9))
-    ('$A$', '$R$ (m)', 'contact radius $a$ (nm)')
+    >>> label("A", Unit()), label("path_contact_radius_si", Unit("nm", -9))
+    ('$A$', 'contact radius $a$ (nm)')
     """
-    symbol = (unit or unit_for(name, [])).symbol
-    return (SYMBOLS.get(name) or CURVE_SYMBOLS[name]) + (f" ({symbol})" if symbol else "")
+    return (SYMBOLS.get(name) or CURVE_SYMBOLS[name]) + (f" ({unit.symbol})" if unit.symbol else "")
 
 
 def given(names: Any) -> list[str]:
@@ -126,21 +122,19 @@ def effective(dataset: Any) -> list[str]:
     return [name for name in given(dataset.coords) if IDLE not in str(dataset[name].attrs.get("comment", ""))]
 
 
-def fixed(dataset: Any) -> list[str]:
-    """Write the parameters that have one value in all scenes of a dataset; of others that of the first scene."""
-    written = []
-    for name in effective(dataset):
-        values = np.unique(dataset[name].values)
-        first = equations(name, np.ravel(dataset[name].values)[:1])[0]
-        written.append(first if values.size == 1 else f"{first} (first of {values.size})")
-    return written
-
-
-def numbers(unit: Unit) -> Formatter:
-    """Write plain numbers in a unit; all ticks of an axis together, so that those which differ read differently."""
-    formatter = FuncFormatter(unit.number)
-    vars(formatter)["format_ticks"] = unit.numbers
-    return formatter
+def fixed(part: Any, whole: Any, drawn: Sequence[str] = ()) -> Iterator[str]:
+    """Write the parameters with one value in a part of a dataset that are not drawn, and the names of the others."""
+    others = []
+    for name in (SOLVER, REALISATION, *effective(part)):
+        if name in part.coords and name not in drawn:
+            values, known = np.unique(part[name].values), np.unique(whole[name].values)
+            if values.size == 1:
+                place = "first" if values[0] == whole[name].values.flat[0] else "one"
+                yield equations(name, values)[0] + (f" ({place} of {known.size})" if known.size > 1 else "")
+            else:
+                others.append(SYMBOLS[name])
+    if others:
+        yield "varying too: " + ", ".join(others)
 
 
 def locator(low: float, high: float, *, log: bool) -> Locator:
@@ -151,62 +145,76 @@ def locator(low: float, high: float, *, log: bool) -> Locator:
     return MaxNLocator("auto", steps=[1, 2, 2.5, 5, 10])
 
 
-def dress(axes: Axes, side: Side, words: str, unit: Unit, ends: Ends, limits: Ends, *, log: bool = False) -> Axis:
-    """Give an axis of a picture its name, scale, numbers in a unit at ticks between two ends, and limits if finite."""
-    axes.set(**{f"{side}scale": "log" if log else "linear", f"{side}label": words})
-    axis: Axis = getattr(axes, f"{side}axis")
-    axis.set_major_locator(locator(*ends, log=log))
-    axis.set_major_formatter(numbers(unit))
+def padded(least: float, greatest: float) -> Ends:
+    """Move the ends of values apart that are equal but for rounding."""
+    if greatest - least > FLAT * max(abs(least), abs(greatest)):
+        return least, greatest
+    pad = 0.05 * max(abs(least), 1e-300)
+    return least - pad, greatest + pad
+
+
+def suit(
+    axes: Axes, side: Side, name: str, span: str = "", *, ends: Ends | None = None, log: bool = False, after: str = ""
+) -> Unit:
+    """Name an axis after a variable, give it its scale and limits, and let unit and ticks suit what is seen.
+
+    The variable has values between two `ends`, or is all that the axis shows; a `span` is a part of it that is chosen.
+    """
+    axes.set(**{f"{side}scale": "log" if log else "linear"})
+    low, high = ends or sorted(getattr(axes, f"get_{side}lim")())
+    limits = limits_of(span, name, *padded(low, high), log=log)
+    seen = max(low, limits[0]), min(high, limits[1])
+    if not span and padded(*seen) != seen:
+        limits = padded(*seen)
+    unit = unit_for(name, seen, log=log)
+    axis = axes.xaxis if side == "x" else axes.yaxis
+    axis.set_label_text(label(name, unit) + after)
+    axis.set_major_locator(locator(*seen, log=log))
+    axis.set_major_formatter(unit)
     axis.set_minor_locator(NullLocator())
     if np.isfinite(limits).any():
-        axes.set(**{f"{side}lim": tuple(end if np.isfinite(end) else None for end in limits)})
-    return axis
-
-
-def suit(axes: Axes, side: Side, name: str, span: str = "") -> None:
-    """Name an axis of a picture after a variable, and let its unit suit the limits: those chosen, if some are."""
-    low, high = sorted(getattr(axes, f"get_{side}lim")())
-    limits = limits_of(span, name, low, high)
-    seen = max(low, limits[0]), min(high, limits[1])
-    unit = unit_for(name, seen)
-    dress(axes, side, label(name, unit), unit, seen, limits)
+        axes.set(**{f"{side}lim": [end if np.isfinite(end) else None for end in limits]})
+    return unit
 
 
 @dataclass(frozen=True, eq=False)
 class Scale:
-    """Where the values of an axis go in a picture, and between which of them it is drawn, if these are finite."""
+    """Where the values of an axis go in a picture."""
 
     name: str
-    positions: Places
+    positions: Values
     """The place of each; inf stands one step beyond the greatest finite value."""
     log: bool
-    infinite: bool
-    """Whether the last place is that of inf."""
-    limits: Ends
+    infinite: int
+    """How many of the last places are those of inf."""
 
-    def edges(self) -> Places:
+    @property
+    def finite(self) -> Values:
+        """The places of finite values."""
+        return self.positions[: self.positions.size - self.infinite]
+
+    def edges(self) -> Values:
         """Give the edges of cells around the places, halfway between them."""
         places = np.log(self.positions) if self.log else self.positions
         middles = 0.5 * (places[1:] + places[:-1])
         edges = np.concatenate([2.0 * places[:1] - middles[:1], middles, 2.0 * places[-1:] - middles[-1:]])
         return np.exp(edges) if self.log else edges
 
-    def dress(self, axes: Axes, side: Side) -> None:
-        """Give an axis of a picture this scale and its limits, with ticks at plain numbers."""
-        finite = self.positions[:-1] if self.infinite else self.positions
-        first, last = np.clip((finite[0], finite[-1]), *self.limits).tolist()
-        unit = unit_for(self.name, np.clip(finite, *self.limits), log=self.log)
-        axis = dress(axes, side, label(self.name, unit), unit, (first, last), self.limits, log=self.log)
-        if self.infinite and np.isinf(self.limits[1]):
+    def dress(self, axes: Axes, side: Side, span: str) -> None:
+        """Give an axis of a picture this scale, with ticks at plain numbers and a place for infinity."""
+        first, last = float(self.finite[0]), float(self.finite[-1])
+        unit = suit(axes, side, self.name, span, ends=(first, last) if first < last else None, log=self.log)
+        if self.infinite:
+            axis = axes.xaxis if side == "x" else axes.yaxis
             places = locator(first, last, log=self.log).tick_values(first, last)
             kept = [float(place) for place in places if first <= place <= last]
-            axis.set_ticks([*kept, float(self.positions[-1])], [*unit.numbers(kept), r"$\infty$"])
+            axis.set_ticks([*kept, float(self.positions[-1])], [*unit.format_ticks(kept), r"$\infty$"])
 
 
-def scale(values: Places, name: str = "", span: str = "") -> Scale:
+def scale(values: Values, name: str = "") -> Scale:
     """Choose the scale of an axis of a name: logarithmic where its values are nearer to that than to an even spacing.
 
-    Its values rise. Of a part of it, ticks and the unit suit what is seen.
+    Its values rise.
 
     >>> scale(np.array([1.0, 10.0, 100.0, np.inf])).positions
     array([   1.,   10.,  100., 1000.])
@@ -215,4 +223,4 @@ def scale(values: Places, name: str = "", span: str = "") -> Scale:
     log, infinite, steps = is_log(finite), np.isinf(values), max(1, finite.size - 1)
     first, last = finite[[0, -1]]
     beyond = last * (last / first) ** (1 / steps) if log else last + ((last - first) / steps or last)
-    return Scale(name, np.where(infinite, beyond, values), log, bool(infinite.any()), limits_of(span, name, log=log))
+    return Scale(name, np.where(infinite, beyond, values), log, int(infinite.sum()))

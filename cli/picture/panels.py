@@ -1,6 +1,7 @@
 """The panels of a picture of values: a map, lines, points or their density, each drawn into axes that are given."""
 
 import itertools
+from collections.abc import Iterable, Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -8,11 +9,12 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.contour import QuadContourSet
 from matplotlib.path import Path
+from scipy.spatial import cKDTree
 
-from gradhesion.cli.picture.labels import Scale, Unit, dress, equations
+from gradhesion.cli.picture.labels import Scale, Unit, suit
 from gradhesion.cli.picture.looks import Looks
 from gradhesion.cli.picture.plan import Plan
-from gradhesion.cli.picture.shown import CROSS, GREY, INK, Shown, Values
+from gradhesion.cli.picture.shown import CROSS, GREY, INK, Shown
 
 DASHES: Final[tuple[Any, ...]] = ("-", "--", "-.", ":", (0, (8, 4)), (0, (6, 1.5, 1, 1.5, 1, 1.5)))
 POINTS: Final = ("o", "^", "s")
@@ -24,7 +26,13 @@ FEW: Final = 20
 LIGHT: Final = 0.2
 
 
-def draw_map(axes: Axes, shown: Shown, x: Scale, y: Scale, looks: Looks) -> tuple[Any, QuadContourSet | None]:
+Place = tuple[int, int]
+"""The row and the column of a panel."""
+
+
+def draw_map(
+    axes: Axes, shown: Shown, place: Place, x: Scale, y: Scale, looks: Looks
+) -> tuple[Any, QuadContourSet | None]:
     """Draw values as filled contours with lines at some levels; doubtful ones are hatched, what has none is grey.
 
     Returns
@@ -33,37 +41,31 @@ def draw_map(axes: Axes, shown: Shown, x: Scale, y: Scale, looks: Looks) -> tupl
     """
     filled: Any = None
     lines = None
-    values = shown.values.values.astype(float)
+    values = shown.values[place]
+    sides = x.positions, y.positions
     axes.set_facecolor(GREY)
     if shown.names:
         own: Any = {"cmap": looks.colours.resampled(len(shown.names)), "vmin": -0.5, "vmax": len(shown.names) - 0.5}
         filled = axes.pcolormesh(x.edges(), y.edges(), values, edgecolors="face", **own)
     elif shown.levels and np.isfinite(values).any():
         levels, inner, norm = shown.levels
-        filled = axes.contourf(x.positions, y.positions, values, levels=levels, norm=norm, cmap=looks.colours)
+        filled = axes.contourf(*sides, values, levels=levels, norm=norm, cmap=looks.colours)
         filled.set_edgecolor("face")  # no white seams between the bands
         if inner.size:
             shades = np.where(_lightness(looks.colours(norm(inner))) < 0.5, "white", "black").tolist()
-            lines = axes.contour(x.positions, y.positions, values, levels=inner, colors=shades, linewidths=0.4)
-        _hatch(axes, shown, x, y, _lightness(looks.colours(np.ma.filled(norm(values), 0.0))) < 0.4)
-    x.dress(axes, "x")
-    y.dress(axes, "y")
+            lines = axes.contour(*sides, values, levels=inner, colors=shades, linewidths=0.4)
+        dark = _lightness(looks.colours(np.ma.filled(norm(values), 0.0))) < 0.4
+        for doubt, marked in shown.marks:
+            flags, gaps = marked[place], np.where(np.isnan(values), np.nan, 0.0)
+            for shade, part in (("white", flags & dark), (INK, flags & ~dark)):
+                if part.any():
+                    hatched = axes.contourf(*sides, part + gaps, (0.5, 1.5), colors="none", hatches=[doubt.hatch])
+                    hatched.set(edgecolor=shade, linewidth=0.0)
+            if flags.any() and not flags.all():
+                axes.contour(*sides, flags + gaps, (0.5,), colors=INK, linewidths=0.8)
+    x.dress(axes, "x", looks.xlim)
+    y.dress(axes, "y", looks.ylim)
     return filled, lines
-
-
-def _hatch(axes: Axes, shown: Shown, x: Scale, y: Scale, dark: Any) -> None:
-    """Hatch what is in doubt, in white where the colours are dark, and draw a line around it."""
-    gaps = shown.values.isnull().values
-    for doubt, marked in shown.marks:
-        flags = marked.values
-        for shade, part in (("white", flags & dark), (INK, flags & ~dark)):
-            if part.any():
-                own = np.where(gaps, np.nan, part)
-                hatched = axes.contourf(x.positions, y.positions, own, (0.5, 1.5), colors="none", hatches=[doubt.hatch])
-                hatched.set(edgecolor=shade, linewidth=0.0)
-        if flags.any() and not flags.all():
-            own = np.where(gaps, np.nan, flags)
-            axes.contour(x.positions, y.positions, own, (0.5,), colors=INK, linewidths=0.8)
 
 
 def _lightness(colours: Any) -> Any:
@@ -72,7 +74,7 @@ def _lightness(colours: Any) -> Any:
 
 
 def number_contours(lines: QuadContourSet, unit: Unit) -> None:
-    """Put a number on each line, on the longest piece that has room for it, near its middle; the layout must stand.
+    """Put a number on each line where it has most room, on a piece that is long enough; the layout must stand.
 
     On a steep flank, where lines crowd, there is none: it would hide the lines beside.
     """
@@ -83,40 +85,37 @@ def number_contours(lines: QuadContourSet, unit: Unit) -> None:
     ]
     taken: list[Any] = []
     for i, own in enumerate(pieces):
-        others = np.vstack([np.empty((0, 2)), *itertools.chain(*pieces[:i], *pieces[i + 1 :])])
-        for piece in sorted(own, key=lambda piece: -np.ptp(piece, axis=0).max()):
-            places = piece[[int(share * (len(piece) - 1)) for share in (0.5, 0.35, 0.65, 0.2, 0.8)]]
-            inside = np.minimum(places - frame.min, frame.max - places).min(axis=1)
-            room = np.min([inside / 0.125, _apart(places, others) / 0.1, _apart(places, taken) / 0.4], axis=0)
-            if np.ptp(piece, axis=0).max() >= 0.5 * inch and room.max() > inch:
-                taken.append(places[np.argmax(room > inch)])
-                break
+        places = _joined(piece for piece in own if np.ptp(piece, axis=0).max() >= 0.5 * inch)
+        others = _joined(itertools.chain(*pieces[:i], *pieces[i + 1 :]))
+        inside = np.minimum(places - frame.min, frame.max - places).min(axis=1)
+        apart = [cKDTree(np.reshape(one, (-1, 2))).query(places)[0] for one in (others, taken)]
+        room = np.min([inside / 0.125, apart[0] / 0.1, apart[1] / 0.4], axis=0)
+        if room.max(initial=0.0) > inch:
+            taken.append(places[np.argmax(room)])
     if taken:
         places = transform.inverted().transform(taken).tolist()
-        lines.clabel(manual=places, fmt=unit.number, fontsize="x-small", inline_spacing=2)
+        lines.clabel(manual=places, fmt=unit, fontsize="x-small", inline_spacing=2)
 
 
-def _apart(places: Any, others: Any) -> Any:
-    """Give the distance of each place from the nearest of others."""
-    return np.hypot(*(np.reshape(others, (-1, 1, 2)) - places).T).min(axis=1, initial=np.inf)
+def _joined(pieces: Iterable[Any]) -> Any:
+    """Give the places of some pieces of lines in one list."""
+    return np.vstack([np.empty((0, 2)), *pieces])
 
 
-def draw_lines(axes: Axes, shown: Shown, x: Scale, plan: Plan, looks: Looks) -> None:
-    """Draw a line for each value of the second axis, or points of a colour, with their bands.
+def draw_lines(
+    axes: Axes, shown: Shown, place: Place, x: Scale, labels: Sequence[str], plan: Plan, looks: Looks
+) -> None:
+    """Draw a line for each value of the second axis, which has labels, or points of a colour, with their bands.
 
     A value between two gaps shows as a dot. Doubtful values have open markers, and a cross at the foot of the panel
     stands where there is none.
     """
-    rows = np.atleast_2d(shown.values.values.astype(float))
-    labels = equations(plan.second, shown.values[plan.second].values) if plan.second else [""]
-    bands = [np.atleast_2d(edge.values) for edge in shown.band]
-    marks = [(doubt, np.atleast_2d(flags.values)) for doubt, flags in shown.marks]
-    on_line = slice(0, x.positions.size - x.infinite)  # inf stands apart
-    for i, (words, values) in enumerate(zip(labels, rows, strict=True)):
-        share = i / max(1, len(rows) - 1)
+    on_line = slice(0, x.finite.size)  # inf stands apart
+    for i, (words, values) in enumerate(zip(labels, shown.values[place], strict=True)):
+        share = i / max(1, len(labels) - 1)
         colour = looks.colours(0.25 + 0.6 * share if plan.points else 0.85 * share)
         if shown.names:  # side by side
-            values = values + 0.4 * (share - 0.5 if len(rows) > 1 else 0.0)
+            values = values + 0.4 * (share - 0.5 if len(labels) > 1 else 0.0)
         own: dict[str, Any] = {"color": colour, "ms": 3, "label": words}
         if plan.points:
             axes.plot(x.positions, values, POINTS[i % len(POINTS)], mec="white", mew=0.3, **own)
@@ -126,44 +125,42 @@ def draw_lines(axes: Axes, shown: Shown, x: Scale, plan: Plan, looks: Looks) -> 
             axes.plot(x.positions[on_line], values[on_line], lw=1.1, **own)
             if x.infinite:
                 axes.plot(x.positions[-1:], values[-1:], "o", color=colour, ms=3)
-        if bands:
-            _draw_band(axes, x, bands[0][i], bands[1][i], colour, bars=plan.points > 0)
-        for doubt, flags in reversed(marks):  # the larger ones below
-            every = 1 if plan.points else -(-flags.shape[1] // MARKS)
-            axes.plot(x.positions[flags[i]], values[flags[i]], mew=0.9, markevery=every, **doubt.marker(colour))
+        if shown.band:  # around a line; where it has few values, and at infinity, a bar at each of them
+            low, high = (edge[place][i] for edge in shown.band)
+            line = 0 if plan.points or x.positions.size <= FEW else x.finite.size
+            axes.fill_between(x.positions[:line], low[:line], high[:line], color=colour, alpha=LIGHT, lw=0.0, zorder=1)
+            bars: dict[str, Any] = {"fmt": "none", "ecolor": colour, "elinewidth": 0.8, "capsize": 2, "zorder": 1.8}
+            axes.errorbar(x.positions[line:], 0.5 * (low + high)[line:], 0.5 * (high - low)[line:], **bars)
+        for doubt, marked in reversed(shown.marks):  # the larger ones below
+            flags, every = marked[place][i], 1 if plan.points else -(-values.size // MARKS)
+            axes.plot(x.positions[flags], values[flags], mew=0.9, markevery=every, **doubt.marker(colour))
         gaps = x.positions[np.isnan(values)]
         if gaps.size:  # a line of no points would have no place in the layout
             foot: dict[str, Any] = {"transform": axes.get_xaxis_transform(), "clip_on": False, "zorder": 3}
             axes.plot(gaps, np.zeros(gaps.size), "x", ms=4, color=CROSS, **foot)
     axes.margins(x=0.02 if not plan.points else None)
-    _dress(axes, shown, x)
+    _dress(axes, shown, x, looks)
 
 
-def _draw_band(axes: Axes, x: Scale, low: Values, high: Values, colour: Any, *, bars: bool) -> None:
-    """Draw a band around a line; where it has few values, and at infinity, a bar at each of them."""
-    line = 0 if bars or x.positions.size <= FEW else x.positions.size - x.infinite
-    axes.fill_between(x.positions[:line], low[:line], high[:line], color=colour, alpha=LIGHT, lw=0.0, zorder=1)
-    middle, half = 0.5 * (low + high)[line:], 0.5 * (high - low)[line:]
-    axes.errorbar(x.positions[line:], middle, half, fmt="none", ecolor=colour, elinewidth=0.8, capsize=2, zorder=1.8)
-
-
-def draw_density(axes: Axes, shown: Shown, x: Scale, looks: Looks) -> PolyCollection:
+def draw_density(axes: Axes, shown: Shown, place: Place, x: Scale, looks: Looks) -> PolyCollection:
     """Colour each cell of a panel by the number of points in it; empty cells stay white."""
-    there = shown.values.notnull().values
+    values = shown.values[place][0]
+    there = np.isfinite(values)
     scales: Any = {"xscale": "log" if x.log else "linear", "yscale": "log" if shown.log else "linear"}
-    places = x.positions[there], shown.values.values[there].astype(float)
-    cells = axes.hexbin(*places, gridsize=(60, 34), mincnt=1, cmap=looks.colours, linewidths=0.1, **scales)
-    _dress(axes, shown, x)
+    cells = axes.hexbin(
+        x.positions[there], values[there], gridsize=(60, 34), mincnt=1, cmap=looks.colours, linewidths=0.1, **scales
+    )
+    _dress(axes, shown, x, looks)
     axes.grid(visible=False)
     return cells
 
 
-def _dress(axes: Axes, shown: Shown, x: Scale) -> None:
+def _dress(axes: Axes, shown: Shown, x: Scale, looks: Looks) -> None:
     """Give a panel of lines or points its scales, or the names of categories."""
-    x.dress(axes, "x")
+    x.dress(axes, "x", looks.xlim)
     axes.grid(color="0.9", lw=0.5)
-    if shown.unit:
-        dress(axes, "y", shown.label, shown.unit, shown.ends, shown.limits, log=shown.log)
-    else:
+    if shown.names:
         axes.set_ylim(-0.5, len(shown.names) - 0.5)
         axes.set_yticks(range(len(shown.names)), shown.names, fontsize="small")
+    else:
+        suit(axes, "y", shown.name, looks.ylim, ends=shown.ends, log=shown.log, after=shown.after)

@@ -25,8 +25,6 @@ from gradhesion.cli.study.shape_words import shape_in_words
 from gradhesion.cli.terminal.messages import printable
 from gradhesion.core import Profile
 
-MARKERS: Final = ("o", "s", "D", "P", "X")
-"""What distinguishes scenes where colours do not print."""
 LOWEST: Final = 1.25
 """The height of a row of panels with what is written at them, in inches: a lower one could not be read."""
 
@@ -52,9 +50,11 @@ def make_room(axes: Axes, side: Literal["x", "y"], values: NDArray[np.float64]) 
         axes.set(**{f"{side}lim": (float(there.min()) - margin, float(there.max()) + margin)})
 
 
-def stacked(count: int, narrow: float, looks: Looks) -> int:
-    """Report how many rows panels stand in: below each other where a chosen width leaves each less than `narrow`."""
-    return count if looks.width and looks.width < narrow * count else 1
+def side_by_side(count: int, narrow: float, looks: Looks) -> tuple[Figure, Any, int]:
+    """Make a figure of panels in a row, or below each other where a chosen width leaves each less than `narrow`."""
+    below = count if looks.width and looks.width < narrow * count else 1
+    figure = Figure(layout="constrained")
+    return figure, figure.subplots(below, count // below, squeeze=False).ravel(), below
 
 
 def finish(
@@ -73,18 +73,18 @@ def finish(
     The size in inches is that which suits its panels; words and sides that are chosen come first. Numbers on contours
     need it `laid_out`, with everything in its place.
     """
-    for side, words in ((side, words) for side in "xy" if (words := getattr(looks, f"{side}label")) is not None):
+    for side, words in (("x", looks.xlabel), ("y", looks.ylabel)):
         named = [axis for axes in panels if (axis := getattr(axes, f"{side}axis")).get_label_text()]
-        if len({axis.get_label_text() for axis in named}) > 1:
+        if words is not None and len({axis.get_label_text() for axis in named}) > 1:
             raise DatasetError(f"--{side}label: the panels have different axes; choose one variable, or one plane")
-        for axis in named:
+        for axis in named if words is not None else ():
             axis.set_label_text(drawable(str(words)))
     width = looks.width or size[0]
     longest = max((len(re.sub(r"[$\\{}]", "", str(entry.get_label()))) for entry in entries), default=0)
     columns = max(1, min(len(entries), int(width / (0.7 + 0.05 * longest))))
     if entries:
         figure.legend(handles=entries, loc="outside lower center", ncols=columns)
-    above = [heading(dataset) if looks.title is None else drawable(looks.title)]
+    above = [heading(dataset) if looks.title is True else drawable(looks.title or "")]
     above += [", ".join(map(_unbroken, [*caption, *slope_warnings(dataset)]))] if looks.caption else []
     words = "\n".join(filter(None, above))
     if words:
@@ -92,19 +92,19 @@ def finish(
     lines = math.ceil(len(entries) / columns) + (words.count("\n") + 2 if words else 0)
     height = max(size[1] * min(1.0, width / size[0]), LOWEST * panels[0].get_gridspec().nrows)
     figure.set_size_inches(width, looks.height or height + 0.17 * lines)
-    if not (laid_out or looks.width or looks.height):
-        return
-    with warnings.catch_warnings():
-        warnings.filterwarnings("error", "constrained_layout not applied")
-        warnings.filterwarnings("ignore", "Glyph .* missing from")
-        try:
-            figure.draw_without_rendering()
-        except UserWarning:
-            width, height = figure.get_size_inches()
-            raise DatasetError(
-                f"a picture of {width:.3g} by {height:.3g} inches has no room for its panels beside what is written; "
-                "choose larger sides with --width and --height, or leave words out with --no-title and --no-caption"
-            ) from None
+    if laid_out or looks.width or looks.height:
+        with warnings.catch_warnings():
+            warnings.filterwarnings("error", "constrained_layout not applied")
+            warnings.filterwarnings("ignore", "Glyph .* missing from")
+            try:
+                figure.draw_without_rendering()
+            except UserWarning:
+                width, height = figure.get_size_inches()
+                raise DatasetError(
+                    f"a picture of {width:.3g} by {height:.3g} inches has no room for its panels beside what is "
+                    "written; choose larger sides with --width and --height, or leave words out with --no-title and "
+                    "--no-caption"
+                ) from None
 
 
 def heading(dataset: xarray.Dataset) -> str:
@@ -133,7 +133,5 @@ def _unbroken(words: str) -> str:
     >>> _unbroken(r"$\pi R$ = 10 nm") == "$\\pi{}R$\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}10\N{NO-BREAK SPACE}nm"
     True
     """
-    if "=" not in words:
-        return words
-    pieces = words.split("$")
-    return "$".join(piece.replace(" ", "{}" if i % 2 else "\N{NO-BREAK SPACE}") for i, piece in enumerate(pieces))
+    in_formulae = re.sub(r"\$[^$]*\$", lambda found: found[0].replace(" ", "{}"), words)
+    return in_formulae.replace(" ", "\N{NO-BREAK SPACE}") if "=" in words else words

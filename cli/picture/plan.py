@@ -6,12 +6,13 @@ from typing import Any, Final, Literal
 
 import numpy as np
 import xarray
+from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read.selection import Selection, axes_of, check_axis, is_log
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
+from gradhesion.cli.names.scenes import SCENE, SOLVER
 from gradhesion.cli.names.symbols import SYMBOLS
-from gradhesion.cli.picture.labels import effective, equations
+from gradhesion.cli.picture.labels import effective, equations, fixed
 from gradhesion.cli.picture.looks import Looks, limits_of
 from gradhesion.core.problem.inputs import INPUTS
 
@@ -49,20 +50,23 @@ class Plan:
         """List the axes that have a place."""
         return [axis for axis in (self.x, self.second, self.columns, self.rows) if axis]
 
+    def arrange(self, values: xarray.DataArray) -> NDArray[Any]:
+        """Put values over rows, columns, the second side of a panel and the first: one item where there is no axis."""
+        over = [self.rows, self.columns, self.second, self.x]
+        own = values.squeeze([axis for axis in values.dims if axis not in over]).transpose(*filter(None, over))
+        return own.values.reshape([own.sizes[axis] if axis else 1 for axis in over])
 
-def planned(
-    dataset: xarray.Dataset, selection: Selection, looks: Looks, x: str | None, y: str | None
-) -> tuple[xarray.Dataset, Plan]:
+
+def planned(dataset: xarray.Dataset, selection: Selection, looks: Looks) -> tuple[xarray.Dataset, Plan]:
     """Choose which axis of a narrowed dataset goes where; a parameter that is asked for takes the place of its axis."""
+    x, y = looks.x, looks.y
     gone = {*selection.over, *(one.axis for one in selection.between)}
     for option, name in (("--x", x), ("--y", y)):
         dataset = _placed(dataset, f"{option} {name}", name, {*selection.fixed, *gone}) if name else dataset
     if SCENE not in dataset.dims:
         sizes = {str(axis): size for axis, size in dataset["status"].sizes.items() if axis not in gone}
         return dataset, plan_of(sizes, x, y, looks.kind)
-    if y or looks.kind:
-        option = f"--y {y}" if y else f"--{looks.kind}"
-        raise DatasetError(f"{option}: points are drawn as points over one parameter; choose it with --x")
+    looks.refuse(["y", "kind"], "points are drawn as points over one parameter, which --x chooses")
     values = {key: np.unique(dataset[key].values).size for key in effective(dataset)}
     along = x or max(values, key=lambda key: values[key], default="")
     if values.get(along, 0) < 2:
@@ -122,14 +126,13 @@ def within(dataset: xarray.Dataset, plan: Plan, looks: Looks) -> xarray.Dataset:
     for axis, span in ((plan.x, looks.xlim), (plan.second, looks.ylim if plan.is_map else "")):
         if not axis or axis == SOLVER:
             continue
-        dataset = dataset.isel({axis: np.argsort(dataset[axis].values, kind="stable")})
+        dataset = dataset.sortby(axis)
         values = np.asarray(dataset[axis].values, dtype=float)
-        finite = np.unique(values[np.isfinite(values)])
+        finite = values[np.isfinite(values)]
         if span and finite.size:  # and one value beyond each, so that lines run to the frame
             low, high = limits_of(span, axis, finite[0], finite[-1], log=is_log(finite))
-            first = finite[max(0, int(np.searchsorted(finite, low, side="right")) - 1)]
-            last = finite[min(finite.size - 1, int(np.searchsorted(finite, high)))] if np.isfinite(high) else np.inf
-            dataset = dataset.isel({axis: (values >= first) & (values <= last)})
+            first, last = max(0, np.searchsorted(finite, low, side="right") - 1), np.searchsorted(finite, high) + 1
+            dataset = dataset.isel({axis: slice(first, min(last, finite.size) if np.isfinite(high) else None)})
     return dataset
 
 
@@ -143,30 +146,19 @@ def some_of(dataset: xarray.Dataset, plan: Plan) -> xarray.Dataset:
     most |= {plan.x: plan.points or MOST, plan.second: MOST if plan.is_map else LINES}
     idle = {INPUTS[INPUTS[side].gives].idle_without for side in (plan.x, plan.second) if side in INPUTS}
     for axis, number in most.items():
-        if axis is None or dataset.sizes[axis] <= number:
-            continue
-        known = np.arange(dataset.sizes[axis])
-        if number == PANELS and axis in INPUTS and INPUTS[axis].gives in idle:
-            known = known[dataset[axis].values != 0.0]
-        items[axis] = np.unique(known[np.linspace(0, known.size - 1, number).round().astype(int)])
+        if axis and dataset.sizes[axis] > number:
+            known = np.arange(dataset.sizes[axis])
+            if number == PANELS and axis in INPUTS and INPUTS[axis].gives in idle:
+                known = known[dataset[axis].values != 0.0]
+            items[axis] = np.unique(known[np.linspace(0, known.size - 1, number).round().astype(int)])
     return dataset.isel(items)
 
 
 def caption_of(part: xarray.Dataset, whole: xarray.Dataset, plan: Plan, selection: Selection) -> Iterator[str]:
     """Write the parameters that are not drawn, and what stands for the axes that are fixed, reduced or cut."""
     between = {one.axis: one.value for one in selection.between}
-    others = []
-    for name in (SOLVER, REALISATION, *effective(part)):
-        if name in between:
-            yield f"{equations(name, between[name])[0]} (interpolated)"
-        elif name in part.coords and name not in (*plan.places, *selection.over):
-            values = np.unique(part[name].values)
-            if values.size == 1:
-                yield equations(name, values)[0] + (f" (one of {whole.sizes[name]})" if name in plan.middle else "")
-            elif plan.points:
-                others.append(SYMBOLS[name])
-    if others:
-        yield "varying too: " + ", ".join(others)
+    yield from (f"{equations(name, value)[0]} (interpolated)" for name, value in between.items())
+    yield from fixed(part, whole, [*plan.places, *selection.over, *between])
     yield from (f"{how} over {SYMBOLS[axis]}" for axis, how in selection.over.items())
     for axis in (plan.x, plan.second):
         if axis and part.sizes[axis] < whole.sizes[axis]:

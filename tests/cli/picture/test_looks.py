@@ -166,7 +166,7 @@ WRONG: list[tuple[str, dict[str, Any]]] = [
     ("x lamda", {"x": "lamda"}), ("x k", {"x": "k", "y": "k"}), ("x k", {"x": "k", "at": {"k": 0.0}}), ("y k", {"y": "k", "over": {"k": "max"}}),
     ("x nu", {"x": "nu"}), ("variable energy", {"variables": ["pull_off_force", "energy"]}), ("at k=1.5", {"at": {"k": 1.5}}),
     ("over k=product", {"over": {"k": "product"}}), ("nothing varies", {"at": {"k": 0.0, "wavelength": 1e-7}}),
-    ("kind maps: ", {"kind": "maps"}), ("levels : ", {"levels": []}), ("interpolate: ", {"interpolate": True}),
+    ("kind maps: ", {"kind": "maps"}), ("levels []: ", {"levels": []}), ("interpolate: ", {"interpolate": True}),
     ("1 by 1 inches", {"width": 1, "height": 1}), ("logarithmic", {"xlim": (0, 1e-7)}),
 ]  # fmt: skip
 
@@ -178,6 +178,7 @@ def test_what_does_not_exist_is_said(grid: xarray.Dataset) -> None:
         (sentence,) = mistakes(gr.plot, dataset, **({"variables": "pull_off_force"} | choices))
         assert key in sentence
         assert "--" not in sentence, "keywords of Python"
+    assert len(mistakes(gr.plot, grid, width="colum", levels="many", kind="maps")) == 3, "all at once"
 
 
 def test_a_mistake_leaves_what_is_there(grid: xarray.Dataset, tmp_path: Path, gradhesion: Call) -> None:

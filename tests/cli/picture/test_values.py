@@ -17,6 +17,7 @@ PUNCH: dict[str, Any] = {"nu": 0.27, "modulus": 430.0, "c0_over_R": 0.013, "a_ma
 SOLVERS = ["exact", "asymptotic", "envelope"]
 SHAPES: dict[str, dict[str, Any]] = {
     "a line to infinity": {"a_max_over_R": [0.5, 1.0, 2.0, np.inf], "k": 0.2, "A": 0.1, "lambda_over_R": 0.1},
+    "a line of one value to infinity": {"a_max_over_R": [0.5, np.inf], "k": 0.2, "A": 0.1, "lambda_over_R": 0.1},
     "a map to infinity": {"a_max_over_R": [0.1, 0.2, 0.3, 0.5, 1, 2, np.inf], "k": np.linspace(0, 0.9, 9), "A": 0.1, "lambda_over_R": 1.0},
     "panels of lines": {"k": [0.0, 0.3], "A": [0.0, 0.02], "lambda_over_R": [0.1, 0.2, 0.4], "a_max_over_R": [0.5, np.inf]},
     "panels of maps": {"k": np.linspace(0, 0.9, 7), "A": [0.0, 0.02], "lambda_over_R": np.linspace(0.1, 0.5, 8), "c0_over_R": [0.1, 1.0]},
@@ -43,9 +44,10 @@ def test_every_shape_is_drawn_in_line(shape: str) -> None:
     panels.figure.draw_without_rendering()
     first, second = np.split(np.array([axes.get_position().extents for axes in panels]), 2)
     assert any(np.allclose(first[:, side::2], second[:, side::2], atol=1e-9) for side in (0, 1))
-    for axes in panels if shape == "a line to infinity" else ():
+    for axes in panels if shape.endswith("to infinity") and shape.startswith("a line") else ():
         line, end = (one.get_xdata() for one in axes.get_lines()[:2])
-        assert (len(line), len(end), line[-1] < end[0]) == (3, 1, True)
+        assert (len(line), len(end), line[-1] < end[0]) == (len(SHAPES[shape]["a_max_over_R"]) - 1, 1, True)
+        assert axes.get_xlim()[0] < line[0] < end[0] < axes.get_xlim()[1]
 
 
 def test_contours_of_a_map_have_numbers_that_keep_clear_of_each_other() -> None:

@@ -10,14 +10,14 @@ import xarray
 import gradhesion as gr
 from gradhesion.cli.dataset import compute
 from gradhesion.cli.names.scenes import STEEP
-from gradhesion.cli.picture.shown import BEYOND
+from gradhesion.cli.picture.shown import DOUBTS
 from gradhesion.cli.study import study_from
 from gradhesion.core import VALIDITY, validity
 from tests.cli.conftest import Call, Patch, Run, legend
 
 PARAMETERS = {"nu": 0.3, "modulus": 30.0, "c0_over_R": 0.1, "lambda_over_R": [0.05, 0.1, 0.2, 0.4, 0.8], "A": 0.05}
 STUDY: dict[str, Any] = {"outputs": ["dissipated_energy"], "parameters": {"k": [0.0, 0.1, 0.2, 0.3]} | PARAMETERS}
-WORDS = BEYOND["contact_slope"].words
+WORDS = DOUBTS["contact_slope"].words
 NUMBERS = {"A": [0.0, 1e-5, 0.05, 0.2], "adhesion_range_over_R": [1e-5, 0.01]}
 COUNTED: list[tuple[dict[str, Any], dict[str, int]]] = [
     ({}, {"wave_slope": 2}),
@@ -137,7 +137,7 @@ def test_pictures_hatch_them_and_pages_say_it(ran: Run, gradhesion: Call, tmp_pa
     panels = gr.plot(dataset, "dissipated_energy")
     assert legend(panels) == [WORDS]
     filled = {one.hatches[0] for one in panels[0].collections if getattr(one, "filled", False)}  # type: ignore[attr-defined]
-    assert filled - {None} == {BEYOND["contact_slope"].hatch}
+    assert filled - {None} == {DOUBTS["contact_slope"].hatch}
     few = dataset.isel(k=slice(10, 12), lambda_over_R=slice(8, 10))
     assert WORDS not in legend(gr.plot(few, "dissipated_energy"))
     assert gradhesion("explore", tmp_path / "out.nc").exit_code == 0
