@@ -3,18 +3,18 @@
 import sys
 from typing import NoReturn
 
-from gradhesion.cli.installation import misfit
+from gradhesion.cli.errors import MissingExtraError
+from gradhesion.cli.installation import checked
 
 
 def main() -> NoReturn:
     """Run the command line, if the packages that it needs at once are there."""
     try:
-        from gradhesion.cli.main import main as run
-    except (ImportError, AttributeError, TypeError) as error:
-        if (found := misfit(error)) is not None:
-            sys.stderr.write(f"{found}\n")
-            sys.exit(found.exit_code)
-        raise
+        with checked():
+            from gradhesion.cli.main import main as run
+    except MissingExtraError as error:
+        sys.stderr.write(f"{error}\n")
+        sys.exit(error.exit_code)
     run()
 
 

@@ -1,7 +1,7 @@
 """Open and verify datasets of this program."""
 
 from collections.abc import Iterator
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -79,29 +79,32 @@ def verify(dataset: Data, *, sample: int = 20, seed: int | None = None) -> "Reco
     (4, 0)
     """
     if sample < 1 or (seed is not None and seed < 0):
-        raise StudyError(
-            f"gr.verify: sample = {sample}, seed = {seed}: a sample of 1 scene or more, a seed of 0 or more"
-        )
+        wrong = f"gr.verify: sample = {sample}, seed = {seed}"
+        raise StudyError(f"{wrong}: a sample of 1 scene or more, a seed of 0 or more")
     with checked():
         from gradhesion.cli.dataset.verify import recompute  # noqa: PLC0415 (python-flint)
     path = Path(dataset) if isinstance(dataset, str | Path) else Path("the dataset")
-    with as_keywords(), data_of(dataset) as values:
+    with data_of(dataset) as values:
         return recompute(values, path, sample=sample, seed=seed, progress=lambda _: nullcontext(lambda _: None))
 
 
-def data_of(dataset: Data) -> AbstractContextManager[xarray.Dataset]:
+@contextmanager
+def data_of(dataset: Data) -> Iterator[xarray.Dataset]:
     """Open a dataset, if it is not open; one whose variables were given other units is taken in those of our files.
 
-    DatasetError says that it was not written by this program.
+    DatasetError says that it was not written by this program; sentences within are those `as_keywords`.
     """
-    if isinstance(dataset, xarray.Dataset):
-        check_ours(dataset, "the dataset")
-        return nullcontext(in_own_units(dataset))
-    if isinstance(dataset, str | Path):
-        return opened(Path(dataset))
-    raise DatasetError(
-        f"a {type(dataset).__name__} is neither a dataset nor the path of one; a variable alone has no status"
-    )
+    with as_keywords():
+        if isinstance(dataset, xarray.Dataset):
+            check_ours(dataset, "the dataset")
+            yield in_own_units(dataset)
+        elif isinstance(dataset, str | Path):
+            with opened(Path(dataset)) as values:
+                yield values
+        else:
+            raise DatasetError(
+                f"a {type(dataset).__name__} is neither a dataset nor the path of one; a variable alone has no status"
+            )
 
 
 @contextmanager

@@ -1,8 +1,9 @@
 """What a call in Python gives, checked as a study is: numbers, quantities with units, axes and named dimensions."""
 
 import math
+import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, is_dataclass
+from dataclasses import asdict, is_dataclass
 from typing import Any, Final
 
 import numpy as np
@@ -27,20 +28,46 @@ HOMES: Final = {"control": "loading", "solver": "method", "check_contact": "meth
 """The tables of a study that arguments of a call stand in; a sentence about one names the argument alone."""
 
 
-@dataclass(kw_only=True, eq=False)
 class Given:
-    """What a call gives: arrays over named dimensions, and everything else as a study has it."""
+    """What a call gives, which messages name: arrays over named dimensions, and everything else as a study has it.
 
-    caller: str
-    arrays: dict[str, xarray.DataArray] = field(default_factory=dict)
-    """Parameters over named dimensions, as numbers (in SI units); an axis has the name of its parameter."""
-    fixed: dict[str, Any] = field(default_factory=dict)
-    """Parameters that are no arrays: numbers, quantities with units, ranges, and what is none of these."""
-    settings: dict[str, Any] = field(default_factory=dict)
-    """The other keys of a study, in their tables."""
-    mistakes: list[str] = field(default_factory=list)
-    unread: set[str] = field(default_factory=set)
-    """Parameters that could not be read, so that they are not missing."""
+    Keywords (`more`) stand in the place of parameters in the mapping; `settings` are the arguments that stand for other
+    keys of a study. What is wrong is noted, and raised by `study`.
+    """
+
+    def __init__(
+        self, caller: str, parameters: Any, more: Mapping[str, Any], settings: Mapping[str, Any], threads: object
+    ) -> None:
+        self.caller = caller
+        self.settings = _settings(settings)
+        """Keys of a study beside its parameters, in their tables."""
+        self.arrays = dict[str, xarray.DataArray]()
+        """Parameters over named dimensions, as numbers (in SI units); an axis has the name of its parameter."""
+        self.fixed = dict[str, Any]()
+        """Parameters that are no arrays: numbers, quantities with units, ranges, and what is none of these."""
+        self.mistakes = list[str]()
+        self.unread = set[str]()
+        """Parameters that could not be read, so that they are not missing."""
+        arguments = [*settings, "threads"]
+        for key, value in {**self._table(parameters), **more}.items():
+            name = str(key)
+            near = name if name in INPUTS else nearest(name, [*INPUTS, *arguments])
+            if near not in INPUTS:
+                hint = did_you_mean(name, list(INPUTS) if near is None else arguments)
+                self.refuse(name, f"unknown argument; {hint}")
+            elif name not in INPUTS or isinstance(value, str | Mapping) or value is None:
+                self.fixed[name] = as_written(value, bare=name not in PHYSICAL)
+            elif isinstance(value, float):
+                self.fixed[name] = float(value) + 0.0  # no negative zero; what most calls give needs no array
+            else:
+                self._take(name, value)
+        self._check_dimensions()
+        sizes = {dim: size for array in self.arrays.values() for dim, size in array.sizes.items()}
+        count, most = math.prod(sizes.values()), MOST_SCENES[settings.get("kind", "map")]
+        if count > most:
+            self.refuse("parameters", f"they make {count:,} scenes, more than {most:,}; use fewer values")
+        if threads is not None and not (isinstance(threads, int) and threads >= 1):
+            self.refuse(f"threads = {threads!r}", "the number of threads is 1 or more, or None for all processors")
 
     @property
     def is_grid(self) -> bool:
@@ -70,14 +97,15 @@ class Given:
             if known and bool(np.any((k == 1.0) & (nu != 0.5))):
                 sentence = "with k = 1 and nu other than 0.5 the surface has no stiffness; use nu = 0.5 there"
                 self.refuse("k = 1.0", sentence)
+        found: list[str] = []
         try:
             study = study_from(self._data({name: ends for name, ends in short.items() if ends}), self.caller)
         except StudyError as error:
-            unread = tuple(f"{self.caller}: {name}: this " for name in self.unread)
-            found = [one for one in map(self._without_table, error.mistakes) if not one.startswith(unread)]
-            raise StudyError([*self.mistakes, *found]) from None
-        if self.mistakes:
-            raise StudyError(self.mistakes)
+            tables = "|".join({*HOMES.values(), *(one.table for one in INPUTS.values())})  # an argument has none
+            found = [re.sub(rf"^({self.caller}: )(?:{tables})\.", r"\1", sentence) for sentence in error.mistakes]
+        unread = tuple(f"{self.caller}: {name}: this " for name in self.unread)
+        if mistakes := self.mistakes + [one for one in found if not one.startswith(unread)]:
+            raise StudyError(mistakes)
         return study
 
     def parameters(self, study: Study) -> dict[str, float | xarray.DataArray]:
@@ -102,16 +130,60 @@ class Given:
         """Write the checked study in TOML that gives just these scenes; nothing if there is none that is short."""
         if not self.arrays:
             return study.text
-        values = [array.values for array in self.arrays.values()]
-        ordered = self.is_points or (self.is_grid and all(map(is_monotone, values)))
-        if not ordered or sum(axis.size for axis in values) > MOST_LISTED:
-            return ""
-        return text_of(self.whole(), study)
+        ordered = self.is_points or (self.is_grid and all(is_monotone(array.values) for array in self.arrays.values()))
+        is_short = sum(array.size for array in self.arrays.values()) <= MOST_LISTED
+        return text_of(self.whole(), study) if ordered and is_short else ""
 
     def whole(self) -> dict[str, Any]:
         """Give all of it as the keys of a study; every array is an axis, or all are lists of points."""
         layout = {"layout": "points"} if self.is_points else {}
         return self._data({name: array.values.tolist() for name, array in self.arrays.items()}) | layout
+
+    def _table(self, parameters: Any) -> Mapping[Any, Any]:
+        """Take the parameters in a mapping, or in the columns of a table of pandas."""
+        if hasattr(parameters, "columns") and hasattr(parameters, "to_xarray"):
+            for name in sorted({*map(str, parameters.columns[parameters.columns.duplicated()])}):
+                self.unread.add(name)
+                self.refuse(name, "the table has more than one column of this name; keep one of them")
+            return {name: parameters[name] for name in parameters.columns if str(name) not in self.unread}
+        if parameters is not None and not isinstance(parameters, Mapping):
+            kind = type(parameters).__name__
+            self.refuse("parameters", f"a mapping from names to values is expected, not a {kind}")
+        return parameters if isinstance(parameters, Mapping) else {}
+
+    def _take(self, name: str, value: Any) -> None:
+        """Take a parameter that is known and no string: a number, an axis, or an array over named dimensions."""
+        try:
+            array = array_of(name, value)
+            numbers = numbers_of(name, array)
+        except ValueError as error:
+            self.refuse(name, str(error))
+            self.unread.add(name)
+            return
+        if numbers is None or array.size == 0:
+            self.fixed[name] = as_written(array.values)
+        elif array.ndim == 0:
+            self.fixed[name] = float(numbers)
+        else:
+            taken, is_axis = array.copy(data=numbers), array.dims == (name,)
+            self.arrays[name] = taken.assign_coords({name: numbers}) if is_axis else taken
+            for _, sentence in repeated(name, numbers) if is_axis else ():
+                self.refuse(name, sentence)
+
+    def _check_dimensions(self) -> None:
+        """Check that the dimensions of all arrays go together."""
+        taken = {*OUTPUTS, *INPUTS, SOLVER, PARAMETER, PHYSICAL_PARAMETER, "status"}
+        taken -= {name for name, array in self.arrays.items() if array.dims == (name,)}
+        for name, array in self.arrays.items():
+            for dim in sorted(taken & {*map(str, array.dims)}):
+                sentence = f'its dimension "{dim}" has the name of a variable, or of a parameter that is not an axis'
+                self.refuse(name, f"{sentence}; rename it, or give {dim} as a list")
+        try:
+            xarray.align(*(array.reset_coords(drop=True) for array in self.arrays.values()), join="exact", copy=False)
+        except ValueError:
+            sizes = "; ".join(f"{name} over {dict(array.sizes)}" for name, array in self.arrays.items())
+            sentence = f"dimensions of the same name differ in length or coordinates ({sizes}); rename one of them"
+            self.refuse("parameters", sentence)
 
     def _ends(self, name: str, array: xarray.DataArray) -> list[float]:
         """Find the least and the greatest value of an array, those out of range aside, which are refused."""
@@ -133,91 +205,6 @@ class Given:
             key = name if name in INPUTS else nearest(name, list(INPUTS)) or "k"
             data.setdefault(INPUTS[key].table, {})[name] = _with_unit(name, given[name])
         return data
-
-    def _without_table(self, sentence: str) -> str:
-        """Name an argument in the place of a key of a study, which stands in a table."""
-        table, dot, rest = sentence.removeprefix(f"{self.caller}: ").partition(".")
-        known = {*HOMES.values(), *(one.table for one in INPUTS.values())}
-        return f"{self.caller}: {rest}" if dot and table in known else sentence
-
-
-def given_in(
-    caller: str,
-    parameters: Mapping[str, Any] | None,
-    more: Mapping[str, Any],
-    settings: Mapping[str, Any],
-    threads: object = None,
-) -> Given:
-    """Take the arguments of a call apart, which is named in messages: parameters in a mapping, and as keywords.
-
-    These stand in the place of those in the mapping; `settings` are the arguments that stand for other keys of a study.
-    """
-    given = Given(caller=caller, settings=_settings(settings))
-    table: Any = {} if parameters is None else parameters
-    if hasattr(table, "columns") and hasattr(table, "to_xarray"):  # pandas
-        for name in sorted({*map(str, table.columns[table.columns.duplicated()])}):
-            given.unread.add(name)
-            given.refuse(name, "the table has more than one column of this name; keep one of them")
-        table = {name: table[name] for name in table.columns if str(name) not in given.unread}
-    if not isinstance(table, Mapping):
-        given.refuse("parameters", f"a mapping from names to values is expected, not a {type(table).__name__}")
-        table = {}
-    arguments = [*settings, "threads"]
-    for key, value in {**table, **more}.items():
-        name = str(key)
-        near = name if name in INPUTS else nearest(name, [*INPUTS, *arguments])
-        if near not in INPUTS:
-            given.refuse(name, f"unknown argument; {did_you_mean(name, list(INPUTS) if near is None else arguments)}")
-        elif name not in INPUTS or isinstance(value, str | Mapping) or value is None:
-            given.fixed[name] = as_written(value, bare=name not in PHYSICAL)
-        elif isinstance(value, float):
-            given.fixed[name] = float(value) + 0.0  # no negative zero; what most calls give needs no array
-        else:
-            _take_values(given, name, value)
-    _align(given)
-    count = math.prod({dim: size for array in given.arrays.values() for dim, size in array.sizes.items()}.values())
-    most = MOST_SCENES[settings.get("kind", "map")]
-    if count > most:
-        given.refuse("parameters", f"they make {count:,} scenes, more than {most:,}; use fewer values")
-    if threads is not None and not (isinstance(threads, int) and threads >= 1):
-        given.refuse(f"threads = {threads!r}", "the number of threads is 1 or more, or None for all processors")
-    return given
-
-
-def _take_values(given: Given, name: str, value: Any) -> None:
-    """Take a parameter that is known and no string: a number, an axis, or an array over named dimensions."""
-    try:
-        array = array_of(name, value)
-        numbers = numbers_of(name, array)
-    except ValueError as error:
-        given.refuse(name, str(error))
-        given.unread.add(name)
-        return
-    if numbers is None or array.size == 0:
-        given.fixed[name] = as_written(array.values)
-    elif array.ndim == 0:
-        given.fixed[name] = float(numbers)
-    else:
-        taken = array.copy(data=numbers)
-        given.arrays[name] = taken.assign_coords({name: numbers}) if array.dims == (name,) else taken
-        for _, sentence in repeated(name, numbers) if array.dims == (name,) else ():
-            given.refuse(name, sentence)
-
-
-def _align(given: Given) -> None:
-    """Check that the dimensions of all arrays go together."""
-    taken = {*OUTPUTS, *INPUTS, SOLVER, PARAMETER, PHYSICAL_PARAMETER, "status"}
-    taken -= {name for name, array in given.arrays.items() if array.dims == (name,)}
-    for name, array in given.arrays.items():
-        for dim in sorted(taken & {*map(str, array.dims)}):
-            sentence = f'its dimension "{dim}" has the name of a variable, or of a parameter that is not an axis'
-            given.refuse(name, f"{sentence}; rename it, or give {dim} as a list")
-    try:
-        xarray.align(*(array.reset_coords(drop=True) for array in given.arrays.values()), join="exact", copy=False)
-    except ValueError:
-        sizes = "; ".join(f"{name} over {dict(array.sizes)}" for name, array in given.arrays.items())
-        sentence = f"dimensions of the same name differ in length or coordinates ({sizes}); rename one of them"
-        given.refuse("parameters", sentence)
 
 
 def _settings(settings: Mapping[str, Any]) -> dict[str, Any]:

@@ -18,7 +18,7 @@ from gradhesion.cli.picture.looks import Looks, looks_of
 from gradhesion.cli.picture.picture import picture_of
 from gradhesion.cli.picture.pictured import styled
 from gradhesion.cli.study.text.quantities import as_written
-from gradhesion.datasets import Data, as_keywords, data_of
+from gradhesion.datasets import Data, data_of
 
 Limits = tuple[float | str | None, float | str | None]
 """Two ends of a part of an axis: numbers in SI, quantities, or None for all there is."""
@@ -141,7 +141,7 @@ def plot(
     >>> panel.get_xlabel()
     '$\\lambda/R$'
     """
-    with as_keywords(), data_of(dataset) as values:
+    with data_of(dataset) as values:
         looks = looks_of(
             variables=_listed(variables), at=_wishes(at), over=_wishes(over), interpolate=interpolate, x=x, y=y,
             kind=kind, width=width, height=height, colour_map=colour_map, levels=levels, labels=labels, title=title,
@@ -192,13 +192,12 @@ def explore(
     with checked():
         from gradhesion.cli.explorer.page import write_page  # noqa: PLC0415 (Bokeh)
     if file is None and isinstance(dataset, xarray.Dataset):
-        raise OutputError(
-            'a page of a dataset in memory needs a name; write for example gr.explore(dataset, "map.html")'
-        )
+        example = 'gr.explore(dataset, "map.html")'
+        raise OutputError(f"a page of a dataset in memory needs a name; write for example {example}")
     path = Path(dataset).with_suffix(".html") if file is None else Path(file)
     if path.suffix.lower() not in {".html", ".htm"}:
         raise OutputError(f"{path}: the name of a page ends in .html")
-    with as_keywords(), data_of(dataset) as values:
+    with data_of(dataset) as values:
         name = str(values.attrs["title"]) if isinstance(dataset, xarray.Dataset) else Path(dataset).name
         write_page(values, name, _listed(variables), _wishes(at), path, overwrite=overwrite)
     return path

@@ -1,7 +1,7 @@
 """Solve or draw scenes without a file: parameters in, an xarray dataset out."""
 
 import inspect
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 from typing import Any, Final, TypeVar
@@ -25,7 +25,7 @@ from gradhesion.core.closed.reduced import sources_of
 from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.toughness import Rate, Toughness
-from gradhesion.given import given_in, is_monotone
+from gradhesion.given import Given, is_monotone
 
 Arrays = Mapping[str, float | xarray.DataArray]
 """By name; a number is the same in all scenes."""
@@ -139,7 +139,7 @@ def solve(
     """
     settings: dict[str, Any] = {"outputs": outputs, "profile": profile, "control": control, "solver": solver}
     settings |= {"check_contact": check_contact, "title": title, "toughness": toughness, "rate": rate}
-    given = given_in("gr.solve", parameters, more, settings, threads)
+    given = Given("gr.solve", parameters, more, settings, threads)
     study = given.study()
     prepare(study)
     return _solved(replace(study, text=given.text(study)), given.parameters(study), threads)
@@ -194,9 +194,8 @@ def curves(
     True
     """
     settings: dict[str, Any] = {"kind": "curve", "outputs": outputs, "profile": profile, "control": control}
-    more_settings: dict[str, Any] = {"contact_radius_over_R": contact_radius_over_R, "title": title}
-    more_settings |= {"toughness": toughness, "rate": rate}
-    given = given_in("gr.curves", parameters, more, settings | more_settings, threads)
+    settings |= {"contact_radius_over_R": contact_radius_over_R, "title": title, "toughness": toughness, "rate": rate}
+    given = Given("gr.curves", parameters, more, settings, threads)
     for name, array in given.arrays.items():
         if not (given.is_grid or given.is_points):
             if array.dims not in ((name,), (SCENE,)):
@@ -207,7 +206,7 @@ def curves(
     return compute(study_from(given.whole(), "gr.curves"), threads=threads)
 
 
-def _solved(study: Study, parameters: Arrays, threads: int | None = None) -> xarray.Dataset:
+def _solved(study: Study, parameters: Arrays, threads: int | None) -> xarray.Dataset:
     """Solve the scenes of a study whose parameters, in plain numbers (SI), stand over dimensions of any names.
 
     The study says what is asked for; its own parameters count by their names only, and without a text the dataset has
@@ -235,17 +234,20 @@ def _solved(study: Study, parameters: Arrays, threads: int | None = None) -> xar
             own = [dim for dim in sizes if dim in varying]
             values = (arrays if name in arrays else scenes)[name].reshape([sizes[dim] for dim in own])
         made[name] = _as_read(variable, own, np.asarray(values), beside if name in found else [])
-    about = attributes(study, "computed in memory")
-    if not study.text:
-        del about["study"], about["study_sha256"]
     # Twice as fast as xarray.Dataset(made).set_coords(beside), and the same.
     dataset = xarray.Coordinates(made).to_dataset().reset_coords([name for name in described if name in found])
-    dataset.attrs = about
+    dataset.attrs = attributes(study, "computed in memory")
+    if not study.text:
+        del dataset.attrs["study"], dataset.attrs["study_sha256"]
     if steep.any() and (mark := steep_contact(study)):
         dims = [str(dim) for dim in dataset["status"].dims]
         dataset = dataset.assign_coords({STEEP: _as_read(mark, dims, steep, [])})
     _say_once(tuple(slope_warnings(dataset)))
-    others = _other_coordinates(parameters, dataset)
+    others: dict[Hashable, xarray.DataArray] = {}  # coordinates that came with the parameters, and are not theirs
+    for array in (array for array in parameters.values() if isinstance(array, xarray.DataArray)):
+        for key, coordinate in array.coords.items():
+            if key not in dataset.variables:
+                others.setdefault(key, coordinate.reset_coords(drop=True))
     return dataset.assign_coords(others) if others else dataset
 
 
@@ -282,13 +284,3 @@ def _along(sizes: Mapping[str, int], value: float | xarray.DataArray) -> NDArray
     if isinstance(value, float):
         return np.full((1,) * len(sizes), value)
     return np.asarray(value.expand_dims([dim for dim in sizes if dim not in value.dims]).transpose(*sizes).values)
-
-
-def _other_coordinates(parameters: Arrays, dataset: xarray.Dataset) -> dict[str, xarray.DataArray]:
-    """Find the coordinates that came with the parameters and are not theirs."""
-    found: dict[str, xarray.DataArray] = {}
-    for array in (array for array in parameters.values() if isinstance(array, xarray.DataArray)):
-        for name, coordinate in array.coords.items():
-            if name not in dataset.variables:
-                found.setdefault(str(name), coordinate.reset_coords(drop=True))
-    return found

@@ -108,14 +108,11 @@ def run(
 def _checked(changes: Any) -> Mapping[str, Any]:
     """Refuse what is no mapping from keys to values, such as the text of an option --set."""
     if not isinstance(changes, Mapping) or not all(isinstance(key, str) for key in changes):
-        kind = type(changes).__name__ if not isinstance(changes, Mapping) else "mapping with other names"
-        raise StudyError(
-            f"set: a mapping from keys to values is expected, not a {kind}; write for example "
-            'set={"parameters.A": 0.02}'
-        )
-    for key, value in changes.items():
-        if value is None:
-            raise StudyError(f"set {key}=None: a key has no value None; leave it out to keep the value of the study")
+        expected = "a mapping from names of keys to values is expected"
+        raise StudyError(f'set: {expected}; write for example set={{"parameters.A": 0.02}}')
+    if none := [key for key, value in changes.items() if value is None]:
+        remedy = "a key has no value None; leave it out to keep the value of the study"
+        raise StudyError([f"set {key}=None: {remedy}" for key in none])
     return changes
 
 

@@ -7,7 +7,7 @@ import shutil
 import stat
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from itertools import count
+from itertools import chain, count
 from pathlib import Path
 from typing import BinaryIO, Final
 
@@ -129,15 +129,13 @@ def settle(temporary: Path, path: Path, *, overwrite: bool) -> None:
     OutputError: it cannot be; or something has appeared there meanwhile, and the file is kept under a name beside it.
     """
     target = Path(os.path.realpath(path))
-    place = target
+    beside = (target.with_name(f"{target.stem}-{number}{target.suffix}") for number in count(2))
     with writing(path):
         to_disk(temporary)
-        try:
-            temporary.replace(target) if overwrite else _rename_anew(temporary, target)
-        except (FileExistsError, IsADirectoryError):
-            names = (f"{target.stem}-{number}{target.suffix}" for number in count(2))
-            place = next(beside for name in names if not (beside := target.with_name(name)).exists())
-            _rename_anew(temporary, place)
+        for place in chain([target], beside):
+            with suppress(FileExistsError, IsADirectoryError):
+                temporary.replace(place) if overwrite and place == target else _rename_anew(temporary, place)
+                break
     with suppress(OSError):  # some file systems cannot sync a folder
         to_disk(target.parent)
     if place != target:

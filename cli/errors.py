@@ -8,15 +8,15 @@ from typing import Final
 
 EXIT_CODES: Final = {
     0: "success",
-    2: "the command, the study or the dataset is wrong; a package is missing or too old; no scheduler answers, "
-    "or a worker has another version",
-    3: "written, but some scenes have failed (their `status` reports why), or a fit is in doubt (it did not converge, "
-    "has a residual above its noise, has another minimum, or ends at an end of a range), or `verify` has found a value "
-    "beyond its stated error",
-    4: "the output cannot be written (it exists, no space, no permission, another run is writing it, or blocks "
-    "of another study are kept), or a cluster is lost; existing files are untouched",
-    130: "interrupted; existing files are untouched, finished blocks are kept, and the same command resumes",
-    141: "the reader of the output has closed it, as with `| head`",
+    2: "wrong command, study or dataset; or a package is missing or too old, no scheduler answers, or a worker has "
+    "another version",
+    3: "failed or doubtful scenes: they are written, and their `status` reports why; a fit is in doubt if it did not "
+    "converge, has a residual above its noise, has another minimum, or ends at an end of a range; `verify` has found a "
+    "value beyond its stated error",
+    4: "the output cannot be written: it exists, there is no space or no permission, another run is writing it, or "
+    "blocks of another study are kept; or a cluster is lost; existing files are untouched",
+    130: "interrupted: existing files are untouched, finished blocks are kept, and the same command resumes",
+    141: "the reader of the output has closed it: as with `| head`",
 }
 """What every exit code means."""
 

@@ -4,14 +4,14 @@ import os
 import re
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 from gradhesion.cli.errors import MissingExtraError, SetupError
 
 
 def unmet() -> list[tuple[str, str, str]]:
-    """List what the installed packages lack: what needs it, what it needs ("bokeh>=3.6"), the version there or ""."""
-    from importlib.metadata import PackageNotFoundError, requires, version  # noqa: PLC0415 (10 ms)
+    """List what the installed packages lack: what needs it, what it needs ("bokeh>=3.6"), and "3.4 is" or "not"."""
+    from importlib.metadata import distributions, requires  # noqa: PLC0415 (10 ms)
 
     from packaging.requirements import Requirement  # noqa: PLC0415
 
@@ -19,17 +19,12 @@ def unmet() -> list[tuple[str, str, str]]:
     names = ["gradhesion"]
     for owner in names:  # which grows
         for needed in map(Requirement, requires(owner) or ()):
-            name, extra = needed.name.lower(), "cluster" if owner == "gradhesion" else ""
-            if needed.marker and not needed.marker.evaluate({"extra": extra}):
+            name = needed.name.lower()
+            if needed.marker and not needed.marker.evaluate({"extra": ""}):
                 continue
-            try:
-                there = version(name)
-            except PackageNotFoundError:
-                if "extra" in str(needed.marker):
-                    continue
-                there = ""
+            there = next((one.version for one in distributions(name=name)), "")
             if not there or not needed.specifier.contains(there, prereleases=True):
-                found.setdefault(name, (owner, f"{name}{needed.specifier}", there))
+                found.setdefault(name, (owner, f"{name}{needed.specifier}", f"{there} is" if there else "not"))
             if there and name not in names:
                 names.append(name)
     return [*found.values()]
@@ -37,18 +32,14 @@ def unmet() -> list[tuple[str, str, str]]:
 
 def misfit(error: BaseException) -> MissingExtraError | None:
     """Return in one sentence which packages an error may come from; None if all are there as they are needed."""
-    if not isinstance(error, ImportError | AttributeError | TypeError):
-        return None
-    try:
-        wanting = unmet()
-    except ImportError as missing:  # gradhesion is not installed, or packaging is not
-        wanting = [("gradhesion", "packaging", "")] if missing.name == "packaging" else []
+    wanting = []
+    if isinstance(error, ImportError | AttributeError | TypeError):
+        with suppress(ImportError):  # gradhesion is not installed
+            wanting = unmet()
     if not wanting:
         return None
     symptom = re.sub(r" \([^()]*\)$", "", str(error).partition("\n")[0])  # without the path of a file
-    needs = ", ".join(
-        f"{owner} needs {needed} ({f'{there} is' if there else 'not'} installed)" for owner, needed, there in wanting
-    )
+    needs = ", ".join(f"{owner} needs {needed} ({there} installed)" for owner, needed, there in wanting)
     remedy = " ".join(f'"{needed}"' for _, needed, _ in wanting)
     return MissingExtraError(f"{symptom}: {needs}; run {sys.executable or 'python'} -m pip install {remedy}")
 
@@ -59,7 +50,7 @@ def checked() -> Iterator[None]:
     try:
         yield
     except (ImportError, AttributeError, TypeError) as error:
-        if (found := misfit(error)) is not None:
+        if found := misfit(error):
             raise found from error
         raise
 

@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -114,58 +114,45 @@ def plan(study: Path, output: Path | None, overrides: tuple[str, ...], threads: 
 
     loaded = load_any(study, overrides)
     path = output or Path("outputs") / f"{loaded.name}.nc"
+    found: dict[str, Any] = {"output": str(path), "output_exists": path.exists(), "kind": loaded.kind}
     if isinstance(loaded, FitStudy):
-        found = {
-            "output": str(path),
-            "output_exists": path.exists(),
-            "kind": loaded.kind,
-            "points": sum(loop.points for loop in loaded.loops),
-            "cycles": sum(loop.cycles for loop in loaded.loops),
-            "loops": len(loaded.loops),
-            "parameters": list(loaded.parameters),
-            "starts": loaded.starts,
-        }
-        lines: Iterable[str] = [
-            f"output    {path} ({_state(exists=path.exists())})",
-            f"points    {loaded.in_words}",
-            f"fitted    {', '.join(loaded.parameters)}; from at most {counted(loaded.starts, 'start')}",
-            *(f"note      {note}" for note in loaded.notes),
-        ]
+        found |= {"points": sum(loop.points for loop in loaded.loops)}
+        found |= {"cycles": sum(loop.cycles for loop in loaded.loops), "loops": len(loaded.loops)}
+        found |= {"parameters": list(loaded.parameters), "starts": loaded.starts}
+        starts = f"from at most {counted(loaded.starts, 'start')}"
+        lines = {"points": loaded.in_words, "fitted": f"{', '.join(loaded.parameters)}; {starts}"}
+        notes = loaded.notes
     else:
         if loaded.kind == "map":  # of which some scenes are solved
             prepare(loaded)
-        found = estimate(loaded, path, threads)
-        lines = _in_words(found)
-    if as_json:
-        lines = json.dumps(found, indent=2).splitlines()
-    show(*lines)
+        found |= estimate(loaded, path, threads)
+        lines, notes = dict(_in_words(found)), ()
+    state = "exists; run needs --overwrite" if found["output_exists"] else "new"
+    lines = {"output": f"{path} ({'a run is writing it' if found.get('running') else state})"} | lines
+    rows = [f"{name:<10}{line}" for name, line in [*lines.items(), *(("note", note) for note in notes)]]
+    show(*(json.dumps(found, indent=2).splitlines() if as_json else rows))
 
 
-def _in_words(found: dict[str, Any]) -> Iterator[str]:
+def _in_words(found: dict[str, Any]) -> Iterator[tuple[str, str]]:
     """Describe the plan of a run."""
     axes = ", ".join(f"{name} ({size:,})" for name, size in found["sizes"].items()) or "none"
     solutions = found["solutions_of_scene"]
     often = f", each solved about {solutions:,} times" if solutions > 1 else ""
-    yield f"output    {found['output']} ({_state(exists=found['output_exists'], running=found['running'])})"
-    yield f"scenes    {found['scenes']:,}{often}; axes: {axes}"
-    yield f"outputs   {', '.join(found['outputs'])}"
+    yield "scenes", f"{found['scenes']:,}{often}; axes: {axes}"
+    yield "outputs", ", ".join(found["outputs"])
     if not found["blocks"]:
-        yield "blocks    none: curves and fronts are computed scene by scene, and written together"
+        yield "blocks", "none: curves and fronts are computed scene by scene, and written together"
         return
-    yield f"blocks    {found['blocks']:,}; {found['blocks_kept']:,} kept from an earlier run"
+    yield "blocks", f"{found['blocks']:,}; {found['blocks_kept']:,} kept from an earlier run"
     if found["refusal"]:
-        yield f"          run would refuse: {found['refusal']}"
+        yield "", f"run would refuse: {found['refusal']}"
     beside = ", and as much beside it until it is complete" if found["blocks"] > 1 else ""
     disk = f"{bytes_in_words(found['bytes_of_values'])}, less by compression{beside}"
-    yield f"disk      at most {disk}; {bytes_in_words(found['bytes_free'])} free"
-    yield f"memory    about {bytes_in_words(found['bytes_of_memory'])}"
+    yield "disk", f"at most {disk}; {bytes_in_words(found['bytes_free'])} free"
+    yield "memory", f"about {bytes_in_words(found['bytes_of_memory'])}"
     if found["seconds"] is None:
-        yield "time      only that of writing: every block is kept"
+        yield "time", "only that of writing: every block is kept"
     else:
-        yield f"time      roughly {duration(found['seconds'])} (timed with {counted(found['scenes_timed'], 'scene')})"
-        yield f"engines   with --engine dask, a block takes a worker {duration(found['seconds_of_block'])}"
-
-
-def _state(*, exists: bool, running: bool = False) -> str:
-    """Say what stands at the output."""
-    return "a run is writing it" if running else "exists; run needs --overwrite" if exists else "new"
+        timed = counted(found["scenes_timed"], "scene")
+        yield "time", f"roughly {duration(found['seconds'])} (timed with {timed})"
+        yield "engines", f"with --engine dask, a block takes a worker {duration(found['seconds_of_block'])}"

@@ -21,9 +21,7 @@ if TYPE_CHECKING:
 @click.option("--up-to", metavar="LENGTH", help='Distance from the centre up to which to fit, as "2 um" [all].')
 @shared.overwriting
 @shared.quietly
-def profile(
-    file: Path, output: Path | None, terms: int, exponent: str, up_to: str | None, overwrite: bool, quiet: bool
-) -> None:
+def profile(file: Path, output: Path | None, terms: int, exponent: str, up_to: str | None, overwrite: bool) -> None:
     """Fit the profile of a punch to measured heights.
 
     FILE is a table (CSV or NetCDF) with the columns r and height, their units in the header, as r [um]. Fits a power
@@ -57,9 +55,8 @@ def profile(
         with writing(path):
             save(drawn_profile(fit, file.name), temporary, form)
     show_block("\n".join(_tables_of(fit, file, terms, power or "fit")))
-    if not quiet:
-        note = f"{file}: {counted(dropped, 'row')} without two numbers left out"
-        shared.say_written(path, [note] if dropped else [])
+    note = f"{file}: {counted(dropped, 'row')} without two numbers left out"
+    shared.say_written(path, [note] if dropped else [])
 
 
 def _tables_of(fit: "FittedProfile", file: Path, terms: int, exponent: float | str) -> Iterator[str]:

@@ -32,7 +32,8 @@ def info(files: tuple[Path, ...], at: tuple[str, ...], form: str, variables: tup
     """
     from gradhesion.cli.dataset.read.reader import is_fit, opened
     from gradhesion.cli.dataset.select import selected
-    from gradhesion.cli.words.table import fits_tabled, jumps_listed, tabled
+    from gradhesion.cli.words.fit_words import fits_compared
+    from gradhesion.cli.words.table import csv_of, fit_values, jumps_listed, tabled
     from gradhesion.cli.words.words import described
 
     if variables and (jumps or form != "csv"):
@@ -44,16 +45,11 @@ def info(files: tuple[Path, ...], at: tuple[str, ...], form: str, variables: tup
         datasets = [stack.enter_context(opened(each)) for each in files]
         dataset = selected(datasets[0], at) if at else datasets[0]
         if jumps or form == "csv":
-            of_values = fits_tabled(dataset) if is_fit(dataset) else tabled(dataset, file, variables)
-            for block in jumps_listed(dataset, file) if jumps else of_values:
-                show_block(block)
+            of_values = [fit_values(dataset)] if is_fit(dataset) else tabled(dataset, file, variables)
+            for lines in csv_of(jumps_listed(dataset, file) if jumps else of_values):
+                show_block(lines)
             return
-        lines = described(dataset, file)
-        if len(files) > 1 or is_fit(dataset):
-            from gradhesion.cli.words.fit_words import fits_compared, fits_described
-
-            lines = fits_compared(datasets, files) if len(files) > 1 else fits_described(dataset, file)
-        show(*lines)
+        show(*(fits_compared(datasets, files) if len(files) > 1 else described(dataset, file)))
 
 
 @click.command(
@@ -92,9 +88,7 @@ def info(files: tuple[Path, ...], at: tuple[str, ...], form: str, variables: tup
 @shared.overwriting
 @shared.quietly
 @shared.given_up("--inset", "draw one with `inset_axes` of matplotlib on the axes that `gr.plot` returns")
-def plot(
-    file: Path, output: Path | None, variables: tuple[str, ...], overwrite: bool, quiet: bool, **settings: Any
-) -> None:
+def plot(file: Path, output: Path | None, variables: tuple[str, ...], overwrite: bool, **settings: Any) -> None:
     """Draw a dataset: lines, maps, panels or curves.
 
     The shape of FILE decides: lines over one axis, a map over two, panels over more; curves are drawn as curves, and a
@@ -115,8 +109,7 @@ def plot(
         figure = picture_of(dataset, chosen, notes.append)
         with writing(path):
             save(figure, temporary, form, chosen)
-    if not quiet:
-        shared.say_written(path, notes)
+    shared.say_written(path, notes)
 
 
 @click.command(epilog=shared.example("explore outputs/study.nc", "explore outputs/study.nc -o part.html --at A=0.02"))
@@ -126,9 +119,7 @@ def plot(
 @shared.choosing
 @shared.overwriting
 @shared.quietly
-def explore(
-    file: Path, output: Path | None, variables: tuple[str, ...], at: tuple[str, ...], overwrite: bool, quiet: bool
-) -> None:
+def explore(file: Path, output: Path | None, variables: tuple[str, ...], at: tuple[str, ...], overwrite: bool) -> None:
     """Write a dataset as a page with sliders.
 
     The page shows maps, sections and a slider for each axis of FILE in any browser. It contains the data and opens
@@ -144,8 +135,7 @@ def explore(
     with opened(file) as dataset:
         write_page(dataset, file.name, shared.listed(variables), at, path, overwrite=overwrite)
         notes = selection_of(dataset, at).notes
-    if not quiet:
-        shared.say_written(path, notes)
+    shared.say_written(path, notes)
 
 
 @click.command(epilog=shared.example(SELECT))
@@ -155,7 +145,7 @@ def explore(
 @shared.dataset_to_write(required=True)
 @shared.overwriting
 @shared.quietly
-def select(file: Path, at: tuple[str, ...], over: tuple[str, ...], output: Path, overwrite: bool, quiet: bool) -> None:
+def select(file: Path, at: tuple[str, ...], over: tuple[str, ...], output: Path, overwrite: bool) -> None:
     """Write a part of a dataset.
 
     The result is a dataset like FILE, with its study: fewer values of an axis, or none (--at), or their maximum, mean
@@ -172,8 +162,7 @@ def select(file: Path, at: tuple[str, ...], over: tuple[str, ...], output: Path,
         notes = [] if is_fit(dataset) else selection_of(dataset, at).notes
         part = part.assign_attrs(history=f"{part.attrs.get('history', '')}\n{shared.history_now()}".strip())
         write_dataset(part, output, overwrite=overwrite)
-    if not quiet:
-        shared.say_written(output, notes)
+    shared.say_written(output, notes)
 
 
 @click.command(epilog=shared.example("verify outputs/study.nc --sample 50"))
@@ -195,11 +184,10 @@ def verify(file: Path, sample: int, seed: int | None) -> None:
     from gradhesion.cli.dataset.verify import in_words, recompute
 
     with opened(file) as dataset:
-        found = recompute(dataset, file, sample=sample, seed=seed, progress=lambda total: progress(total, quiet=False))
+        found = recompute(dataset, file, sample=sample, seed=seed, progress=progress)
         title = str(dataset.attrs["title"])
     show(*in_words(found, title, file))
     if found.exceeding:
-        many = (
-            f"{found.exceeding:,} of {counted(len(found.deviations), 'value')} deviate by more than their stated errors"
-        )
-        raise DoubtfulError(f"{file}: {many}; write it again with `gradhesion run`, and report it if they still do")
+        many = f"{found.exceeding:,} of {counted(len(found.deviations), 'value')}"
+        remedy = "write it again with `gradhesion run`, and report it if they still do"
+        raise DoubtfulError(f"{file}: {many} deviate by more than their stated errors; {remedy}")

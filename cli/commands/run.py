@@ -51,7 +51,7 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
 @shared.given_up("--chunk", "the size of blocks is chosen by itself")
 @shared.given_up("--fail-fast", "run fewer scenes first, and `gradhesion info` reports which have failed, and why")
 @shared.given_up("--log-json", "`gradhesion status FILE --json` shows how far a run is")
-def run(study: Path, output: Path | None, overrides: tuple[str, ...], engine: str, quiet: bool, **how: Any) -> None:
+def run(study: Path, output: Path | None, overrides: tuple[str, ...], engine: str, **how: Any) -> None:
     """Compute a study into a dataset (NetCDF).
 
     STUDY is a TOML file. Interrupted runs resume where they stopped: give the same command again.
@@ -71,7 +71,7 @@ def run(study: Path, output: Path | None, overrides: tuple[str, ...], engine: st
     if isinstance(loaded, FitStudy):
         if shard is not None or fresh or engine != "threads":
             raise click.UsageError("a fit has no blocks of scenes; run it without --shard, --fresh and --engine")
-        _run_fit(loaded, path, overwrite=how["overwrite"], quiet=quiet)
+        _run_fit(loaded, path, overwrite=how["overwrite"])
         return
     if shard is not None and not loaded.has_parts:
         raise click.UsageError("--shard: the study has one block only, and needs no shards; run it without --shard")
@@ -81,36 +81,34 @@ def run(study: Path, output: Path | None, overrides: tuple[str, ...], engine: st
     if engine == "dask":
         from gradhesion.cli.work.cluster import on_cluster
 
-        solver = on_cluster(scheduler, threads, quiet=quiet)
+        solver = on_cluster(scheduler, threads)
         if not loaded.has_parts:
             solver = None
-            if not quiet:
-                messages.say("the study has one block or consists of curves, and is solved in this process")
+            messages.note("the study has one block or consists of curves, and is solved in this process")
     start = time.monotonic()
-    with progress(loaded.scenes // (shard[1] if shard else 1), quiet=quiet) as advance:
+    with progress(loaded.scenes // (shard[1] if shard else 1)) as advance:
         done = write(loaded, path, history=shared.history_now(), engine=solver, advance=advance, **how)
     if shard is None:
-        finish(path, loaded.scenes, done, time.monotonic() - start, quiet=quiet)
-    elif not quiet:
-        did = f"reused {counted(done.reused, 'block')}, computed {done.computed:,}"
-        end = f"`gradhesion merge {path}` joins them when all shards are done"
-        messages.say(f"{path}.parts: shard {shard[0]} of {shard[1]}: {did}; {end}")
+        finish(path, loaded.scenes, done, time.monotonic() - start)
+        return
+    did = f"reused {counted(done.reused, 'block')}, computed {done.computed:,}"
+    end = f"`gradhesion merge {path}` joins them when all shards are done"
+    messages.note(f"{path}.parts: shard {shard[0]} of {shard[1]}: {did}; {end}")
 
 
-def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet: bool) -> None:
+def finish(path: Path, scenes: int, written: "Written", seconds: float) -> None:
     """Say what was written, how much of it an earlier run had done, and what has failed (DoubtfulError)."""
-    if not quiet:
-        count, size = counted(scenes, "scene"), bytes_in_words(path.stat().st_size)
-        reused = f"; reused {counted(written.reused, 'block')}, computed {written.computed:,}" if written.reused else ""
-        took = f"{count} in {seconds:.2f} s ({rate(scenes, seconds)} per s), {size}{reused}"
-        messages.say(f"{path}: {f'{count}, {size}, were complete already' if written.complete else took}")
-        messages.say(*(f"{path}: {sentence}" for sentence in written.cautions))
+    count, size = counted(scenes, "scene"), bytes_in_words(path.stat().st_size)
+    reused = f"; reused {counted(written.reused, 'block')}, computed {written.computed:,}" if written.reused else ""
+    took = f"{count} in {seconds:.2f} s ({rate(scenes, seconds)} per s), {size}{reused}"
+    messages.note(f"{path}: {f'{count}, {size}, were complete already' if written.complete else took}")
+    messages.note(*(f"{path}: {sentence}" for sentence in written.cautions))
     if written.failed:
         failed = f"{written.failed:,} of {counted(scenes, 'scene')} failed"
         raise DoubtfulError(f"{path}: {failed}; `gradhesion info {path}` reports why")
 
 
-def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> None:
+def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool) -> None:
     """Fit the loops of a study, write what is found, and say what is doubtful (DoubtfulError)."""
     from gradhesion.cli.dataset.fits import cautions_of_fit, dataset_of, refuse_size
     from gradhesion.cli.dataset.select import write_dataset
@@ -121,21 +119,19 @@ def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> 
 
     refuse_existing(path, overwrite=overwrite)
     refuse_size(study)
-    messages.say(*_first(() if quiet else study.notes))
+    messages.note(*_first(study.notes))
     prepare()
     start = time.monotonic()
-    with progress(len(study.loops), quiet=quiet or len(study.loops) == 1, noun="loop") as advance:
+    with progress(len(study.loops), "loop") as advance:
         fits = fits_of(study, advance)
-    seconds = time.monotonic() - start
+    took = f"fitted in {time.monotonic() - start:.1f} s"
     dataset = dataset_of(study, fits, shared.history_now())
     write_dataset(dataset, path, overwrite=overwrite)
 
+    messages.note(f"{path}: {_done(study, fits, f'{took}, {bytes_in_words(path.stat().st_size)}')}")
     about = [f"{path}" if study.is_of_one else f"{path}: {fit.loop.file}" for fit in fits]
-    if not quiet:
-        took = f"fitted in {seconds:.1f} s, {bytes_in_words(path.stat().st_size)}"
-        messages.say(f"{path}: {_done(study, fits, took)}")
-        known = [(one, fit.found) for one, fit in zip(about, fits, strict=True) if fit.found]
-        messages.say(*_first([f"{one}: {said}" for one, found in known for said in cautions_of_fit(study, found)]))
+    known = [(one, fit.found) for one, fit in zip(about, fits, strict=True) if fit.found]
+    messages.note(*_first([f"{one}: {said}" for one, found in known for said in cautions_of_fit(study, found)]))
     rows = [dataset] if study.is_of_one else [dataset.isel(loop=i) for i in range(len(fits))]
     if doubts := [f"{one}: {said}" for one, row in zip(about, rows, strict=True) for said in doubts_of(row)]:
         raise DoubtfulError(_first(doubts))

@@ -14,7 +14,7 @@ from gradhesion.cli.terminal import messages
 @click.option("--all", "everything", is_flag=True, help="Other profiles, controls and reports too.")
 @click.option("--workers", type=click.IntRange(min=1), hidden=True, help="Without effect: one process compiles.")
 @quietly
-def warmup(everything: bool, workers: int | None, quiet: bool) -> None:  # noqa: ARG001 (accepted, and without effect)
+def warmup(everything: bool, workers: int | None) -> None:  # noqa: ARG001 (accepted, and without effect)
     """Compile the solver ahead of the first run.
 
     Runs compile what they need on first use. Without --all, only what maps and curves of a paraboloid with one cosine
@@ -27,19 +27,11 @@ def warmup(everything: bool, workers: int | None, quiet: bool) -> None:  # noqa:
     refuse_without_compiler()
     from gradhesion.core import warm_up  # it imports kernels, which need the compiler
 
-    if place().why:
-        messages.say(place().why)
-
-    def report(kind: str, seconds: float) -> None:
-        if not quiet:
-            messages.say(f"{kind}: {seconds:.1f} s")
-
     start = time.monotonic()
     with alone(*(SECONDS if everything else ("forces", "energies", "curves"))):
-        warm_up(report, everything=everything)
-    if not quiet:
-        where = f", kept in {place().folder}" if place().folder else ""
-        messages.say(f"all compiled in {time.monotonic() - start:.0f} s{where}")
+        warm_up(lambda kind, seconds: messages.note(f"{kind}: {seconds:.1f} s"), everything=everything)
+    where = f", kept in {place().folder}" if place().folder else ""
+    messages.note(f"all compiled in {time.monotonic() - start:.0f} s{where}")
 
 
 @click.command(epilog=example("completion bash > ~/.gradhesion.bash", "completion zsh", "completion fish"))

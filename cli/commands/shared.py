@@ -1,5 +1,6 @@
 """What commands share: options, the examples of their help, names of files to write, and what is said of those."""
 
+import os
 import shlex
 import sys
 from collections.abc import Callable, Iterable, Sequence
@@ -20,7 +21,10 @@ A_PATH: Final = click.Path(path_type=Path)
 overriding = click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a key; repeatable.")
 overwriting = click.option("--overwrite", is_flag=True, help="Replace an existing file.")
 threading = click.option("--threads", type=click.IntRange(min=1), help="Threads [all]; values do not depend on them.")
-quietly = click.option("--quiet", is_flag=True, help="Print errors only.")
+quietly = click.option(
+    "--quiet", is_flag=True, help="Print errors only.", expose_value=False,
+    callback=lambda context, _option, given: context.meta.update({messages.QUIET: given}),
+)  # fmt: skip
 as_json = click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 AT: Final = "Fix an axis at its nearest value, or cut it: A=0.01:0.05; repeatable."
 choosing = click.option("--at", multiple=True, metavar="AXIS=VALUE", help=AT)
@@ -45,16 +49,10 @@ def given_up(option: str, instead: str) -> Callable[[Any], Any]:
 
 def _of_a_dataset(_context: click.Context, _option: click.Parameter, path: Path | None) -> Path | None:
     """Check the name of a dataset: another ending, or none, promises another kind of file."""
-    if path is None or path.suffix.lower() in OF_DATASETS:
-        return path
-    try:
-        if path.exists() and not path.is_file():
-            return path
-    except OSError:  # no such name can be: whoever writes there says why
-        return path
-    name = path.with_suffix("") if path.suffixes[:-1] == [".nc"] else path
-    name = name.with_suffix(".nc") if name.suffix[1:].isalpha() else Path(f"{name}.nc")
-    raise StudyError(f"-o {path}: a dataset is a NetCDF file, and its name ends in .nc; write -o {name}")
+    if path is None or path.suffix.lower() in OF_DATASETS or os.path.exists(path):  # noqa: PTH110 (for any name)
+        return path  # whoever writes there says why nothing can be
+    better = path.with_suffix(".nc")
+    raise StudyError(f"-o {path}: a dataset is a NetCDF file, and its name ends in .nc; write -o {better}")
 
 
 def dataset_to_write(about: str = "Dataset to write.", *, required: bool = False) -> Callable[[Any], Any]:
@@ -80,5 +78,5 @@ def history_now() -> str:
 
 
 def say_written(path: Path, notes: Iterable[str] = ()) -> None:
-    """Say that a file was written, and what is to be known of it."""
-    messages.say(*notes, f"{path}: written, {bytes_in_words(path.stat().st_size)}")
+    """Note that a file was written, and what is to be known of it."""
+    messages.note(*notes, f"{path}: written, {bytes_in_words(path.stat().st_size)}")

@@ -82,29 +82,30 @@ def status_of(file: Path) -> dict[str, Any]:
 @shared.quietly
 @shared.given_up("--chunk", "the size of blocks is chosen by itself")
 @shared.given_up("--log-json", "`gradhesion status FILE --json` shows how far a run is")
-def merge(files: tuple[Path, ...], output: Path | None, overwrite: bool, quiet: bool) -> None:
+def merge(files: tuple[Path, ...], output: Path | None, overwrite: bool) -> None:
     """Join the blocks of shards, or datasets.
 
     With one FILE, join the blocks left by `gradhesion run STUDY.toml --shard I/N -o FILE`. With several FILES and -o,
     join maps or optima whose studies differ along axes; the result has the values of all, and none may be missing.
     """
-    from gradhesion.cli.dataset.writer import only_kept, write
-
     start = time.monotonic()
-    if output is not None and len(files) > 1:
-        if len({*files}) < len(files):
-            raise click.UsageError("the same dataset is named twice; name each once")
-        study, written = _join(files, output, overwrite=overwrite)
-        finish(output, study.scenes, written, time.monotonic() - start, quiet=quiet)
-    elif output is not None or len(files) > 1:
+    if (output is None) != (len(files) == 1):
         raise click.UsageError("several datasets are joined into an output, named with -o; one, of shards, needs no -o")
+    if len({*files}) < len(files):
+        raise click.UsageError("the same dataset is named twice; name each once")
+    if output is not None:
+        study, written = _joined(files, output, overwrite=overwrite)
     elif (shards := _of_shards(files[0])) is None:
         say(f"{files[0]}: was complete already")
+        return
     else:
-        settings: dict[str, Any] = {"history": shared.history_now(), "overwrite": overwrite}
-        with progress(shards.scenes, quiet=quiet) as advance:
-            written = write(shards, files[0], **settings, engine=partial(only_kept, files[0]), advance=advance)
-        finish(files[0], shards.scenes, written, time.monotonic() - start, quiet=quiet)
+        from gradhesion.cli.dataset.writer import only_kept, write
+
+        study, engine = shards, partial(only_kept, files[0])
+        with progress(study.scenes) as advance:
+            history = shared.history_now()
+            written = write(study, files[0], history=history, overwrite=overwrite, engine=engine, advance=advance)
+    finish(output or files[0], study.scenes, written, time.monotonic() - start)
 
 
 def _of_shards(file: Path) -> "Study | None":
@@ -123,7 +124,7 @@ def _of_shards(file: Path) -> "Study | None":
     return study
 
 
-def _join(files: tuple[Path, ...], output: Path, *, overwrite: bool) -> "tuple[Study, Written]":
+def _joined(files: tuple[Path, ...], output: Path, *, overwrite: bool) -> "tuple[Study, Written]":
     """Write the dataset of several that are joined along the axes in which they differ."""
     from gradhesion.cli.dataset.joining import joined
     from gradhesion.cli.dataset.read.reader import opened

@@ -39,16 +39,11 @@ _QUANTITIES: Final = {
 """What a picture of curves has along its axes, by the end of the names of its variables: symbols and units in SI."""
 
 
-def _curve_symbols() -> dict[str, str]:
-    """Name the variables of curves that a picture has along its axes."""
-    found = {"pressure": r"pressure $pR/\Delta\gamma$", "pressure" + SI: "pressure $p$"}
-    for name in VARIABLES:
-        own = next((one for end, one in _QUANTITIES.items() if name.endswith(end)), None)
-        if own:
-            quantity = Output(name, "", own[0], "", own[1])
-            found |= {name: quantity.symbol, name + SI: quantity.symbol_in_si}
-    return found
-
-
-CURVE_SYMBOLS: Final = _curve_symbols()
+CURVE_SYMBOLS: Final = {"pressure": r"pressure $pR/\Delta\gamma$", "pressure" + SI: "pressure $p$"}
 """Every variable of a curve that is drawn over another, as a picture names it."""
+for _name in VARIABLES:
+    for _end, (_symbol, _unit) in _QUANTITIES.items():
+        if _name.endswith(_end):
+            _quantity = Output(_name, "", _symbol, "", _unit)
+            CURVE_SYMBOLS[_name], CURVE_SYMBOLS[_name + SI] = _quantity.symbol, _quantity.symbol_in_si
+            break

@@ -13,10 +13,11 @@ if TYPE_CHECKING:
 
 BURST: Final = 1.0
 """Seconds in which further signals are taken for the first one, so that they do not disturb the tidying up."""
+LAST_WORDS: Final = "interrupted; no output is half-written, finished blocks are kept, and the same command resumes"
+"""What is said at the end of a program that was interrupted."""
 
 _heard: list[float] = []
 _deferring: list[None] = []
-_kept: list[str] = []
 
 
 def listen() -> None:
@@ -49,16 +50,6 @@ def deferred() -> Iterator[None]:
     finally:
         _deferring.pop()
     check()
-
-
-def keep(sentence: str) -> None:
-    """Note what an interrupt has left, for the last words of the program."""
-    _kept[:] = [sentence]
-
-
-def last_words() -> str:
-    """Report what an interrupt has left."""
-    return f"interrupted; {_kept[0] if _kept else 'no output is left half-written'}"
 
 
 def _show(unraisable: "UnraisableHookArgs") -> None:

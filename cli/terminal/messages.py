@@ -3,14 +3,16 @@
 import os
 import re
 import sys
-from typing import IO, Any, Final
+from typing import Final
 
 import click
 
-from gradhesion.cli.errors import GradhesionError, OutputError
+from gradhesion.cli.errors import OutputError
 
 _UNSAFE: Final = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]")
 """Control characters, what turns the direction of text, and bytes of a name that are not UTF-8."""
+QUIET: Final = "gradhesion.quiet"
+"""What a command with --quiet notes in its context."""
 
 
 def printable(text: str) -> str:
@@ -55,24 +57,24 @@ def say(*sentences: str) -> None:
         complain(printable_line(sentence))
 
 
+def note(*sentences: str) -> None:
+    """Say what a command leaves out with --quiet."""
+    if not is_quiet():
+        say(*sentences)
+
+
+def is_quiet() -> bool:
+    """Report whether the command that runs prints errors only; in Python there is none."""
+    context = click.get_current_context(silent=True)
+    return context is not None and bool(context.meta.get(QUIET))
+
+
 def complain(text: str) -> None:
     """Print a message to stderr, if it can be printed."""
     try:
         click.echo(printable(text), err=True)
     except (OSError, ValueError):
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: PTH123, SIM115 (for all that follows)
-
-
-class Failure(click.ClickException):
-    """A failure that the user can fix, as click prints it and ends with its exit code."""
-
-    def __init__(self, error: GradhesionError) -> None:
-        super().__init__("\n".join(map(printable_line, error.mistakes)))
-        vars(self)["exit_code"] = error.exit_code  # of the class, for click
-
-    def show(self, file: IO[Any] | None = None) -> None:  # noqa: ARG002 (click's own)
-        """Print the message to stderr."""
-        complain(self.message)
 
 
 def open_streams() -> None:

@@ -15,10 +15,11 @@ PERIOD: Final = 10.0
 
 
 @contextmanager
-def progress(total: int, *, quiet: bool, noun: str = "scene") -> Iterator[Advance]:
+def progress(total: int, noun: str = "scene") -> Iterator[Advance]:
     """Show how many of `total` scenes, or loops, are done: call what is given with the number of newly done ones."""
     with ExitStack() as stack:
         bar = None
+        quiet = messages.is_quiet()
         if not quiet and sys.stderr.isatty():
             from rich.console import Console
             from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn

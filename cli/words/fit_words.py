@@ -14,9 +14,8 @@ from gradhesion.cli.dataset.read.reader import is_fit
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.fits import LOOP, MINIMUM, PARAMETER_UNITS
 from gradhesion.cli.names.outputs import PARAMETER
-from gradhesion.cli.terminal.amounts import bytes_in_words, counted
+from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.words.table import unit_behind
-from gradhesion.cli.words.words import origin_lines
 from gradhesion.core.answers.flags import FLAG_WORDS
 from gradhesion.core.loops.fitted import OFFSETS, poor_from
 from gradhesion.core.problem.inputs import INPUTS
@@ -39,31 +38,27 @@ SAME: Final = ("data_sha256", "measured_unloading", "measured_indentation", "mea
 """What fits that are compared have in common."""
 
 
-def fits_described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
+def fits_in_short(dataset: xarray.Dataset) -> str:
+    """Say how much was fitted."""
+    if LOOP in dataset.dims:
+        return f"fits of {counted(dataset.sizes[LOOP], 'loop')}"
+    cycles = counted(np.unique(dataset["measured_cycle"].values).size, "cycle")
+    return f"a fit of {counted(dataset['residual'].size, 'point')} in {cycles}"
+
+
+def fit_lines(dataset: xarray.Dataset) -> Iterator[str]:
     """Report what the fits of one or several loops found, line by line."""
-    several = LOOP in dataset.dims
-    cycles = np.unique(dataset["measured_cycle"].values).size
-    what = f"fits of {counted(dataset.sizes.get(LOOP, 1), 'loop')}"
-    if not several:
-        what = f"a fit of {counted(dataset['residual'].size, 'point')} in {counted(cycles, 'cycle')}"
-    yield dataset.attrs["title"]
-    yield f"{file}: {what}, {bytes_in_words(file.stat().st_size)}"
-    yield ""
     yield from _of_data(dataset)
-    yield from _of_loops(dataset) if several else _of_one(dataset)
+    yield from _of_loops(dataset) if LOOP in dataset.dims else _of_one(dataset)
     yield from (f"outside the range of the model: {line}" for line in slope_warnings(dataset))
     if fixed := [name for name in INPUTS if name in dataset.coords]:
-        yield ""
-        yield "given"
+        yield from ("", "given")
         yield from (f"  {name:<20} {dataset[name].item():g}{unit_behind(dataset[name])}" for name in fixed)
-    yield from origin_lines(dataset)
 
 
 def _of_data(dataset: xarray.Dataset) -> Iterator[str]:
-    """Report the punch, the data and their noise."""
+    """Report the data and their noise."""
     attributes, one = dataset.attrs, LOOP not in dataset.dims
-    yield f"profile: {attributes.get('profile', '')}"
-    yield from (f"{law}: {attributes[law]}" for law in ("toughness", "rate") if law in attributes)
     out = []
     for name, what in (("data_rows_left_out", "without a number"), ("data_rows_of_pauses", "of pauses")):
         if count := int(attributes.get(name, 0)):
@@ -163,12 +158,10 @@ def _of_loops(dataset: xarray.Dataset) -> Iterator[str]:
     yield from (line.rstrip() for line in table.to_string(index=False, justify="left").splitlines())
     doubtful = status & (FAILED | POOR_FIT | ANOTHER_MINIMUM) != 0
     sound = value[~doubtful & ~np.isnan(value).any(axis=1)]
-    yield ""
-    yield f"median of {counted(len(sound), 'loop')} without such a flag, with quartiles"
-    for name, column in zip(names, sound.T, strict=True):
-        if column.size:
-            least, middle, most = np.quantile(column, [0.25, 0.5, 0.75])
-            yield f"  {name:<20} {middle:<12.6g} {least:.6g} to {most:.6g}"
+    yield from ("", f"median of {counted(len(sound), 'loop')} without such a flag, with quartiles")
+    for name, column in zip(names, sound.T, strict=True) if len(sound) else ():
+        least, middle, most = np.quantile(column, [0.25, 0.5, 0.75])
+        yield f"  {name:<20} {middle:<12.6g} {least:.6g} to {most:.6g}"
     yield ""
     for i, file in enumerate(files):
         one = dataset.isel({LOOP: i})

@@ -1,6 +1,6 @@
 """A dataset as comma-separated values, a line for each scene, point of a curve, jump or fit; and curves in words."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gradhesion.cli.dataset.read.reader import tiling_of
 from gradhesion.cli.dataset.read.sensitivities import spread
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names.curves import EXTENTS, INTEGERS, RAGGED, STATE_CURVES, variables_of_curves
+from gradhesion.cli.names.curves import EXTENTS, INTEGERS, MEANINGS, RAGGED, STATE_CURVES, variables_of_curves
 from gradhesion.cli.names.fits import LOOP, PARAMETER_UNITS
 from gradhesion.cli.names.outputs import PARAMETER, SI
 from gradhesion.cli.names.scenes import REALISATION, SOLVER
@@ -33,10 +33,17 @@ def columns_of(dataset: xarray.Dataset, names: Sequence[str], like: xarray.DataA
     return {name: dataset[name].broadcast_like(like).transpose(*like.dims).values.ravel() for name in names}
 
 
-def tabled(dataset: xarray.Dataset, file: Path, chosen: Sequence[str]) -> Iterator[str]:
-    """Write maps or curves, some lines at a time: first the names, then parameters, variables and status.
+def csv_of(tables: Iterable[pd.DataFrame]) -> Iterator[str]:
+    """Write tables that go on below each other: the names once, and all digits of the numbers."""
+    for i, table in enumerate(tables):
+        if i == 0 or len(table):
+            yield table.to_csv(index=False, header=i == 0, na_rep="nan", lineterminator="\n").rstrip("\n")
 
-    Numbers have all their digits. `chosen` are variables, or curves, of a dataset that has several curves one.
+
+def tabled(dataset: xarray.Dataset, file: Path, chosen: Sequence[str]) -> Iterator[pd.DataFrame]:
+    """Give maps or curves, some lines at a time: parameters, variables and status.
+
+    `chosen` are variables, or curves, of a dataset that has several curves one.
     """
     dataset, parts = spread(dataset)
     chosen = [one for name in chosen for one in parts.get(name, [name])]
@@ -45,44 +52,37 @@ def tabled(dataset: xarray.Dataset, file: Path, chosen: Sequence[str]) -> Iterat
     beside = [name for name in (SOLVER, *INPUTS, REALISATION) if name in dataset.coords]
     columns = [*beside, *names, "status"]
     first = dataset[names[0]]
-    yield ",".join(columns)
     for block in tiling_of(first):
         part = dataset[columns].isel(dict(zip(first.dims, block, strict=True)))
-        frame = pd.DataFrame(columns_of(part, columns, part[names[0]]))
+        table = pd.DataFrame(columns_of(part, columns, part[names[0]]))
         if first.dims != dataset["status"].dims:  # of a curve, whose shorter scenes are padded
-            frame = frame[frame[names[0]].notna()]
-        integers = {name: int for name in names if name in INTEGERS}  # read as floats if some are missing
-        yield from _lines(frame.astype(integers))
+            table = table[table[names[0]].notna()]
+        yield table.astype({name: int for name in names if name in INTEGERS})  # read as floats if some are missing
 
 
-def jumps_listed(dataset: xarray.Dataset, file: Path, items: int = ITEMS) -> Iterator[str]:
+def jumps_listed(dataset: xarray.Dataset, file: Path) -> Iterator[pd.DataFrame]:
     """List every jump of a dataset, some lines at a time: the parameters that vary, and what is known of it."""
     if JUMP not in dataset.dims:
         raise DatasetError(f'{file}: has no jumps; add "jumps" to the outputs of a study of kind "curve" and run it')
     own = [name for name in variables_of_curves(dataset)["jumps"] if name != COUNT]
-    varying = [name for name in INPUTS if name in dataset and dataset[name].ndim]
-    scenes = columns_of(dataset, varying, dataset["status"])
+    scenes = _varying_of_jumps(dataset)
     ends = np.cumsum(dataset[COUNT].values, dtype=np.int64)
-    yield ",".join((*varying, *own))
-    for start in range(0, dataset.sizes[JUMP], items):
-        jumps = {name: dataset[name][start : start + items].values for name in own}
+    for start in range(0, max(1, dataset.sizes[JUMP]), ITEMS):
+        jumps = {name: dataset[name][start : start + ITEMS].values for name in own}
         scene = np.searchsorted(ends, start + np.arange(len(jumps[own[0]])), side="right")
-        yield from _lines(pd.DataFrame({name: values[scene] for name, values in scenes.items()} | jumps))
+        yield pd.DataFrame({name: values[scene] for name, values in scenes.items()} | jumps)
 
 
-def fits_tabled(dataset: xarray.Dataset) -> Iterator[str]:
-    """Write the values of fits, a line for each loop and parameter."""
+def _varying_of_jumps(dataset: xarray.Dataset) -> dict[str, NDArray[np.generic]]:
+    """Give the parameters that vary, with a value for each scene."""
+    return columns_of(dataset, [name for name in INPUTS if name in dataset and dataset[name].ndim], dataset["status"])
+
+
+def fit_values(dataset: xarray.Dataset) -> pd.DataFrame:
+    """Give the values of fits, a line for each loop and parameter."""
     of_loops = ("reduced_chi_square", "converged", "status") if LOOP in dataset.dims else ()
     names = [*(["file"] if of_loops else []), PARAMETER, PARAMETER_UNITS, *VALUES, *of_loops]
-    table = pd.DataFrame(columns_of(dataset, names, dataset["value"])).rename(columns={PARAMETER_UNITS: "unit"})
-    yield ",".join(table.columns)
-    yield from _lines(table)
-
-
-def _lines(table: pd.DataFrame) -> Iterator[str]:
-    """Write the rows of a table, with all digits of their numbers; nothing if it has none."""
-    if len(table):
-        yield table.to_csv(index=False, header=False, na_rep="nan", lineterminator="\n").rstrip("\n")
+    return pd.DataFrame(columns_of(dataset, names, dataset["value"])).rename(columns={PARAMETER_UNITS: "unit"})
 
 
 def _variables(dataset: xarray.Dataset, file: Path, chosen: Sequence[str]) -> list[str]:
@@ -130,29 +130,17 @@ def number_range(numbers: Any) -> str:
 def curve_lines(dataset: xarray.Dataset) -> Iterator[str]:
     """Describe the curves of a dataset, line by line."""
     for curve, names in variables_of_curves(dataset).items():
-        if curve not in RAGGED:
+        yield ""
+        if curve in RAGGED:
+            yield from _jump_lines(dataset, [name for name in names if name != COUNT])
+        else:
             points = dataset[names[0]].notnull().sum(EXTENTS[curve]).values
-            yield ""
             yield f"{curve}: {number_range(points)} points per {'state' if curve in STATE_CURVES else 'scene'}"
-            own = dataset[[name for name in names if name in INTEGERS]]
-            yield from (told(words, number_range(numbers)) for words, numbers in _counts(own).items())
+            if {"path_jump", "path_unloading"} <= {*names}:
+                for number, way in enumerate(MEANINGS["path_unloading"].split()):
+                    jumps = (dataset["path_jump"] == 1) & (dataset["path_unloading"] == number)
+                    yield told(f"jumps on {way}", number_range(jumps.sum(EXTENTS[curve])))
             yield from _extents(dataset, names)
-
-
-def _counts(own: xarray.Dataset) -> dict[str, NDArray[np.integer]]:
-    """Count the branches and jumps of each scene, as far as a curve has them."""
-    counts = {}
-    if "stable" in own:
-        stable = own["stable"].values == 1
-        counts["stable branches"] = stable[..., 0] + np.count_nonzero(stable[..., 1:] & ~stable[..., :-1], axis=-1)
-    if "path_branch" in own:
-        ordered = np.sort(np.fmax(own["path_branch"].values, 0), axis=-1)
-        counts["branches followed, with rim"] = np.count_nonzero(np.diff(ordered, axis=-1, prepend=0), axis=-1)
-    if {"path_jump", "path_unloading"} <= {*own}:
-        for words, way in (("loading", 0), ("unloading", 1)):
-            jumps = (own["path_jump"].values == 1) & (own["path_unloading"].values == way)
-            counts[f"jumps on {words}"] = np.count_nonzero(jumps, axis=-1)
-    return counts
 
 
 def _extents(dataset: xarray.Dataset, names: Sequence[str]) -> Iterator[str]:
@@ -163,29 +151,19 @@ def _extents(dataset: xarray.Dataset, names: Sequence[str]) -> Iterator[str]:
         yield told(name, extent, about(dataset[name]))
 
 
-def jump_lines(dataset: xarray.Dataset) -> Iterator[str]:
-    """Report the jumps of a dataset, if it has them: how many, how large, and where the largest is."""
-    if COUNT not in dataset:
-        return
+def _jump_lines(dataset: xarray.Dataset, names: list[str]) -> Iterator[str]:
+    """Report the jumps of a dataset: how many, how large, and where the largest is."""
     counts = dataset[COUNT].values
-    yield ""
     yield f"jumps: {number_range(counts)} per scene, {int(counts.sum()):,} in all"
     if not dataset.sizes.get(JUMP):
         return
-    names = [name for name in variables_of_curves(dataset)["jumps"] if name != COUNT]
     jumps = dataset[names].load()
-    for words, such in (
-        ("on unloading", jumps.get("jump_unloading", 0) == 1),
-        ("from or to the rim", jumps.get("jump_at_rim", 0) == 1),
-        ("that gain energy", jumps.get("jump_energy", 0.0) < 0.0),
-    ):
-        if np.any(such):
-            yield told(words, f"{int(np.sum(such)):,}")
+    for name in (name for name in names if name in MEANINGS and jumps[name].any()):
+        yield told(MEANINGS[name].split()[1].replace("_", " "), f"{int(jumps[name].sum()):,}")
     yield from _extents(jumps, names)
     if "jump_energy" in jumps:
         item = int(jumps["jump_energy"].values.argmax())
         scene = int(np.searchsorted(np.cumsum(counts), item, side="right"))
-        varying = [name for name in INPUTS if name in dataset and dataset[name].ndim]
-        place = {name: values[scene] for name, values in columns_of(dataset, varying, dataset["status"]).items()}
+        place = {name: values[scene] for name, values in _varying_of_jumps(dataset).items()}
         known = {name: jumps[name].values[item] for name in names} | place
         yield f"  the one that dissipates most: {', '.join(f'{name} = {value:.6g}' for name, value in known.items())}"

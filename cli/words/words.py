@@ -13,14 +13,15 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read.model_range import LIMITS, count_beyond, is_cone
-from gradhesion.cli.dataset.read.reader import has_curves, tiling_of
+from gradhesion.cli.dataset.read.reader import has_curves, is_fit, tiling_of
 from gradhesion.cli.dataset.read.sensitivities import parts_of, strongest
 from gradhesion.cli.names.outputs import BEST, ON_BOUND, PARETO_POINT, SI, labels_of
 from gradhesion.cli.names.scenes import IDLE, REALISATION, SCENE, SOLVER
 from gradhesion.cli.study.shape_words import CONTROLS
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted, share_of
 from gradhesion.cli.terminal.wording import shown
-from gradhesion.cli.words.table import about, columns_of, curve_lines, jump_lines, number_range, told, unit_behind
+from gradhesion.cli.words.fit_words import fit_lines, fits_in_short
+from gradhesion.cli.words.table import about, columns_of, curve_lines, number_range, told, unit_behind
 from gradhesion.core import FAILED
 from gradhesion.core.answers.flags import FLAG_WORDS
 from gradhesion.core.problem.inputs import INPUTS
@@ -36,9 +37,10 @@ WIDTH: Final = 100
 
 def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
     """Report what a dataset holds, line by line."""
-    attributes = dataset.attrs
+    attributes, status = dataset.attrs, dataset["status"]
     yield attributes["title"]
-    yield f"{file}: {counted(dataset['status'].size, 'scene')}, {bytes_in_words(file.stat().st_size)}"
+    what = fits_in_short(dataset) if is_fit(dataset) else counted(status.size, "scene")
+    yield f"{file}: {what}, {bytes_in_words(file.stat().st_size)}"
     if "profile" in attributes:
         yield ""
         yield f"profile: {attributes['profile']}"
@@ -48,13 +50,18 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
             yield f"  fitted to {source}: residual {rms:.3g} nm rms, {most:.3g} nm at most"
         yield f"control: {CONTROLS.get(attributes.get('control', 'displacement'), '')}"
         yield from (f"{law}: {attributes[law]}" for law in ("toughness", "rate") if law in attributes)
-    yield from _parameters(dataset)
-    yield from _uncertain_inputs(dataset)
-    if has_curves(dataset):
-        yield from curve_lines(dataset)
-        yield from jump_lines(dataset)
+    if is_fit(dataset):
+        yield from fit_lines(dataset)
     else:
-        yield from _outputs(dataset)
+        yield from _parameters(dataset)
+        yield from _uncertain_inputs(dataset)
+        yield from curve_lines(dataset) if has_curves(dataset) else _outputs(dataset)
+        yield from _status_lines(dataset)
+    yield from _origin_lines(attributes)
+
+
+def _status_lines(dataset: xarray.Dataset) -> Iterator[str]:
+    """Report how many scenes have values, which flags they have, and which of them leave the range of the model."""
     status, scenes = dataset["status"], dataset["status"].size
     failed = sum(int(np.count_nonzero(status[block].values.astype(np.int16) & FAILED)) for block in tiling_of(status))
     written = f"{scenes - failed:,} of {counted(scenes, 'scene')} ({(scenes - failed) / scenes:.1%})"
@@ -68,7 +75,6 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
         if (count := count_beyond(name, dataset))
     ]
     yield from ("", "outside the range of the model", *beyond) if beyond else ()
-    yield from origin_lines(dataset)
 
 
 def _coordinates(dataset: xarray.Dataset | xarray.DataArray) -> list[str]:
@@ -226,14 +232,11 @@ def _flag_counts(variable: xarray.DataArray) -> list[str]:
     return [told(name, share_of(count, variable.size), FLAG_WORDS.get(name, "")) for name, count in found if count]
 
 
-def origin_lines(dataset: xarray.Dataset) -> Iterator[str]:
+def _origin_lines(attributes: Mapping[str, Any]) -> Iterator[str]:
     """Report where a dataset comes from, and whether the study in it was changed since."""
-    attributes = dataset.attrs
     parts = ("python", "numpy", "numba", "scipy")
     versions = (f"{name} {attributes.get(f'{name}_version', 'unknown')}" for name in parts)
-    yield ""
-    yield "origin"
-    yield f"  {attributes['source']} ({', '.join(versions)})"
+    yield from ("", "origin", f"  {attributes['source']} ({', '.join(versions)})")
     yield from (f"  {line}" for line in str(attributes.get("history", "")).splitlines())
     if "study_sha256" in attributes:
         own = hashlib.sha256(str(attributes.get("study", "")).encode()).hexdigest()

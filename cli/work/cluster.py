@@ -29,7 +29,7 @@ LEAST: Final = 16
 """The same at least: a cluster that adapts sees what is to be done."""
 
 
-def on_cluster(scheduler: str | None = None, workers: int | None = None, *, quiet: bool = False) -> Engine:
+def on_cluster(scheduler: str | None = None, workers: int | None = None) -> Engine:
     """Have blocks solved by the workers of a scheduler (its address or its file), or by processes of this machine.
 
     MissingExtraError: there is no Dask. The engine raises SetupError where no scheduler answers or a worker has another
@@ -44,9 +44,9 @@ def on_cluster(scheduler: str | None = None, workers: int | None = None, *, quie
     def engine(study: Study, numbers: Sequence[int]) -> Iterator[tuple[int, Arrays]]:
         if not numbers:
             return
-        with _silent(), _client(scheduler, workers, len(numbers)) as client:
-            if not quiet and not client.nthreads():
-                messages.say("--engine dask: the scheduler has no workers yet; waiting for them")
+        with _client(scheduler, workers, len(numbers)) as client:
+            if not client.nthreads():
+                messages.note("--engine dask: the scheduler has no workers yet; waiting for them")
             try:
                 yield from _solved(client, study, numbers)
             except GradhesionError:
@@ -65,21 +65,18 @@ def _solved(client: Any, study: Study, numbers: Sequence[int]) -> Iterator[tuple
     from distributed import as_completed  # noqa: PLC0415
 
     there = client.submit(pickle.loads, pickle.dumps(study), pure=False)  # a task, which is done again if it is lost
-    waiting = iter(numbers)
+    waiting, running = iter(numbers), as_completed(loop=client.loop)
 
-    def submitted(many: int) -> list[Any]:
-        one = f"gradhesion-{client.id}"
-        return [
-            client.submit(solve_there, there, number, versions(), key=(one, number), pure=False)
-            for number in islice(waiting, many)
-        ]
+    def submit(many: int) -> None:
+        for number in islice(waiting, max(0, many)):
+            key = (f"gradhesion-{client.id}", number)
+            running.add(client.submit(solve_there, there, number, versions(), key=key, pure=False))
 
-    running = as_completed(submitted(LEAST), loop=client.loop)
+    submit(LEAST)
     for future in running:
         number, values = future.result()
         future.release()
-        most = max(LEAST, AHEAD * sum(client.nthreads().values()))
-        running.update(submitted(max(0, most - running.count())))
+        submit(max(LEAST, AHEAD * sum(client.nthreads().values())) - running.count())
         yield number, values
 
 
@@ -98,12 +95,16 @@ def _client(scheduler: str | None, workers: int | None, most: int) -> Iterator[A
     """Make a client of a scheduler, or of `most` processes of one thread on this machine; SetupError if that fails.
 
     These listen on the loopback interface alone, and to those alone who have a certificate that is made here: on a
-    machine with several users the others cannot run code as this one.
+    machine with several users the others cannot run code as this one. Dask prints nothing: what goes wrong is reported
+    here, once.
     """
     from dask.system import CPU_COUNT  # noqa: PLC0415
     from distributed import Client, LocalCluster, Security  # noqa: PLC0415
 
     with ExitStack() as stack:
+        stack.enter_context(warnings.catch_warnings(action="ignore"))
+        stack.callback(logging.disable, logging.root.manager.disable)
+        logging.disable(logging.CRITICAL)
         try:
             if scheduler is None:
                 here = LocalCluster(
@@ -126,16 +127,3 @@ def _client(scheduler: str | None, workers: int | None, most: int) -> Iterator[A
             remedy = "start one with `dask scheduler --scheduler-file FILE` and name FILE, or use --engine threads"
             raise SetupError(f"{where}; {remedy}") from error
         yield client
-
-
-@contextmanager
-def _silent() -> Iterator[None]:
-    """Keep Dask from printing: what goes wrong there is reported here, once."""
-    before = logging.root.manager.disable
-    logging.disable(logging.CRITICAL)
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            yield
-    finally:
-        logging.disable(before)

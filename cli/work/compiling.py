@@ -48,8 +48,6 @@ def prepare(study: Study | None = None) -> None:
     folder, need = place().folder, need_of(study)
     if (folder, need) in _begun or (folder and (folder / need).exists()):
         return
-    if not _begun and place().why:
-        messages.say(place().why)
     messages.say(f"compiling the solver for {need}, up to {SECONDS[need]} s of a free processor, once per version")
     with alone(need):
         if study is not None and study.kind == "map":  # the first and the last of its scenes
@@ -67,7 +65,9 @@ def refuse_without_compiler() -> None:
 @contextmanager
 def alone(*needs: str) -> Iterator[None]:
     """Compile for some kinds of studies while no other process of this version compiles, and mark that it is done."""
-    folder = place().folder
+    folder, why = place()
+    if why and not _begun:  # nothing is kept
+        messages.say(why)
     with ExitStack() as stack:
         if folder is not None:
             with suppress(OSError):

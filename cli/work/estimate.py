@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.study.tiling import Block, Tiling, shape_of, size_of
+from gradhesion.cli.study.tiling import Tiling, size_of
 from gradhesion.cli.work.folder import Parts, is_running
 from gradhesion.cli.work.solve.blocks import solve_block
 from gradhesion.core.processors import processors
@@ -20,14 +20,16 @@ COPIES: Final = 8
 SECONDS: Final = 2.0
 """For all scenes that are timed."""
 PIECES: Final = 32
-"""Of scenes that are timed, spread evenly."""
-CELLS: Final = 4096
-"""Scenes of a piece at most."""
+"""Of scenes that are timed."""
+CELLS: Final = (128, 4096)
+"""Scenes of a piece, at first and at most: more where they are quick."""
 SECONDS_OF_PIECE: Final = 0.05
+GOLDEN: Final = (math.sqrt(5.0) - 1.0) / 2.0
+"""Multiples of it, less their integers, are spread evenly between 0 and 1, however many are taken."""
 
 
 def estimate(study: Study, output: Path, threads: int | None = None) -> dict[str, Any]:
-    """Find out what a run would do and cost, as `gradhesion plan --json` prints it; None is not known.
+    """Find out what a run would do and cost, as `gradhesion plan --json` has it; None is not known.
 
     `refusal` says why a run would not go on with the blocks that are kept, `solutions_of_scene` how often a scene is
     solved with other inputs. Without `blocks` scenes are computed one by one. In the file `bytes_of_values` are
@@ -37,18 +39,15 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> dict[str
     refusal = parts.refusal()
     numbers = range(len(study.tiling)) if study.in_blocks else range(0)
     left = [number for number in numbers if refusal or not parts.part(number).exists()]
-    timed, seconds = timed_scenes(study, left) if left else (0, 0.0)
+    timed, seconds = timed_scenes(study) if left else (0, 0.0)
     of_scene = seconds / timed if timed else None
     scenes_left = sum(size_of(study.tiling[number]) for number in left)
     values = 8 * sum(math.prod(study.shape_of(name, ())) for name in study.variables) if numbers else 0
     largest = size_of(study.tiling[0])
     nearest = next(folder for folder in output.absolute().parents if os.path.isdir(folder))  # noqa: PTH112 (no error)
     return {
-        "output": str(output),
-        "output_exists": output.exists(),
         "running": is_running(parts.folder),
         "refusal": refusal,
-        "kind": study.kind,
         "scenes": study.scenes,
         "solutions_of_scene": study.solutions,
         "sizes": study.sizes,
@@ -64,34 +63,22 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> dict[str
     }
 
 
-def timed_scenes(study: Study, numbers: list[int]) -> tuple[int, float]:
-    """Solve pieces of some of the blocks of a map on one thread, spread evenly: how many scenes, and the seconds."""
-    cells = min(128, study.cells)
-    solve_block(study, _piece(study.tiling[numbers[0]], cells, 0.0), 1)  # loads or compiles kernels, and makes tables
-    scenes, spent = 0, 0.0
+def timed_scenes(study: Study) -> tuple[int, float]:
+    """Solve pieces of a map on one thread, spread evenly over it: how many scenes, and the seconds.
+
+    They are cut as blocks are cut themselves: what scenes share, they share there.
+    """
+    cells, scenes, spent = CELLS[0], 0, 0.0
+    solve_block(study, Tiling(study.shape, cells, 1)[0], 1)  # loads or compiles kernels, and makes tables
     for i in range(PIECES):
-        place = (i * (math.sqrt(5.0) - 1.0) / 2.0) % 1.0  # however many are taken, they are spread evenly
-        number, within = divmod(place * len(numbers), 1.0)
-        piece = _piece(study.tiling[numbers[int(number)]], cells, within)
+        pieces = Tiling(study.shape, cells, 1)
+        piece = pieces[int(i * GOLDEN % 1.0 * len(pieces))]
         start = time.perf_counter()
         solve_block(study, piece, 1)
         seconds = time.perf_counter() - start
         scenes, spent = scenes + size_of(piece), spent + seconds
         if seconds < SECONDS_OF_PIECE:
-            cells = min(2 * cells, CELLS, study.cells)
+            cells = min(2 * cells, CELLS[1])
         if spent > SECONDS or scenes >= study.scenes:
             break
     return scenes, spent
-
-
-def _piece(block: Block, cells: int, place: float) -> Block:
-    """Take one of the pieces of a block, cut as blocks are cut themselves: what scenes share, they share there.
-
-    >>> _piece((slice(2, 4), slice(0, 6)), 3, 0.3)
-    (slice(2, 3, None), slice(3, 6, None))
-    """
-    pieces = Tiling(shape_of(block), cells, 1)
-    piece = pieces[int(place * len(pieces))]
-    return tuple(
-        slice(all_.start + part.start, all_.start + part.stop) for all_, part in zip(block, piece, strict=True)
-    )

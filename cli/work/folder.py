@@ -172,24 +172,16 @@ def claimed(output: Path, shard: str = "") -> Iterator[None]:
             raise OutputError(f"{output}: another run is writing it; {remedy}")
         yield
     finally:
-        kept = len(parts_in(folder))
-        if kept:
-            interrupts.keep(f"{counted(kept, 'finished block')} kept in {output}.parts, and the same command resumes")
         if lock.is_locked and not shard:
-            _remove(_named(folder, UNFINISHED if kept else ours))
+            clear(folder, UNFINISHED if parts_in(folder) else ours)
         lock.release()
         with suppress(OSError):  # it is not empty, or not there
             folder.rmdir()
 
 
-def clear(folder: Path) -> None:
-    """Remove all that a run has left but its lock, as far as that goes."""
-    _remove(_named(folder, LEFT))
-
-
-def _remove(paths: list[Path]) -> None:
-    """Remove files, what says whose they are last, so that this can be interrupted."""
-    for path in sorted(paths, key=lambda path: path.name == MARK):
+def clear(folder: Path, pattern: str = LEFT) -> None:
+    """Remove what a run has left but its lock, as far as that goes; what says whose it is goes last."""
+    for path in sorted(_named(folder, pattern), key=lambda path: path.name == MARK):
         with suppress(OSError):
             path.unlink()
 

@@ -10,12 +10,14 @@ import sys
 from pathlib import Path
 from unittest.mock import Mock
 
+import click
 import pytest
 from click.testing import CliRunner
 
 from gradhesion.cli import errors
 from gradhesion.cli.disk import kind_of
 from gradhesion.cli.main import INTERRUPTED, UNHEARD, cli
+from gradhesion.cli.terminal.messages import QUIET
 from gradhesion.cli.terminal.progress import progress
 from tests.cli.conftest import Call, Patch
 
@@ -72,7 +74,7 @@ def test_pictures_and_pages_say_what_they_show(command: str, ending: str, gradhe
 def test_progress_is_a_plain_line_every_ten_seconds(capsys: pytest.CaptureFixture[str], monkeypatch: Patch) -> None:
     seconds = iter([0.0, 4.0, 11.0, 19.0, 22.0, 40.0])
     monkeypatch.setattr("time.monotonic", lambda: next(seconds))
-    with progress(5000, quiet=False) as advance:
+    with progress(5000) as advance:
         for _ in range(5):
             advance(1000)
     done = ("2,000 of 5,000 scenes (40%), 180 per s, 16 s left", "4,000 of 5,000 scenes (80%), 180 per s, 6 s left")
@@ -87,13 +89,15 @@ def test_on_a_terminal_progress_is_a_bar_and_nothing_where_it_is_to_be_quiet(qui
     monkeypatch.setattr("gradhesion.cli.terminal.progress.PERIOD", 0.0)
     for name, value in (("TERM", "xterm"), ("COLUMNS", "100")):
         monkeypatch.setenv(name, value)
-    with progress(5000, quiet=quiet) as advance:
-        advance(2000)
+    with click.Context(cli) as command:
+        command.meta[QUIET] = quiet
+        with progress(5000) as advance:
+            advance(2000)
     said = terminal.getvalue()
     assert [words in said for words in ("2,000 of 5,000 scenes", "40%", "per s")] == 3 * [not quiet]
 
 
-@pytest.mark.parametrize(("name", "better"), [("foo.csv", "foo.nc"), ("foo.v2", "foo.v2.nc")])
+@pytest.mark.parametrize(("name", "better"), [("foo.csv", "foo.nc"), ("foo.v2", "foo.nc")])
 def test_a_dataset_has_the_ending_of_one(gradhesion: Call, tmp_path: Path, name: str, better: str) -> None:
     for arguments in (("run", "study.toml"), ("merge", "a.nc", "b.nc")):
         result = gradhesion(*arguments, "-o", tmp_path / name, code=2)

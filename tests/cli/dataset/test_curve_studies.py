@@ -162,7 +162,7 @@ def test_info_tells_how_many_and_the_largest_and_lists_them_as_csv(gradhesion: C
         assert counts.min() == 2, "the smooth punch jumps in and out"
         for number in (
             f"2 to {counts.max()} per scene, {counts.sum()} in all",
-            f" {int(dataset['jump_unloading'].sum())} from or to the rim {int(dataset['jump_at_rim'].sum())} ",
+            f" unloading {int(dataset['jump_unloading'].sum())} at the rim {int(dataset['jump_at_rim'].sum())} ",
             f" {energies.min():.6g} to {energies.max():.6g} ",
             f"jump_indentation = {float(dataset['jump_indentation'][largest]):.6g}, ",
             f"A = {dataset['A'].values[i]:g}, a_max_over_R = {dataset['a_max_over_R'].values[j]:g}",

@@ -73,7 +73,7 @@ def test_the_time_is_that_of_the_scenes(data: dict[str, Any], monkeypatch: Patch
 
     monkeypatch.setattr(estimate, "solve_block", solve_block)
     monkeypatch.setattr(estimate.time, "perf_counter", lambda: clock)
-    scenes, seconds = estimate.timed_scenes(study, list(range(len(study.tiling))))
+    scenes, seconds = estimate.timed_scenes(study)
     exact = sum(map(cost_of, study.tiling)) / study.scenes
     assert scenes >= estimate.PIECES
     assert seconds / scenes == pytest.approx(exact, rel=0.2)
@@ -100,7 +100,7 @@ def test_running_stopped_and_complete(run: Call, gradhesion: Call, monkeypatch: 
 
     with monkeypatch.context() as patch:
         patch.setattr("gradhesion.cli.work.solve.scenes.solve", spying)
-        assert run().exit_code == 1
+        assert run().exit_code == 130
     (running,) = seen
     assert running.items() >= {"state": "running", "blocks": 6, "scenes": 24}.items()
     assert running["kept"] in {3, 4}
