@@ -24,8 +24,7 @@ from gradhesion.core.closed.reduced import WAYS
 from gradhesion.core.loops.fitted import DEPTH_ZERO, LOAD_ZERO, TILT, FittedLoop, Offsets
 from gradhesion.core.loops.measured.features import BaseLine, base_line, contact_point
 from gradhesion.core.loops.paths.misfit import Misfit
-from gradhesion.core.loops.paths.model import LINEAR, TURN
-from gradhesion.core.loops.paths.path import LoopModel
+from gradhesion.core.loops.paths.model import LINEAR, TURN, LoopModel
 from gradhesion.core.loops.results import covariance_of, results_at
 from gradhesion.core.loops.search import minima
 from gradhesion.core.loops.search import starts as starts_of
@@ -81,7 +80,7 @@ def fit_loop(
                 derivative is a difference of paths then: fits take minutes
     intervals   "linear", those of the linear problem at the minimum, or "profile", by profile likelihoods; the
                 deviation of a contact point that was found is part of them
-    starts      how many starts are refined; `seed` is that of their Sobol set
+    starts      how many starts are refined; another `seed` gives others of what no feature tells
 
     A fit is unreliable where `converged` is false, `on_bound` has names, or `status` has `POOR_FIT` or
     `ANOTHER_MINIMUM`. There is a CannotTellApartError where some of the free parameters have the same effect, and a

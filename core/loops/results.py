@@ -1,9 +1,9 @@
 """The results at a minimum of the misfit: values, intervals, correlations and warnings."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Any, Final, NamedTuple
+from typing import Any, Final
 
 import numpy as np
 from scipy.optimize import brentq
@@ -14,8 +14,9 @@ from gradhesion.core.equations.envelopes import adhesion_strength, waviness_stre
 from gradhesion.core.loops.fitted import DEPTH_ZERO, CannotTellApartError, FittedLoop, OtherMinimum, poor_from
 from gradhesion.core.loops.measured.features import ContactPoint
 from gradhesion.core.loops.paths.misfit import Misfit
-from gradhesion.core.loops.paths.model import LINEAR, TURN, WAVELENGTHS, Model
+from gradhesion.core.loops.paths.model import LINEAR, TURN, WAVELENGTHS, LoopModel
 from gradhesion.core.loops.paths.path import LoopPath
+from gradhesion.core.loops.search import COST
 from gradhesion.core.problem.names import CLOSING, SPEED
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, JUMP_IN_TO_RIM, POOR_FIT
 from gradhesion.core.sweep import solve
@@ -68,8 +69,8 @@ def results_at(
     ends = np.array([best - factor * spread, best + factor * spread])
     if intervals == "profile":
         ways = covariance / spread[:, None]
-        ends, tried = profile_intervals(misfit, Tried(-factor, found[0].cost, best), ways, factor, unit)
-        lowest = min(tried, key=lambda one: one.cost)
+        ends, tried = profile_intervals(misfit, found[0], ways, factor, unit)
+        lowest = min(tried, key=COST)
         if found[0].cost - lowest.cost > _LOWER:  # a valley that no start has led to
             better = [misfit.refined(lowest.x), *found]
             return results_at(misfit, better, intervals, ranges, widened=widened, contact=contact)
@@ -161,50 +162,43 @@ def is_on_bound(value: float, ends: tuple[float, float]) -> bool:
     return min(value - low, high - value) < _NEAR_END * (high - low)
 
 
-class Tried(NamedTuple):
-    """A place whose misfit is known.
-
-    excess   by how much the root of the rise of chi square exceeds that at the ends of intervals
-    cost     half the sum of squares
-    x        the numbers
-    """
-
-    excess: float
-    cost: float
-    x: Floats
-
-
-def profile_intervals(
-    misfit: Misfit, least: Tried, ways: Floats, factor: float, unit: float
-) -> tuple[Floats, list[Tried]]:
+def profile_intervals(misfit: Misfit, least: Any, ways: Floats, factor: float, unit: float) -> tuple[Floats, list[Any]]:
     """Return how low and how high each number may be by its profile likelihood, (2, unknown), and all that was tried.
 
-    An interval ends where the sum of squares, over the variance `unit` of a residual, has risen from its `least` by the
-    square of `factor`, a quantile of Student's t, or at the end of the range. `ways` are how all numbers move with each
-    in the linear problem, standard deviations times correlations. Zeros, the last numbers, come first: what jumps pass
-    as they move makes corners and valleys, which belong to the intervals of the others as well.
+    An interval ends where the sum of squares, over the variance `unit` of a residual, has risen from its `least` (`x`
+    and `cost` of a minimum) by the square of `factor`, a quantile of Student's t, or at the end of the range. `ways`
+    are how all numbers move with each in the linear problem, standard deviations times correlations. Zeros, the last
+    numbers, come first: what jumps pass as they move makes corners and valleys, which belong to the intervals of the
+    others as well.
     """
     tried, ends = [least], np.empty((2, least.x.size))
+
+    def excess(one: Any) -> float:
+        """Return by how much the root of the rise at a place exceeds that at the end of an interval; 0 if hardly."""
+        over = math.sqrt(max(0.0, 2.0 * (one.cost - least.cost)) / unit) - factor
+        return 0.0 if abs(over) < _NEAR * factor else over
+
     for number in reversed(range(least.x.size)):
         for side, sign in enumerate((-1.0, 1.0)):
-            ends[side, number] = _profile_end(misfit, tried, number, sign * ways[number], factor, unit)
+            ends[side, number] = _profile_end(misfit, tried, number, sign * ways[number], factor, excess)
     return ends, tried
 
 
-def _profile_end(misfit: Misfit, tried: list[Tried], number: int, along: Floats, factor: float, unit: float) -> float:
+def _profile_end(
+    misfit: Misfit, tried: list[Any], number: int, along: Floats, factor: float, excess: Callable[[Any], float]
+) -> float:
     """Return an end of an interval, that on the side to which `along` leads; places are added to those `tried`.
 
     The interval of the linear problem, or the furthest place within, is the first guess, which is doubled until it is
     too wide: the rise may be a plateau.
     """
-    best, cost = tried[0].x, tried[0].cost
-    side = misfit.high if along[number] > 0.0 else misfit.low
-    most = float((side[number] - best[number]) / along[number])
+    best, step = tried[0].x, float(along[number])
+    most = float(((misfit.high if step > 0.0 else misfit.low)[number] - best[number]) / step)
     lowest_last = sorted(tried, key=lambda one: -one.cost)  # of places with the same number
-    known = {float((one.x[number] - best[number]) / along[number]): one for one in lowest_last}
+    known = {float((one.x[number] - best[number]) / step): one for one in lowest_last}
 
-    def excess(way: float) -> float:
-        """Return that of the place so many deviations away, all other numbers fitted; 0 if it is hardly any."""
+    def beyond(way: float) -> float:
+        """Return the excess at the place so many deviations away, all other numbers fitted."""
         if way not in known:
             nearest = min(known, key=lambda other: abs(other - way))
             moved, held = known[nearest].x + (way - nearest) * along, best.copy()
@@ -212,23 +206,21 @@ def _profile_end(misfit: Misfit, tried: list[Tried], number: int, along: Floats,
             for start in (moved, held):  # the second one where an interval would end
                 start = np.clip(start, misfit.low, misfit.high)
                 done = misfit.refined(start, held=[number], most=20, tolerance=_FINE)
-                over = math.sqrt(max(0.0, 2.0 * (done.cost - cost)) / unit) - factor
-                if way not in known or done.cost < known[way].cost:
-                    known[way] = Tried(0.0 if abs(over) < _NEAR * factor else over, done.cost, done.x)
-                if over < -_NEAR * factor:
+                known[way] = min(known.get(way, done), done, key=COST)
+                if excess(done) < 0.0:
                     break
             tried.append(known[way])
-        return known[way].excess
+        return excess(known[way])
 
-    inner = max(way for way, one in known.items() if one.excess < 0.0 and way >= 0.0)
+    inner = max(way for way, one in known.items() if excess(one) < 0.0 and way >= 0.0)
     outer = min(factor if inner < factor else 2.0 * inner, most)
-    while excess(outer) < 0.0 and outer < most:
+    while beyond(outer) < 0.0 and outer < most:
         inner, outer = outer, min(2.0 * outer, most)
-    way = brentq(excess, inner, outer, xtol=_NEAR * outer) if excess(outer) > 0.0 else outer
-    return float(best[number]) + way * float(along[number])
+    way = brentq(beyond, inner, outer, xtol=_NEAR * outer) if beyond(outer) > 0.0 else outer
+    return float(best[number]) + way * step
 
 
-def status_of(model: Model, vector: Floats, radius: float) -> int:
+def status_of(model: LoopModel, vector: Floats, radius: float) -> int:
     """Return the status that `solve` gives the cycle of a vector that turns at a radius, over R."""
     if radius == 0.0:
         return 0
@@ -245,7 +237,7 @@ def status_of(model: Model, vector: Floats, radius: float) -> int:
     return found & ~(JUMP_IN_TO_RIM if turns_before else 0)
 
 
-def alternatives(model: Model, path: LoopPath, noise: Floats, spread: Floats) -> tuple[str, ...]:
+def alternatives(model: LoopModel, path: LoopPath, noise: Floats, spread: Floats) -> tuple[str, ...]:
     """Return a sentence on what else would explain a loop; none where the jumps decide.
 
     Waves of a strength chi that are fine against the contact act as a smooth punch that opens at the work of adhesion

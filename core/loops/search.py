@@ -56,7 +56,7 @@ def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: i
 
     Each is (numbers,), in the order of `misfit.names` and on the scales of `misfit.low`. `load_zero` estimates the load
     out of contact in N, `contact` the depth in m at which contact begins: the end of the base line of loading, or else
-    the least depth of loading; NaN if there is neither. `seed` is that of the Sobol set of what no feature determines.
+    the least depth of loading; NaN if there is neither. `seed` gives other values of what no feature tells.
     """
     if misfit.model.rate is not None:
         rest, few = misfit.without(SPEEDS), misfit.thinned(100)
@@ -78,7 +78,7 @@ def starts(misfit: Misfit, load_zero: float, contact: float, count: int, seed: i
     found: list[Any] = []
     for base in distinct([first, again], smooth, _ALIKE):
         found += _wavy(few, smooth, base, count)
-        if few.is_noise(min(found, key=COST).cost):
+        if few.is_noise(found):
             break
     return _kept(found, few, count)
 
@@ -108,26 +108,22 @@ def _kept(found: list[Any], few: Misfit, count: int) -> list[Floats]:
 
 def _smooth(few: Misfit, load_zero: float, contact: float, seed: int) -> list[Floats]:
     """Return refined starts of a loop whose punch has no waves that are searched, the best first."""
-    lows, highs, names = few.low, few.high, few.names
+    names, middle, widths = few.names, 0.5 * (few.low + few.high), few.high - few.low
     depths = np.append(shares_of(few, DEPTH_ZERO, _CONTACTS), contact) if DEPTH_ZERO in names else np.zeros(1)
     works = shares_of(few, _WORK, _WORKS) if _WORK in names else np.zeros(1)
-    others = [i for i, name in enumerate(names) if name not in (*OFFSETS, *_MODULI, _WORK)]
-    drawn = np.full((1, len(others)), 0.5)
-    if others:
-        from scipy.stats import qmc  # noqa: PLC0415 (it takes longer than most fits)
-
-        drawn = qmc.Sobol(len(others), seed=seed).random(2**6)
-    begun = []
-    for number, (depth, work) in enumerate(itertools.product(depths[np.isfinite(depths)], works)):
-        vector = 0.5 * (lows + highs)
-        vector[others] = lows[others] + drawn[number % len(drawn)] * (highs - lows)[others]
+    others = [i for i, name in enumerate(names) if name not in (*OFFSETS, *_MODULI, _WORK)]  # no feature tells these
+    steps = 2.0 ** (np.arange(1.0, len(others) + 1.0) / (len(others) + 1.0))  # their multiples fill a cube evenly
+    begun, places = [], itertools.product(depths[np.isfinite(depths)], works)
+    for number, (depth, work) in enumerate(places, start=2**6 * seed):
+        vector = middle.copy()
+        vector[others] = few.low[others] + (0.5 + number * steps) % 1.0 * widths[others]
         vector = put(few, vector, {DEPTH_ZERO: depth, LOAD_ZERO: load_zero, _WORK: work})
         begun.append(matched(few, vector, load_zero))
     rest = len(begun) - (len(works) if math.isfinite(contact) else 0)  # the last are at `contact`
     found: list[Any] = []
     for vectors in (begun[rest:], sorted(begun[:rest], key=few.size)[:_KEPT]):
         found += [few.refined(vector, most=40, tolerance=1e-6) for vector in vectors]
-        if found and few.is_noise(min(found, key=COST).cost):
+        if few.is_noise(found):
             break  # contact points elsewhere have a larger misfit
     return _kept(found, few, len(found))
 
@@ -152,20 +148,19 @@ def spectrum(smooth: Misfit, vector: Floats, lengths: tuple[float, float]) -> Fl
     """Return the wavelengths in m at which the residual of a smooth punch repeats most, the strongest first."""
     from scipy.signal import find_peaks, lombscargle  # noqa: PLC0415 (a loop without waves does without its half second)
 
-    _, branches, drawn = smooth.nearest(vector)
-    if drawn is None:
+    _, near, drawn = smooth.nearest(vector)
+    if near is None or drawn is None:
         return np.empty(0)
     largest = float(drawn.radius.max())
     count = int(np.clip(10.0 * largest * (1.0 / lengths[0] - 1.0 / lengths[1]), 64, 4000))
     waves = np.linspace(1.0 / lengths[1], 1.0 / lengths[0], count)
     power = np.zeros(count)
-    for own, part, near in branches:
-        radius = drawn.radius[part]
-        at = (1.0 - near.share) * radius[near.piece] + near.share * radius[near.piece + 1]
-        use = (at > lengths[0]) & ~drawn.jump[part][near.piece + 1]
+    at = (1.0 - near.share) * drawn.radius[near.piece] + near.share * drawn.radius[near.piece + 1]
+    inside = (at > lengths[0]) & ~drawn.jump[near.piece + 1]
+    for use in (inside & ~smooth.back, inside & smooth.back):
         if np.unique(at[use]).size < 12:
             continue
-        left = near.distance[use] * smooth.weights[own][use]
+        left = (near.distance * smooth.weights)[use]
         left -= np.polynomial.Polynomial.fit(at[use], left, 3)(at[use])
         if (size := float(left @ left)) > 0.0:
             power += lombscargle(at[use], left, 2.0 * math.pi * waves) / size * left.size
@@ -187,7 +182,7 @@ def _wavy(few: Misfit, smooth: Misfit, base: Floats, count: int) -> list[Any]:
         begun = [put(few, middle, {length: wave, height: swell}) for wave, swell in itertools.product(waves, heights)]
         rough = [few.refined(_softened(few, vector), most=_HELD, held=held, tolerance=1e-4) for vector in begun]
         found += [few.refined(done.x, most=_ROUGH, tolerance=1e-4) for done in sorted(rough, key=COST)[:count]]
-        if found and few.is_noise(min(found, key=COST).cost):
+        if few.is_noise(found):
             break
     return found
 
@@ -228,7 +223,7 @@ def minima(misfit: Misfit, begun: list[Floats]) -> list[Any]:
 
     def best(vectors: list[Floats], count: int) -> list[Any]:
         rough = sorted((few.refined(vector, most=30, tolerance=1e-6) for vector in vectors), key=COST)
-        if rough and few.is_noise(rough[0].cost):
+        if few.is_noise(rough):
             rough = [done for done in rough if done.cost < rough[0].cost + _HOPELESS]
         return [misfit.refined(vector, most=100) for vector in distinct([done.x for done in rough], misfit)[:count]]
 

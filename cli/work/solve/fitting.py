@@ -10,7 +10,7 @@ from gradhesion.core.closed.applicability import validity
 from gradhesion.core.closed.reduced import parameters_from
 from gradhesion.core.loops.fit import fit_loop
 from gradhesion.core.loops.fitted import FittedLoop
-from gradhesion.core.loops.paths.model import EXPONENT, Model
+from gradhesion.core.loops.paths.model import EXPONENT, LoopModel
 from gradhesion.core.problem.names import PARAMETERS, RANGE
 
 USUAL_RANGE: Final = 3e-10
@@ -55,7 +55,7 @@ def fits_of(study: FitStudy, advance: Callable[[int], None] = lambda _: None) ->
 
 def tabor_of(study: FitStudy, found: FittedLoop) -> float:
     """Give the Tabor parameter at the fitted values."""
-    model = Model(study.fixed, found.names, study.profile, study.loading, study.toughness)
+    model = LoopModel(study.fixed, found.names, study.profile, study.loading, study.toughness)
     given = model.given({name: value for name, value in found.values.items() if name != EXPONENT})
     made = parameters_from(given) | {RANGE: (study.adhesion_range or USUAL_RANGE) / given["R"]}
     scene = {name: float(made[name]) for name in (*PARAMETERS, RANGE)}

@@ -33,28 +33,21 @@ _WORDS: Final = {(False, True): "load", (True, True): "depth", (True, False): "b
 class BaseLine:
     """The line of no load."""
 
-    level: float
-    """Its load, in N."""
-    spread: float
-    """Standard deviation of its points about that, in N."""
-    slope: float
+    level: float  # its load, in N
+    spread: float  # standard deviation of its points about that, in N
+    slope: float  # its tilt, in N/m, and the standard deviation of that
     slope_deviation: float
-    """Its tilt and the standard deviation of that, in N/m."""
-    ends: tuple[float, float]
-    """The depth in m at which it ends on loading and on unloading; NaN where a branch has none."""
-    middle: float = 0.0
-    """The mean depth of its points, in m."""
+    ends: tuple[float, float]  # the depths in m at which it ends on loading and unloading; NaN where a branch has none
+    middle: float = 0.0  # the mean depth of its points, in m
 
 
 @dataclass(frozen=True)
 class ContactPoint:
-    """The depth at which contact begins on loading, found from the end of the base line."""
+    """The depth at which contact begins on loading, found from the end of the base line, its deviation, and how."""
 
-    depth: float
+    depth: float  # in m, as its standard deviation
     deviation: float
-    """In m: it, and its standard deviation."""
     method: str = "end of the base line of loading"
-    """How it was found, in words."""
 
 
 def _flat_part(depth: Floats, load: Floats, noise: float, steep: float) -> int:

@@ -42,16 +42,15 @@ class Feet(NamedTuple):
 
 
 @kernel
-def _nearest(x: float, y: float, chain: Floats, boxes: Floats, guess: int) -> tuple[int, float]:
-    """Return the piece of a chain (m, 2) that is nearest to a point, and how far along it; box `guess` comes first."""
-    best, piece, share = np.inf, 0, 0.0
-    for turn in range(boxes.shape[0]):
-        block = guess if turn == 0 else turn - 1 if turn <= guess else turn
+def _nearest(x: float, y: float, chain: Floats, boxes: Floats, first: int, last: int) -> tuple[int, float]:
+    """Return the piece of a chain (m, 2), of those from `first` to `last`, nearest to a point, and how far along."""
+    best, piece, share = np.inf, first, 0.0
+    for block in range(first // _BLOCK, last // _BLOCK + 1):
         aside = max(boxes[block, 0] - x, 0.0, x - boxes[block, 2])
         above = max(boxes[block, 1] - y, 0.0, y - boxes[block, 3])
         if aside * aside + above * above >= best:
             continue
-        for i in range(block * _BLOCK, min((block + 1) * _BLOCK, chain.shape[0] - 1)):
+        for i in range(max(block * _BLOCK, first), min((block + 1) * _BLOCK, last + 1)):
             run, rise = chain[i + 1, 0] - chain[i, 0], chain[i + 1, 1] - chain[i, 1]
             away, up = x - chain[i, 0], y - chain[i, 1]
             length = run * run + rise * rise
@@ -96,22 +95,15 @@ def _on_piece(
 
 
 @allocating
-def _feet(points: Floats, chain: Floats, tangents: Floats, curved: Truths) -> Feet:
-    """Find the feet; arguments are as to `feet`."""
-    count, last = points.shape[0], chain.shape[0] - 2
+def _feet(points: Floats, chain: Floats, tangents: Floats, curved: Truths, among: Integers, boxes: Floats) -> Feet:
+    """Find the feet; arguments are as to `feet`, and the lowest x and y of pieces `_BLOCK` by `_BLOCK`, the highest."""
+    count = points.shape[0]
     distance, piece, share = np.full(count, np.inf), np.zeros(count, np.int64), np.zeros(count)
-    normal, bent, guess = np.zeros((count, 2)), np.zeros(count, np.bool_), 0
-    boxes = np.full((last // _BLOCK + 1, 4), -np.inf)  # the lowest x and y of some pieces, then the highest
-    boxes[:, :2] = np.inf
-    for i in range(last + 1):
-        box = boxes[i // _BLOCK]
-        for axis in range(2):
-            box[axis] = min(box[axis], chain[i, axis], chain[i + 1, axis])
-            box[axis + 2] = max(box[axis + 2], chain[i, axis], chain[i + 1, axis])
-    for j in range(points.shape[0]):
-        i, t = _nearest(points[j, 0], points[j, 1], chain, boxes, guess)
-        guess = i // _BLOCK
-        other = min(i + 1, last) if t == 1.0 else max(i - 1, 0)
+    normal, bent = np.zeros((count, 2)), np.zeros(count, np.bool_)
+    for j in range(count):
+        first, last = among[j]
+        i, t = _nearest(points[j, 0], points[j, 1], chain, boxes, first, last)
+        other = min(i + 1, last) if t == 1.0 else max(i - 1, first)
         piece[j], share[j] = i, t
         for near in range(1 if 0.0 < t < 1.0 else 2):  # between two chords the foot may be on the curve over either
             on = other if near else i
@@ -123,9 +115,9 @@ def _feet(points: Floats, chain: Floats, tangents: Floats, curved: Truths) -> Fe
             bent[j] = curved[i + 1]
             continue
         vertex = i + 1 if t == 1.0 else i
-        bent[j] = 0 < vertex <= last and curved[vertex] and curved[vertex + 1]
+        bent[j] = first < vertex <= last and curved[vertex] and curved[vertex + 1]
         left, over, across, up = points[j, 0] - chain[vertex, 0], points[j, 1] - chain[vertex, 1], 0.0, 0.0
-        for on in (max(vertex - 1, 0), min(vertex, last)):  # at a corner both its pieces decide the side
+        for on in (max(vertex - 1, first), min(vertex, last)):  # at a corner both its pieces decide the side
             run, rise = chain[on + 1, 0] - chain[on, 0], chain[on + 1, 1] - chain[on, 1]
             far = np.hypot(run, rise)
             if far > 0.0:
@@ -136,17 +128,27 @@ def _feet(points: Floats, chain: Floats, tangents: Floats, curved: Truths) -> Fe
     return Feet(distance, piece, share, normal, bent)
 
 
-def feet(points: Floats, chain: Floats, tangents: Floats | None = None, curved: Truths | None = None) -> Feet:
+def feet(
+    points: Floats, chain: Floats, tangents: Floats | None = None, curved: Truths | None = None,
+    among: Integers | None = None,
+) -> Feet:  # fmt: skip
     """Find where points, rows of x and y (n, 2), are nearest to a connected curve.
 
     Its vertices `chain` (m, 2), two or more, are in order; `tangents` are its directions there, of any length and
-    either sense. The way to each that is `curved`, (m,), is part of a smooth curve, else straight. Of a circle with 64
-    vertices distances are right to 1e-6 of its radius, and to 2e-6 of points that are 3 % of it away, where chords are
-    off by 1e-3; with 32, those of points 4 radii outside to 2e-5. They are continuous.
+    either sense. The way to each that is `curved`, (m,), is part of a smooth curve, else straight. The foot of a point
+    is on one of the pieces from the first to the last that are its own, rows of `among` (n, 2), on any if not given.
+
+    Of a circle with 64 vertices distances are right to 1e-6 of its radius, and to 2e-6 of points that are 3 % of it
+    away, where chords are off by 1e-3; with 32, those of points 4 radii outside to 2e-5. They are continuous.
 
     >>> feet(np.array([[0.5, 1.0], [0.5, -2.0], [3.0, 0.0]]), np.array([[0.0, 0.0], [1.0, 0.0]])).distance.tolist()
     [1.0, -2.0, 2.0]
     """
-    straight = np.zeros(chain.shape[0], bool)
-    rows = points, chain, chain if tangents is None else tangents, straight if curved is None else curved
-    return _feet(*map(np.ascontiguousarray, rows))
+    pieces = len(chain) - 1
+    tangents = chain if tangents is None else tangents
+    curved = np.zeros(pieces + 1, bool) if curved is None else curved
+    among = np.tile([0, pieces - 1], (len(points), 1)) if among is None else among
+    first, ends = np.arange(0, pieces, _BLOCK), (chain[:-1], chain[1:])
+    boxes = np.hstack([pick.reduceat(pick(*ends), first) for pick in (np.minimum, np.maximum)])
+    points, chain, tangents = map(np.ascontiguousarray, (points, chain, tangents))
+    return _feet(points, chain, tangents, curved, among, boxes)

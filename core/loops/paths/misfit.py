@@ -17,8 +17,8 @@ from scipy.optimize import least_squares
 
 from gradhesion.core.loops.fitted import DEPTH_ZERO, LOAD_ZERO, OFFSETS, TILT
 from gradhesion.core.loops.paths.distance import Feet, feet
-from gradhesion.core.loops.paths.model import TURN, Scenes
-from gradhesion.core.loops.paths.path import LoopModel, LoopPath
+from gradhesion.core.loops.paths.model import TURN, LoopModel, Scenes
+from gradhesion.core.loops.paths.path import LoopPath, draw_loop
 from gradhesion.core.types import Floats, Integers, Truths
 
 _STEP: Final = 1e-5
@@ -29,11 +29,11 @@ LOST: Final = 1e3
 
 
 class Nearest(NamedTuple):
-    """Where points are nearest to a path: for each branch its points, its vertices and the feet; kept by its vector."""
+    """Where the points are nearest to the path of a vector; None where that has none."""
 
     vector: bytes
-    branches: list[tuple[Truths, slice, Feet]]
-    drawn: LoopPath | None
+    feet: Feet | None = None
+    drawn: LoopPath | None = None
 
 
 @dataclass(eq=False)
@@ -53,7 +53,7 @@ class Misfit:
         self.points = self.data / self.scale
         self.turn = [place for place, name in enumerate(self.names) if name == TURN]
         """The place of the turn, which is likely near the middle of its range: one more residual says so."""
-        self._kept = Nearest(b"", [], None)
+        self._kept = Nearest(b"")
 
     def thinned(self, count: int) -> "Misfit":
         """Return the misfit of about this many of the points, evenly."""
@@ -74,34 +74,29 @@ class Misfit:
     def nearest(self, vector: Floats) -> Nearest:
         """Find where points are nearest to the path; the last result is kept, for the derivatives."""
         if self._kept.vector != vector.tobytes():
-            self._kept = Nearest(vector.tobytes(), [], self.model.path(vector))
-            if (drawn := self._kept.drawn) is not None:
+            near, drawn = None, draw_loop(self.model, vector)
+            if drawn is not None:
+                branches = np.array([[0, drawn.turn - 1], [drawn.turn, len(drawn.radius) - 2]])  # the pieces of each
                 chain, tangents = drawn.places / self.scale, drawn.tangents / self.scale
-                up, down = slice(0, drawn.turn + 1), slice(drawn.turn, len(chain))
-                for own, piece in ((~self.back, up), (self.back, down)):
-                    near = feet(self.points[own], chain[piece], tangents[piece], drawn.curved[piece])
-                    self._kept.branches.append((own, piece, near))
+                near = feet(self.points, chain, tangents, drawn.curved, branches[self.back.astype(int)])
+            self._kept = Nearest(vector.tobytes(), near, drawn)
         return self._kept
 
     def residual(self, vector: Floats) -> Floats:
         """Return the signed distances of points to the path, in standard deviations; behind them that of the turn."""
-        found = np.full(self.weights.size, LOST)
-        for own, _, near in self.nearest(vector).branches:
-            found[own] = near.distance
+        near = self.nearest(vector).feet
         turn = (2.0 * vector - self.low - self.high)[self.turn] / (self.high - self.low)[self.turn]
-        return np.append(found * self.weights, turn)
+        return np.append(self.weights * (LOST if near is None else near.distance), turn)
 
     def jacobian(self, vector: Floats) -> Floats:
         """Return the derivatives of the residual, of shape (points, numbers)."""
         if self.model.rate is not None:  # of paths, which are integrated
             ends = zip(*self._ends(vector, _STEP * (self.high - self.low)), strict=True)
             return np.column_stack([(self.residual(up) - self.residual(down)) / width for up, down, width in ends])
-        found, (_, branches, drawn) = np.zeros((self.weights.size, vector.size)), self.nearest(vector)
-        if drawn is not None:
-            begun = np.concatenate([piece.start + near.piece for _, piece, near in branches])
-            moved = self._motion(vector, drawn, begun) / self.scale[:, None]
-            for own, piece, near in branches:
-                found[own] = near.slopes(moved[piece], drawn.tangents[piece] / self.scale)
+        found, (_, near, drawn) = np.zeros((self.weights.size, vector.size)), self.nearest(vector)
+        if near is not None and drawn is not None:
+            moved = self._motion(vector, drawn, near.piece) / self.scale[:, None]
+            found = near.slopes(moved, drawn.tangents / self.scale)
         turn = (2.0 * np.eye(vector.size) / (self.high - self.low))[self.turn]
         return np.concatenate([found * self.weights[:, None], turn])
 
@@ -117,10 +112,9 @@ class Misfit:
         """
         names, tilt = self.names, self.model.shift(vector)[2]
         moved = np.zeros((drawn.radius.size, 2, len(names)))
-        wanted = np.zeros(drawn.radius.size + 1, bool)
-        wanted[[*begun, *begun + 1, drawn.turn, drawn.turn + 1]] = True
-        wanted[np.flatnonzero(drawn.jump & wanted[:-1]) - 1] = True  # a landing moves with the end of its jump
-        if (within := np.flatnonzero(wanted[:-1] & (drawn.radius > 0.0))).size:
+        wanted = np.unique(np.append([begun, begun + 1], [drawn.turn, drawn.turn + 1]))
+        wanted = np.union1d(wanted, wanted[drawn.jump[wanted]] - 1)  # a landing moves with the end of its jump
+        if (within := wanted[drawn.radius[wanted] > 0.0]).size:
             self._slide(drawn, within, moved, self._at_fixed_radius(vector, drawn, within, moved), tilt)
         for axis, name in enumerate((DEPTH_ZERO, LOAD_ZERO)):
             if name in names:
@@ -182,10 +176,10 @@ class Misfit:
         """Return a measure of the misfit that outliers hardly move."""
         return float(np.sum(np.log1p(self.residual(vector) ** 2)))
 
-    def is_noise(self, cost: float) -> bool:
-        """Say whether half a sum of squares is no more than noise leaves."""
+    def is_noise(self, found: Sequence[Any]) -> bool:
+        """Say whether the best of some refined starts leaves no more than noise does."""
         count = self.weights.size
-        return 2.0 * cost <= count + _CLEAR * math.sqrt(2.0 * count)
+        return any(2.0 * done.cost <= count + _CLEAR * math.sqrt(2.0 * count) for done in found)
 
     def refined(self, start: Floats, *, most: int = 60, held: Sequence[int] = (), tolerance: float = 1e-8) -> Any:
         """Refine a start within the ranges, the numbers `held` fixed; as of `least_squares`, `x` with all numbers."""

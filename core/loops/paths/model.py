@@ -22,7 +22,7 @@ from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import CLOSING, MACHINE, PARAMETERS, PATTERN, SPEED, TURNS
 from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.toughness import Toughness, rows_of_pattern, series_at
+from gradhesion.core.problem.toughness import Rate, Toughness, rows_of_pattern, series_at
 from gradhesion.core.types import Floats
 
 EXPONENT: Final = "exponent"
@@ -76,11 +76,16 @@ class Scenes(NamedTuple):
 
 
 @dataclass(eq=False)
-class Model:
-    """A loop as a function of the numbers that are searched: its curves of equilibrium.
+class LoopModel:
+    """A loop as a function of the numbers that are searched: its curves of equilibrium, and what its path is drawn by.
 
     `fixed` are numbers by name, in SI units (`fit_loop`); `names` is what is searched, in order, those of `OFFSETS` and
-    `TURN` last. The rest is the shape of the punch, what is prescribed, and a pattern of the toughness.
+    `TURN` last. Then come the shape of the punch, what is prescribed, and a pattern of the toughness.
+
+    The path turns at the largest depth in m, or load in N, of the data (`furthest`), unless told otherwise, and goes on
+    by `blur` in m on the branch where it is, since points at the turn have noise. Where works of adhesion differ the
+    edge is pinned at the turn, which is then searched as `TURN`. The line of no load begins at the depth `first`.
+    `rate` is the law of an edge that has a speed; its exponent is that of the numbers that are searched, if it is one.
     """
 
     fixed: Mapping[str, float]
@@ -88,6 +93,15 @@ class Model:
     profile: Profile
     loading: Loading = field(default_factory=Loading)
     toughness: Toughness | None = None
+    furthest: tuple[float, float] = (math.nan, math.nan)
+    first: float = 0.0
+    blur: float = 0.0
+    rate: Rate | None = None
+
+    @property
+    def driven(self) -> int:
+        """The row of the states that is prescribed."""
+        return int(self.loading.control == "load")
 
     @property
     def turns(self) -> str:
@@ -102,6 +116,11 @@ class Model:
     def place_of(self, ways: Sequence[str]) -> int | None:
         """Return the place, among what is searched, of the one that has one of some names; None if none has."""
         return next((place for place, name in enumerate(self.names) if name in ways), None)
+
+    def shift(self, vector: Floats) -> tuple[float, ...]:
+        """Return the zeros of depth and load, and the tilt, of a vector."""
+        known = {**self.fixed, **self.values(vector)}
+        return tuple(float(known.get(name, 0.0)) for name in OFFSETS)
 
     def values(self, vectors: Floats) -> dict[str, Any]:
         """Give what is searched its names and units: numbers of one vector, arrays of the rows of several."""
@@ -169,13 +188,7 @@ class Model:
         if not self.has_waves:
             return 0.0, 0.0, 0.0
         length, waves = scenes.wavelength * scenes.R, [(one.n, -one.cos, one.sin) for one in self.profile.harmonics]
-        known: dict[tuple[float, bytes], Floats] = {}
-        rows = []
-        for k, x in zip(np.ravel(scenes.k).tolist(), np.atleast_2d(radius / length), strict=True):
-            key = k, x.tobytes()
-            known[key] = known[key] if key in known else np.array(hertz.wave_terms(k, x, 1.0, waves))
-            rows.append(known[key])
-        return scenes.A * length * np.stack(rows, axis=1)
+        return scenes.A * length * np.array(hertz.wave_terms(scenes.k, radius / length, 1.0, waves))
 
     def _toughness(self, scenes: Scenes, a: Floats) -> tuple[Any, Any]:
         """Return the toughness at radii over R, over its mean, and how it grows with them."""

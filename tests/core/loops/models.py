@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from gradhesion.core import draw_curves
 from gradhesion.core.loops.paths.misfit import Misfit
-from gradhesion.core.loops.paths.model import LINEAR
-from gradhesion.core.loops.paths.path import LoopModel, LoopPath
+from gradhesion.core.loops.paths.model import LINEAR, LoopModel
+from gradhesion.core.loops.paths.path import LoopPath, draw_loop
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.profile import Profile
 from tests.core.scene import pattern_of, profile_of
@@ -94,7 +94,7 @@ def vector(model: LoopModel, **more: float) -> Array:
 
 
 def path_of(model: LoopModel, here: Array) -> LoopPath:
-    drawn = model.path(here)
+    drawn = draw_loop(model, here)
     assert drawn is not None
     return drawn
 

@@ -307,10 +307,10 @@ def test_noise_that_was_estimated_widens_intervals() -> None:
 def test_profile_intervals_are_where_the_misfit_has_grown_so_far() -> None:
     """A fit of the rest there has a sum of squares that is larger by the square of the factor, linear or not."""
     own, here = loop(error=8.0)
-    best = own.refined(here, tolerance=1e-12).x
+    least = own.refined(here, tolerance=1e-12)
+    best = least.x
     covariance = results.covariance_of(own, best)
     ways = covariance / np.sqrt(np.diag(covariance))[:, None]
-    least = results.Tried(-12.0, 0.5 * float(np.sum(own.residual(best) ** 2)), best)
     both, _ = results.profile_intervals(own, least, ways, 12.0, 1.0)
     for number, (along, ends) in enumerate(zip(ways, both.T, strict=True)):
         assert ends[0] < best[number] < ends[1]

@@ -9,6 +9,7 @@ import pytest
 from gradhesion.core.loops.fitted import OFFSETS
 from gradhesion.core.loops.paths.distance import feet
 from gradhesion.core.loops.paths.misfit import LOST, Misfit
+from gradhesion.core.loops.paths.path import draw_loop
 from tests.core.loops.models import CASES, NOISE, TRUE, TURN, UNIT, Array, Case, R, misfit_of, path_of, vector
 
 WAVE = np.array([2e-3 * R, 0.3 * UNIT])
@@ -169,10 +170,9 @@ def misfit(name: str, seed: int, points: int = 400) -> tuple[Misfit, Array]:
 
 def feet_of(own: Misfit, here: Array) -> Array:
     """Where the points have their feet, in m and N over the noise; of the path of some numbers."""
-    found = np.empty((own.weights.size, 2))
-    for way, _, nearest in own.nearest(here).branches:
-        found[way] = own.points[way] - nearest.distance[:, None] * nearest.normal
-    return found
+    nearest = own.nearest(here).feet
+    assert nearest is not None
+    return own.points - nearest.distance[:, None] * nearest.normal
 
 
 @pytest.mark.parametrize("name", SEARCHED)
@@ -245,7 +245,7 @@ def test_a_scene_without_a_path_is_far_from_all_points_and_outliers_hardly_count
     own = misfit_of(model, here, drawn.places, np.arange(len(drawn.places)) > drawn.turn)
     assert np.abs(own.residual(here)).max() < 1e-6, "its own points"
     nowhere = here - [0.0, 20.0]  # waves of 1e-15 m: too many radii
-    assert own.model.path(nowhere) is None
+    assert draw_loop(own.model, nowhere) is None
     assert set(own.residual(nowhere)) == {LOST}
     assert not own.jacobian(nowhere).any()
     spots = drawn.places.copy()
