@@ -32,25 +32,21 @@ def processors() -> int:
 
 
 def _quota() -> float:
-    """Find how many processors' time control groups allow (of version 2, or of a container of version 1), or inf."""
+    """Find how many processors' time control groups (of version 2) allow, or inf."""
     allowed = [math.inf]
     with suppress(OSError, ValueError):
         (own,) = [line[3:] for line in _GROUP_OF_PROCESS.read_text().splitlines() if line.startswith("0::")]
         group = _GROUPS / own.strip("/")
         files = [folder / "cpu.max" for folder in (group, *group.parents) if folder.is_relative_to(_GROUPS)]
         allowed += [_share(file.read_text()) for file in files if file.is_file()]
-    with suppress(OSError, ValueError):
-        old = _GROUPS / "cpu"
-        quota, period = ((old / f"cpu.cfs_{name}_us").read_text() for name in ("quota", "period"))
-        allowed.append(_share(f"{quota} {period}"))
     return min(allowed)
 
 
 def _share(limit: str) -> float:
     """Read a limit, the time of a group and the period that it is for.
 
-    >>> _share("150000 100000"), _share("max 100000"), _share("-1 100000")
-    (1.5, inf, inf)
+    >>> _share("150000 100000"), _share("max 100000")
+    (1.5, inf)
     """
     quota, period = limit.split()
-    return math.inf if quota == "max" or float(quota) <= 0.0 else float(quota) / float(period)
+    return math.inf if quota == "max" else float(quota) / float(period)

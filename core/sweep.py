@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.closed.reach import radius_of, slope_at
+from gradhesion.core.cycle.disc import profile_of
+from gradhesion.core.edge.pattern import rows_by_number
 from gradhesion.core.problem.control import BY_DISPLACEMENT, CONTROLS, Loading
 from gradhesion.core.problem.names import (
     CLOSING,
@@ -16,6 +18,8 @@ from gradhesion.core.problem.names import (
     EDGE,
     EXACT_ALONE,
     GIVEN_UP,
+    INTEGERS,
+    MACHINE,
     OUTPUTS,
     PARAMETERS,
     PATTERN,
@@ -33,6 +37,7 @@ from gradhesion.core.problem.profile import WAVY, Profile, in_own_wavelength, st
 from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE
 from gradhesion.core.problem.toughness import rows_of_pattern
 from gradhesion.core.scenes import rows as at
+from gradhesion.core.scenes.reduced import Punch
 from gradhesion.core.scenes.requests import Request, Wanted
 from gradhesion.core.scenes.tasks import solve_all
 from gradhesion.core.table.layout import BY_DEPTH, EXACT
@@ -44,9 +49,23 @@ _MOST_NARROW: Final = np.iinfo(np.int8).max
 Results: TypeAlias = dict[str, NDArray[Any]]
 _GAINS: Final = {"adhesion_gain": "pull_off_force", "energy_gain": "dissipated_energy"}
 """Results compared with those of the smooth punch on the same interface."""
-_COLUMNS: Final = (*PARAMETERS, "machine_stiffness", "target", CLOSING, *PATTERN)
+_COLUMNS: Final = (*PARAMETERS, MACHINE, "target", CLOSING, *PATTERN)
 """The rows of parameters in the order of scenes/rows.py; `target` is the one of `TURNS` that is given."""
-_DEFAULTS: Final = {"machine_stiffness": np.inf, "target": 0.0, CLOSING: 1.0, PATTERN[0]: 1.0, PATTERN[1]: 1.0}
+_DEFAULTS: Final = {MACHINE: np.inf, "target": 0.0, CLOSING: 1.0, PATTERN[0]: 1.0, PATTERN[1]: 1.0}
+
+
+def turn_of(parameters: Mapping[str, Any], loading: Loading, toughness: Any) -> str | None:
+    """Refuse parameters that do not belong together; return the one at which cycles turn, None if that is the rim."""
+    if missing := [name for name in PARAMETERS if name not in parameters]:
+        raise ValueError(f"missing parameters {missing}")
+    if (MACHINE in parameters) != (loading.control == "machine"):
+        raise ValueError(f"{MACHINE} belongs to control 'machine' and to no other; control {loading.control!r}")
+    if (PATTERN[0] in parameters) != (toughness is not None) or (toughness is None and PATTERN[1] in parameters):
+        raise ValueError(f"{' and '.join(PATTERN)} belong to a pattern of toughness, which needs the first of them")
+    turns = [name for name in TURNS if name in parameters]
+    if len(turns) > 1:
+        raise ValueError(f"{' and '.join(turns)} are given: a cycle turns at one of them")
+    return turns[0] if turns else None
 
 
 def _checked(
@@ -56,29 +75,22 @@ def _checked(
     reports = [name for name in outputs if name in REPORTS]
     slopes = [name for name in outputs if name in SENSITIVITIES]
     unknown = [name for name in outputs if name not in (*OUTPUTS, *EDGE, *RATE, REACH, *reports, *slopes)]
-    missing = [name for name in PARAMETERS if name not in parameters]
     lost = [name for name in outputs if name in GIVEN_UP]
     if lost:
         raise ValueError(f"{lost[0]} is given up: {GIVEN_UP[lost[0]]}")
-    if unknown or missing or solver not in SOLVERS:
-        raise ValueError(f"unknown outputs {unknown}, missing parameters {missing}, solver {solver!r}")
-    turns = [name for name in TURNS if name in parameters]
-    if len(turns) > 1:
-        raise ValueError(f"{' and '.join(turns)} are given: a cycle turns at one of them")
-    exact = [name for name in (*outputs, *turns) if name in (*EXACT_ALONE, *slopes, *turns)]
+    if unknown or solver not in SOLVERS:
+        raise ValueError(f"unknown outputs {unknown}, solver {solver!r}")
+    turn = turn_of(parameters, loading, toughness)
+    exact = [name for name in outputs if name in (*EXACT_ALONE, *slopes)] + [turn] * (turn is not None)
     if solver != "exact" and exact:
         raise ValueError(f"{exact} are known of the exact solver only, not of {solver!r}")
-    if ("machine_stiffness" in parameters) != (loading.control == "machine"):
-        raise ValueError(f"machine_stiffness belongs to control 'machine' and to no other; control {loading.control!r}")
     if loading.control == "load" and "energy_residual" in reports:
         raise ValueError("energy_residual: under dead load the cycle is not closed; request it under another control")
     if solver != "exact" and loading != BY_DISPLACEMENT:
         raise ValueError(f"solver {solver!r} is known under displacement control only: {WITHOUT_LOAD[solver]}")
-    if (PATTERN[0] in parameters) != (toughness is not None) or (toughness is None and PATTERN[1] in parameters):
-        raise ValueError(f"{' and '.join(PATTERN)} belong to a pattern of toughness, which needs the first of them")
     if toughness is not None and solver != "exact":
         raise ValueError(f"solver {solver!r} knows no pattern of toughness: use the exact one")
-    return turns[0] if turns else None
+    return turn
 
 
 def request_of(
@@ -99,17 +111,16 @@ def request_of(
     arrays[amplitude] = arrays[amplitude] * (factor if len(waves) else 0.0)
     if not len(waves):
         waves = np.array([[1.0, 1.0, 0.0]])
-    pattern = np.zeros((0, 3)) if toughness is None else rows_of_pattern(toughness)
-    return Request(
-        arrays=arrays,
-        shape=np.broadcast_shapes(*(array.shape for array in arrays)),
+    punch = Punch(
         exponent=profile.exponent,
         waves=waves,
         control=CONTROLS.index(loading.control),
         turn=0 if turn is None else 1 + TURNS.index(turn),
-        pattern=pattern,
+        rows=rows_by_number(np.zeros((0, 3)) if toughness is None else rows_of_pattern(toughness)),
         of_work=toughness is not None and toughness.of == "work",
+        profile=profile_of(waves),
     )
+    return Request(arrays, np.broadcast_shapes(*(array.shape for array in arrays)), punch)
 
 
 def _without_adhesion(found: Results, ratio: NDArray[np.float64], downwards: NDArray[np.bool_]) -> None:
@@ -138,7 +149,6 @@ def _solved(
     cycle = bool({*outputs} - {*PULL_OFF, "turning_radius"})
     wanted = Wanted(
         cycle=cycle,
-        depth="delta_max" in outputs,
         contact=cycle and check_contact,
         residual="energy_residual" in outputs,
         saturation="saturation_radius" in outputs,
@@ -170,7 +180,7 @@ def _solved(
 
 def _typed(name: str, values: NDArray[np.float64]) -> NDArray[Any]:
     """Return values as the type of their result: counts as int32, -1 for NaN, 2^31 - 1 for more."""
-    if name not in at.INTEGERS:
+    if name not in INTEGERS:
         return values
     return np.where(np.isnan(values), -1.0, np.minimum(values, np.iinfo(np.int32).max)).astype(np.int32)
 
@@ -180,10 +190,8 @@ def _roughness(parameters: Mapping[str, ArrayLike], profile: Profile, status: ND
     from gradhesion.core.closed.envelope import chis  # noqa: PLC0415 (SciPy)
     from gradhesion.core.problem.material import stiffness  # noqa: PLC0415
 
-    names = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A")
-    k, nu, modulus, c0, wavelength, amplitude = (
-        np.broadcast_to(np.asarray(parameters[name], dtype=float), status.shape).ravel() for name in names
-    )
+    given = (np.asarray(parameters[name], dtype=float) for name in PARAMETERS[:-1])
+    k, nu, modulus, c0, wavelength, amplitude = (np.broadcast_to(one, status.shape).ravel() for one in given)
     with np.errstate(all="ignore"):
         _, down = chis(k, stiffness(k, nu, modulus, c0), wavelength, amplitude, profile)
     return np.where(status & NO_VALUE, np.nan, down.reshape(status.shape))

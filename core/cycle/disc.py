@@ -63,12 +63,10 @@ def profile_of(waves: Floats) -> Floats:
 
 
 @kernel
-def disc_of(k: float, exponent: float, depth_factor: float, waves: Floats, profile: Floats, weights: Floats) -> Disc:
-    """Return what the tests need; `depth_factor` is the depth of r^m/m over a^m, `profile` that of `profile_of`.
+def fill_weights(k: float, weights: Floats) -> None:
+    """Fill the weights of the rule for c x^(c-1) on (0, 1), c = (1-k)/2, at the points of Gauss's, (RULE,).
 
-    `weights` is room for those of the rule, (RULE,).
-
-    The moments of Legendre's polynomials with the weight c x^(c-1) are prod_(j <= n) (c - j)/(c + j), also at c = 0.
+    The moments of Legendre's polynomials with that weight are prod_(j <= n) (c - j)/(c + j), also at c = 0.
     """
     c = 0.5 * (1.0 - k)
     weights[:] = 0.0
@@ -79,14 +77,6 @@ def disc_of(k: float, exponent: float, depth_factor: float, waves: Floats, profi
             weights[j] += 0.5 * _WEIGHTS[j] * (2.0 * n + 1.0) * polynomial * moment
             before, polynomial = polynomial, ((2.0 * n + 1.0) * x * polynomial - n * before) / (n + 1.0)
             moment *= (c - n - 1.0) / (c + n + 1.0)
-    size = 2.0 ** (0.5 * (k - 1.0)) * math.gamma(0.5 * (1.0 + k))
-    crest = mean = 0.0
-    for h in range(len(waves)):
-        n, height = waves[h, 0], math.hypot(waves[h, 1], waves[h, 2])
-        crest += 1.05 * size * n**c * height
-        mean += height
-    wave = 2.0 * math.pi / waves[:, 0].max()
-    return Disc(c, weights, crest, mean, wave, 1.0 / (exponent * depth_factor), profile, waves)
 
 
 @leaf

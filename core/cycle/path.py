@@ -45,6 +45,18 @@ class Unloaded(NamedTuple):
     last: float  # the depth at which contact ends
 
 
+class Cycle(NamedTuple):
+    """What a cycle has lost, in the units of its curves."""
+
+    loaded: Loaded
+    unloaded: Unloaded
+    turn: float  # the radius at which it turns
+    reach: float  # of the last landing of loading
+    snap: float  # the pull after the jump-in
+    one_disc: bool  # whether loading keeps the contact one disc
+    tied: bool  # whether a decision is close
+
+
 @leaf
 def end_state(trace: Floats, j: int) -> State:
     """Return where branch j ends."""

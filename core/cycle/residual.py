@@ -3,14 +3,12 @@
 import math
 
 from gradhesion.core.curve.energy import GAUSS, GAUSS_WEIGHTS
-from gradhesion.core.curve.levels import LANDING as ACCURACY
-from gradhesion.core.curve.levels import at_level
-from gradhesion.core.curve.trace import END, END_LEVEL, LANDING, START, START_LEVEL
 from gradhesion.core.curve.values import Curve, bin_of, coordinate_of, depth_and_load, slope_near, softness, state_in
-from gradhesion.core.cycle.path import inner_branch, started_within, visited_within
+from gradhesion.core.cycle.jumps import LANDED, LANDED_BRANCH, LEFT, LEFT_DEPTH, LEFT_LOAD
+from gradhesion.core.cycle.turning import value_at
 from gradhesion.core.jit import kernel
 from gradhesion.core.table.layout import HALF, YC, end_of
-from gradhesion.core.types import Floats, Integers
+from gradhesion.core.types import Floats
 
 
 @kernel
@@ -34,46 +32,29 @@ def _along(curve: Curve, low: float, high: float) -> float:
 
 
 @kernel
-def work_of_cycle(
-    closing: Curve,
-    opening: Curve,
-    rim: float,
-    loading: Floats,
-    visits: int,
-    visited: Integers,
-    unloading: Floats,
-    count: int,
-) -> float:
+def work_of_cycle(closing: Curve, opening: Curve, rim: float, jumps: Floats, loading: int, count: int) -> float:
     """Return the work of the cycle up to a rim in 2 pi l^2 dgamma of opening; NaN for a rim beyond the table.
 
-    `loading` and `unloading` are the traces of the two curves. Loads of closing are in sqrt(ratio) times the unit of
-    those of opening, and so are its depths. Of a prescribed depth or far end of a machine, not of a load.
+    `jumps` are those of the cycle (jumps.py), the first `loading` of them on the curve of closing. Loads of closing are
+    in sqrt(ratio) times the unit of those of opening, and so are its depths. Of a prescribed depth or far end of a
+    machine, not of a load.
     """
     if rim > end_of(closing.table):
         return math.nan
-    ratio = (opening.B / closing.B) ** 2
-    work, top = 0.0, 0.0
-    n = visited_within(loading, visited, visits, rim)
-    for v in range(n):
-        j = visited[v]
-        work += ratio * _along(closing, loading[LANDING, j], min(loading[END, j], rim))
-        top = loading[END_LEVEL, j]
-        if loading[END, j] >= rim:
-            depth, load = state_in(closing, rim)
-            top = coordinate_of(closing, depth, load)
+    ratio, work = (opening.B / closing.B) ** 2, 0.0
+    for n in range(1, loading):
+        work += ratio * _along(closing, jumps[LANDED, n - 1], jumps[LEFT, n])
+    top = coordinate_of(closing, jumps[LEFT_DEPTH, loading - 1], jumps[LEFT_LOAD, loading - 1])
+    if jumps[LANDED_BRANCH, loading - 1] >= 0.0:
+        work += ratio * _along(closing, jumps[LANDED, loading - 1], rim)
+        top = value_at(closing, rim)
     depth, load = state_in(opening, rim)
-    level = coordinate_of(opening, depth, load)
-    fall = math.sqrt(ratio) * top - level  # while the edge is pinned at the rim, where the load is linear
-    stiffness = rim ** (1.0 + opening.table.k)
+    fall = math.sqrt(ratio) * top - coordinate_of(opening, depth, load)
+    stiffness = rim ** (1.0 + opening.table.k)  # while the edge is pinned at the rim, where the load is linear
     work -= fall * (load + 0.5 * stiffness * fall / softness(opening, stiffness))
-    j, y = started_within(unloading, count, rim) - 1, rim
-    if j < 0 or unloading[END, j] < rim:
-        j = inner_branch(unloading, j, level)
-        y = -1.0
-    while j >= 0:
-        if y < 0.0:
-            y = at_level(opening, level, unloading[START, j], unloading[END, j], ACCURACY)
-        work -= _along(opening, unloading[START, j], y)
-        level, y = unloading[START_LEVEL, j], -1.0
-        j = inner_branch(unloading, j - 1, level)
+    y = rim
+    for n in range(loading, count):
+        work -= _along(opening, jumps[LEFT, n], y)
+        y = jumps[LANDED, n]
+    work -= _along(opening, 0.0, y)  # where the contact shrinks to a point
     return 2.0 / (1.0 + opening.table.k) * work

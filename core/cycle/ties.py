@@ -4,7 +4,7 @@ import math
 
 from gradhesion.core.curve.folds import CLOSE
 from gradhesion.core.curve.trace import CLOSE_PAIR, END, END_LEVEL, LANDING, START, START_LEVEL
-from gradhesion.core.curve.values import Curve, bin_of, coordinate_of, depth_and_load, place_of, slope_in, terms_at
+from gradhesion.core.curve.values import Curve, bin_of, place_of, slope_in, terms_at
 from gradhesion.core.cycle.path import started_within
 from gradhesion.core.cycle.turning import value_at
 from gradhesion.core.jit import kernel, leaf
@@ -27,14 +27,6 @@ def rim_is_tied(curve: Curve, rim: float) -> bool:
 
 
 @leaf
-def _level_at(curve: Curve, rim: float) -> float:
-    """Return what is prescribed at a rim, inf beyond the table, where it is on the endless branch."""
-    i, t = place_of(curve.table, min(rim, end_of(curve.table)))
-    depth, load = depth_and_load(curve, i, t)
-    return coordinate_of(curve, depth, load) if rim <= end_of(curve.table) else math.inf
-
-
-@leaf
 def _pair_is_close(rim: float, trace: Floats, count: int) -> bool:
     """Return whether two folds within a rim are about to be born or to meet."""
     return count > 0 and trace[CLOSE_PAIR, 0] <= rim and trace[CLOSE_PAIR, 0] < math.inf
@@ -50,7 +42,7 @@ def loading_is_tied(curve: Curve, end: float, at_rim: bool, trace: Floats, count
     while j < count and not tied and trace[START, j] <= end:
         top, y = trace[END_LEVEL, j], min(trace[END, j], end)
         if at_rim and y == end:
-            top = _level_at(curve, end)
+            top = value_at(curve, end)
         tied = top < math.inf and _are_close(curve, top, highest, y)
         highest = max(highest, top)
         j += 1
@@ -64,7 +56,7 @@ def unloading_is_tied(curve: Curve, rim: float, trace: Floats, count: int) -> bo
     It goes inwards from `rim`, or where the cycle turns, and jumps to branches that start lower than all further out.
     `curve` is that of opening, whose branches are the first `count` columns of `trace`.
     """
-    tied, level, y = _pair_is_close(rim, trace, count), _level_at(curve, rim), rim
+    tied, level, y = _pair_is_close(rim, trace, count), value_at(curve, rim), rim
     j = started_within(trace, count, rim) - 1
     if j >= 0 and trace[END, j] >= rim:
         level, y = trace[START_LEVEL, j], trace[START, j]

@@ -4,7 +4,7 @@ import math
 
 from gradhesion.core.curve.levels import EXACTLY, at_level
 from gradhesion.core.curve.trace import END, LANDING, START
-from gradhesion.core.curve.values import Curve, coordinate_of, depth_and_load, place_of
+from gradhesion.core.curve.values import Curve, coordinate_of, state_in
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.table.layout import end_of
 from gradhesion.core.types import Floats, Integers
@@ -12,9 +12,10 @@ from gradhesion.core.types import Floats, Integers
 
 @leaf
 def value_at(curve: Curve, y: float) -> float:
-    """Return what a curve prescribes at a radius within its table."""
-    i, t = place_of(curve.table, y)
-    depth, load = depth_and_load(curve, i, t)
+    """Return what a curve prescribes at a radius; inf beyond its table, where it is on the endless branch."""
+    if y > end_of(curve.table):
+        return math.inf
+    depth, load = state_in(curve, y)
     return coordinate_of(curve, depth, load)
 
 
@@ -44,30 +45,20 @@ def turning_radius(
     return math.inf
 
 
-@leaf
-def _lower_bound(k: float, m: float, B: float, crest: float, mean: float, by_load: bool, y: float) -> float:
-    """Return what the depth, or `by_load` the load, at y is not below, in the units of table/layout.py.
-
-    The curve is B y^m of the gradient exponent k, less waves and stretch, which are at most crest y^((1-k)/2) + mean.
-    """
-    share = (1.0 + k) / (1.0 + k + m) if by_load else 0.0
-    bound = B * y**m * (1.0 - share) - crest * y ** (0.5 * (1.0 - k)) - mean
-    return bound * y ** (1.0 + k) if by_load else bound
-
-
 @kernel
 def turning_reach(k: float, m: float, B: float, crest: float, mean: float, target: float, by_load: bool) -> float:
-    """Return a radius, a percent more than needed, from which on depth or load surely exceed a target >= 0."""
-    low, high = 0.0, 1.0
-    for _ in range(300):
-        y = high if low == 0.0 else math.sqrt(low * high)
-        if _lower_bound(k, m, B, crest, mean, by_load, y) > target:
-            low = 1e-3 * y if low == 0.0 else low
-            high = y
-        elif low == 0.0:
-            high = 2.0 * y
-        else:
-            low = y
-        if low > 0.0 and high < 1.01 * low:
-            break
-    return high
+    """Return a radius, some percent more than needed, from which on depth or load surely exceed a target >= 0.
+
+    The depth is at least B y^m - crest y^((1-k)/2) - mean, in the units of table/layout.py, and the load over y^(1+k)
+    at least the same with m/(1+k+m) B. Where that meets the target, B y^(m+q) = crest y^((1-k)/2+q) + mean y^q + target
+    with q = 0 or 1+k: approached from above, where none of the three terms is more than a third.
+    """
+    q, eta = (1.0 + k if by_load else 0.0), 0.5 * (1.0 - k)
+    size = B * m / (1.0 + k + m) if by_load else B
+    y = max((3.0 * crest / size) ** (1.0 / (m - eta)), (3.0 * mean / size) ** (1.0 / m))
+    y = max(y, (3.0 * target / size) ** (1.0 / (m + q)))
+    before = math.inf
+    while y < 0.99 * before:
+        before = y
+        y = ((crest * y ** (eta + q) + mean * y**q + target) / size) ** (1.0 / (m + q))
+    return before

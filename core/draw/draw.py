@@ -14,20 +14,11 @@ from gradhesion.core.draw.approximations import draw_asymptotic, draw_effective,
 from gradhesion.core.draw.path import draw_equilibrium, draw_jumps, draw_path
 from gradhesion.core.draw.scene import Drawn, draw_scene, frame_of
 from gradhesion.core.problem.control import BY_DISPLACEMENT, Loading
-from gradhesion.core.problem.names import (
-    CLOSING,
-    CURVES,
-    GENERAL_CURVES,
-    PARAMETERS,
-    PATTERN,
-    PATTERN_CURVES,
-    TURNS,
-    WITHOUT_LOAD,
-)
+from gradhesion.core.problem.names import CLOSING, CURVES, GENERAL_CURVES, PATTERN_CURVES, WITHOUT_LOAD
 from gradhesion.core.problem.outputs import VARIABLES
 from gradhesion.core.problem.profile import WAVY, Profile, starts_downwards
 from gradhesion.core.problem.status import FAILED, NO_VALUE
-from gradhesion.core.sweep import request_of, solve
+from gradhesion.core.sweep import request_of, solve, turn_of
 
 if TYPE_CHECKING:
     from gradhesion.core.problem.toughness import Rate, Toughness
@@ -72,24 +63,16 @@ def _check(
     scene: Mapping[str, float], curves: Sequence[str], loading: Loading, toughness: Toughness | None
 ) -> str | None:
     """Refuse what cannot be drawn; return the name of what a cycle turns at, None if that is the rim."""
-    unknown = [name for name in curves if name not in CURVES]
-    missing = [name for name in PARAMETERS if name not in scene]
-    if unknown or missing:
-        raise ValueError(f"unknown curves {unknown}, missing parameters {missing}")
-    if ("machine_stiffness" in scene) != (loading.control == "machine"):
-        raise ValueError(f"machine_stiffness belongs to control 'machine' and to no other; control {loading.control!r}")
-    if (PATTERN[0] in scene) != (toughness is not None):
-        raise ValueError(f"{PATTERN[0]} belongs to a pattern of toughness, which needs it")
+    if unknown := [name for name in curves if name not in CURVES]:
+        raise ValueError(f"unknown curves {unknown}")
+    turn = turn_of(scene, loading, toughness)
     known = tuple(CURVES) if loading == BY_DISPLACEMENT else GENERAL_CURVES
     known = known if toughness is None else PATTERN_CURVES
     if absent := [name for name in curves if name not in known]:
         one = "asymptotic" if "asymptotic" in absent else "envelope"
         why = f"at a prescribed depth only: {WITHOUT_LOAD[one]}" if toughness is None else "of plain interfaces only"
         raise ValueError(f"curves {absent} are known {why}; there are {', '.join(known)}")
-    turns = [name for name in TURNS if name in scene]
-    if len(turns) > 1:
-        raise ValueError(f"{' and '.join(turns)} are given: a cycle turns at one of them")
-    return turns[0] if turns else None
+    return turn
 
 
 def draw_curves(

@@ -21,7 +21,7 @@ from gradhesion.core.edge.pattern import Pattern, patterned_table
 from gradhesion.core.jit import kernel
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.reduced import UNIT_OF_FORCE, Punch, crest_of
-from gradhesion.core.scenes.requests import Request, columns_of, punch_of, scenes_of, set_lengths
+from gradhesion.core.scenes.requests import Request, columns_of, scenes_of, set_lengths
 from gradhesion.core.scenes.tables import MOST_BINS, long_table
 from gradhesion.core.scenes.tasks import FINEST, prepared
 from gradhesion.core.table.basis import room_of
@@ -125,7 +125,7 @@ class Drawn(NamedTuple):
 
 def frame_of(request: Request) -> Frame | None:
     """Return one scene that turns at its rim in its reduced form, None where a parameter is outside its range."""
-    punch, scenes = punch_of(request), scenes_of(columns_of(request)[0], 0, 1)
+    punch, scenes = request.punch, scenes_of(columns_of(request)[0], 0, 1)
     set_lengths(punch, scenes)
     reduced, finer = prepared(punch, EXACT, scenes)
     known = finer[0] <= FINEST and bool(reduced[at.VALID, 0])

@@ -10,7 +10,6 @@ outside it up to where unloading leaves contact: both are looked for by bisectio
 """
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
@@ -19,7 +18,7 @@ from gradhesion.core.curve.energy import energy_between
 from gradhesion.core.curve.folds import find_folds
 from gradhesion.core.curve.values import Curve, coordinate_of, depth_and_load, load_curve, place_of
 from gradhesion.core.cycle.disc import loading_is_one_disc
-from gradhesion.core.cycle.path import Loaded, State, Unloaded, end_state, snap_in, walk_loading, walk_on
+from gradhesion.core.cycle.path import Cycle, Loaded, State, Unloaded, end_state, snap_in, walk_loading, walk_on
 from gradhesion.core.cycle.pull_off import Lowest, deeper
 from gradhesion.core.cycle.ties import loading_is_tied, rim_is_tied, target_is_tied
 from gradhesion.core.cycle.turning import turning_radius
@@ -48,25 +47,11 @@ from gradhesion.core.many.search import (
     trace_branches,
     trace_waves,
     turn_in,
+    turning_in,
 )
 from gradhesion.core.many.waves import start_of, wave_of, waves_from
 from gradhesion.core.table.layout import end_of
 from gradhesion.core.types import Floats
-
-
-class Looped(NamedTuple):
-    """A cycle up to a rim, as path.py has it.
-
-    reach   where loading lands last
-    snap    the pull after the jump-in
-    """
-
-    loaded: Loaded
-    unloaded: Unloaded
-    reach: float
-    snap: float
-    one_disc: bool
-    tied: bool
 
 
 @allocating
@@ -140,8 +125,7 @@ def turn_far(
     if not before.landed and before.wave < long.most:
         visits = land(long, curve, before)[1]
         piece = on(measured, waves_from(long.waves, before.wave - 2.0, space.nodes, space.polys))
-        rising = trace_branches(piece, long.waves.per, space.measured)[2]
-        found = turning_radius(piece, target, space.trace, space.visited, visits, space.measured, rising)
+        found, rising = turning_in(long, measured, target, piece.table, space, visits)
     if found == math.inf:
         high = int(min(float(long.most), wave_of(long.waves, rim) + 1.0))
         sought = Sought(TURN, curve, target, measured)
@@ -209,13 +193,15 @@ def loop_far(
     starts: int,
     rim: float,
     edge: float,
+    tied: bool,
     total: Floats,
-) -> Looped:
+) -> Cycle:
     """Return the cycle up to a rim of a punch that ends at an `edge`; `same`: closing and opening are one curve.
 
-    `folds`, `begun` and `starts` are those of `end_of_folds` and `begin` of closing; `total` is room, (LOSSES,).
+    `folds`, `begun` and `starts` are those of `end_of_folds` and `begin` of closing; `tied` whether it is close that
+    the cycle ends there; `total` is room, (LOSSES,).
     """
-    unknown = Looped(Loaded(0.0, 0.0, 0.0, False, False), Unloaded(0.0, 0.0, 0.0), 0.0, 0.0, True, False)
+    unknown = Cycle(Loaded(0.0, 0.0, 0.0, False, False), Unloaded(0.0, 0.0, 0.0), rim, 0.0, 0.0, True, False)
     last = _end_wave(long, folds, rim)
     if last > MOST:
         return unknown
@@ -249,7 +235,7 @@ def loop_far(
             from_zero(long, last, long.ends)
     lost, jumps = left.lost + total[INWARDS], left.jumps + total[JUMPS_INWARDS]
     left = Leaving(left.wave, lost, jumps, left.depth, left.tied or (not same and rim_is_tied(piece, rim)))
-    unloaded, tied = finish_unloading(long, piece, count, left, starts, last, rim)
+    unloaded, close = finish_unloading(long, piece, count, left, starts, last, rim)
     if unloaded.lost == math.inf:
         return unknown
-    return Looped(loaded, unloaded, ended.last, ended.snap, ended.one_disc, ended.tied or tied)
+    return Cycle(loaded, unloaded, rim, ended.last, ended.snap, ended.one_disc, tied or ended.tied or close)

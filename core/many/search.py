@@ -144,6 +144,17 @@ def lowest_start(trace: Floats, first: int, last: int) -> int:
 
 
 @kernel
+def turning_in(long: Long, own: Curve, target: float, table: Table, space: Space, visits: int) -> tuple[float, int]:
+    """Return where loading, which visits branches of a piece, first reaches a target, inf if nowhere.
+
+    And the number of branches of its `own` curve, that of the target, whose trace is filled.
+    """
+    curve = on(own, table)
+    rising = trace_branches(curve, long.waves.per, space.measured)[2]
+    return turning_radius(curve, target, space.trace, space.visited, visits, space.measured, rising), rising
+
+
+@kernel
 def turn_in(long: Long, sought: Sought, number: int) -> float:
     """Return where loading along a wave first reaches the level of what is measured, inf if it does not."""
     space = long.scratch
@@ -155,9 +166,7 @@ def turn_in(long: Long, sought: Sought, number: int) -> float:
     trace[at.LANDING, top], trace[at.LOADED, top], trace[at.LOADING_JUMPS, top] = trace[at.START, top], 0.0, 0.0
     visited[0], visits = top, count - count + 1
     visits = walk_on(curve, trace, top + 1, count, visited, visits, end_state(trace, top))
-    measured = on(sought.measured, curve.table)
-    rising = trace_branches(measured, long.waves.per, space.measured)[2]
-    return turning_radius(measured, sought.level, trace, visited, visits, space.measured, rising)
+    return turning_in(long, sought.measured, sought.level, curve.table, space, visits)[0]
 
 
 @inlined

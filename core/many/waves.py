@@ -100,19 +100,8 @@ def _fill_doubling(source: Source, index: int, doubling: int, values: Floats, no
     for place in range(PLACES):
         number = FIRST_WAVE * 2.0 ** (doubling + _PLACE[place])
         whole = int(number)
-        moved = Source(
-            source.k,
-            source.exponent,
-            source.start,
-            source.width,
-            source.waves,
-            source.functions,
-            source.far_waves,
-            source.far_mean,
-            source.form,
-            source.shift + per * (number - whole),
-        )
-        fill_bins(moved, per * whole + index, none, per, nodes, polys)
+        shift = source.shift + per * (number - whole)
+        fill_bins(source, shift, per * whole + index, none, per, nodes, polys)
         _fill_scales(source.k, source.exponent, nodes[at.Y, 0], scales)
         for i in range(per + 1):
             out = values[doubling, i, place]

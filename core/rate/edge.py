@@ -267,7 +267,9 @@ def stride(edge: Edge, way: Way, x: float, lag: float, h: float, area: float, ro
     for _ in range(200):
         step, error = advance(edge, way, x, lag, h, room), math.inf
         if not math.isnan(step.length):
-            low, high = edge.root - np.max(nodes[LAG]), edge.root - np.min(nodes[LAG])
+            low, high = math.inf, -math.inf
+            for i in range(STAGES):
+                low, high = min(low, edge.root - nodes[LAG, i]), max(high, edge.root - nodes[LAG, i])
             loss = _LOST * min(1.0, (0.1 * step.relaxed) ** (STAGES - 1))
             loss += _KINK if lag == 0.0 or (edge.sense < 0.0 and 2.0 * low < high and high > 0.0) else 0.0
             error = h * max(_spared(nodes[BY_LAG], loss) / (1.0 + step.lag), _spared(nodes[WORK], 0.0) / area)

@@ -180,7 +180,7 @@ def move_edges(
     `scenes` and `reduced` are those of scenes/rows.py, the first with a last row of V/v*. `out` has a row a result,
     NaN where nothing is stored, and a last one of status. The track of the room takes where the last edge has been.
     """
-    shortest_wave = 2.0 * math.pi / np.max(punch.waves[:, 0])
+    shortest_wave = 2.0 * math.pi / punch.waves[-1, 0]
     for i in range(scenes.shape[1]):
         speed, units, found = scenes[-1, i], reduced[:, i], out[:, i]
         root, rim = 1.0 if opens else math.sqrt(scenes[at.RATIO, i]), units[at.RIM_Y]

@@ -13,19 +13,19 @@ from gradhesion.core.curve.levels import polished
 from gradhesion.core.curve.trace import END, END_LEVEL, LANDING, START
 from gradhesion.core.curve.values import Curve, load_curve, state_in
 from gradhesion.core.cycle.disc import gap_is_open, loading_is_one_disc
-from gradhesion.core.cycle.path import Loaded, load_to, snap_in, unload_from, visited_within, walk_loading
+from gradhesion.core.cycle.jumps import list_loading_jumps, list_unloading_jumps
+from gradhesion.core.cycle.path import Cycle, Loaded, load_to, snap_in, unload_from, visited_within, walk_loading
 from gradhesion.core.cycle.pull_off import Lowest, lowest_load, serves
 from gradhesion.core.cycle.residual import work_of_cycle
 from gradhesion.core.cycle.ties import loading_is_tied, rim_is_tied, target_is_tied, unloading_is_tied
 from gradhesion.core.cycle.turning import turning_radius
 from gradhesion.core.edge.pattern import Pattern, patterned_table
 from gradhesion.core.jit import inlined, kernel, leaf
-from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
+from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.reduced import AT_A_LOAD, AT_DEPTH, AT_RIM, Punch
-from gradhesion.core.scenes.requests import Wanted
-from gradhesion.core.scenes.results import Cycle, no_value, put_force, put_losses, put_no_contact, put_pull_off
-from gradhesion.core.scenes.tables import Task
+from gradhesion.core.scenes.results import no_value, put_force, put_losses, put_no_contact, put_pull_off
+from gradhesion.core.scenes.tables import Rooms, Task
 from gradhesion.core.table.layout import Table, end_of
 from gradhesion.core.types import Floats, Integers
 
@@ -39,9 +39,10 @@ class Walked(NamedTuple):
     loading, unloading  traces of the two, which are one at ratio 1
     turning             a trace of what is measured where cycles turn: that of closing if that is prescribed
     columns             those that loading visits, and a stack of unloading, (2, branches)
-    branches            of closing; negative: the table is too short
+    branches, opened    of closing and of opening; negative: the table is too short
     visits              those that loading visits
     measured            branches of `turning`
+    farthest            radius at which one of its scenes turns
     """
 
     closing: Curve
@@ -53,8 +54,10 @@ class Walked(NamedTuple):
     turning: Floats
     columns: Integers
     branches: int
+    opened: int
     visits: int
     measured: int
+    farthest: float
 
 
 CLOSING_TRACE, OPENING_TRACE, MEASURED_TRACE = range(3)
@@ -91,6 +94,22 @@ def curve_of(
     return Curve(table, B, g, reduced[at.BY_DEPTH, i], reduced[at.BY_LOAD, i])
 
 
+@leaf
+def curves_of(
+    table: Table, crest: float, rooms: Rooms, pattern: Pattern, reduced: Floats, i: int, y_end: float
+) -> tuple[Curve, Curve]:
+    """Return the curves of closing and of opening of scene i, which are one where both have the same work.
+
+    `crest` is that of a task, `rooms` have room for tables with a pattern, which are filled up to y_end.
+    """
+    ratio = reduced[at.CLOSING, i]
+    closing = curve_of(table, crest, pattern, reduced, i, math.sqrt(ratio), y_end, rooms.nodes[0], rooms.polys[0])
+    opening = closing
+    if ratio != 1.0:
+        opening = curve_of(table, crest, pattern, reduced, i, 1.0, y_end, rooms.nodes[1], rooms.polys[1])
+    return closing, opening
+
+
 @kernel
 def same_curve(scenes: Floats, reduced: Floats, i: int, j: int) -> bool:
     """Return whether two scenes differ in rim and target alone."""
@@ -118,24 +137,6 @@ def _polish_landings(closing: Curve, loading: Floats, visited: Integers, visits:
         level = loading[END_LEVEL, j]
 
 
-@kernel
-def _turn(walked: Walked, turn: int, reduced: Floats, i: int) -> float:
-    """Return where scene i turns; its rim if nowhere within the table before, 0 if there is no contact."""
-    target = reduced[at.TARGET_VALUE, i] / math.sqrt(walked.ratio)
-    if turn == AT_DEPTH and target < 0.0:
-        return 0.0
-    found = turning_radius(
-        measured_curve(walked.closing, turn),
-        target,
-        walked.loading,
-        walked.columns[0],
-        walked.visits,
-        walked.turning,
-        walked.measured,
-    )
-    return min(found, float(reduced[at.RIM_Y, i]))
-
-
 @leaf
 def _loading_keeps_one_disc(task: Task, walked: Walked, y: float, reduced: Floats, i: int) -> bool:
     """Return whether the contact stays one disc on loading up to y, where the cycle turns, and around it there."""
@@ -152,41 +153,28 @@ def _loading_keeps_one_disc(task: Task, walked: Walked, y: float, reduced: Float
 
 
 @leaf
-def _target_is_tied(walked: Walked, turn: int, y: float, reduced: Floats, i: int) -> bool:
-    """Return whether the target of scene i, which turns at y, is close to a highest one before."""
-    target = reduced[at.TARGET_VALUE, i] / math.sqrt(walked.ratio)
-    return target_is_tied(
-        measured_curve(walked.closing, turn),
-        target,
-        y,
-        walked.loading,
-        walked.columns[0],
-        walked.visits,
-        walked.turning,
-        walked.measured,
-    )
-
-
-@leaf
-def _is_tied(walked: Walked, opened: int, y: float, at_rim: bool) -> bool:
-    """Return whether a decision of a cycle that turns at y is close, but for the turn."""
-    closing, opening = walked.closing, walked.opening
-    tied = rim_is_tied(closing, y) or loading_is_tied(closing, y, at_rim, walked.loading, walked.branches)
+def _is_tied(walked: Walked, turn: int, y: float, reduced: Floats, i: int) -> bool:
+    """Return whether a decision of the cycle of scene i, which turns at y, is close."""
+    closing, opening, trace = walked.closing, walked.opening, walked.loading
+    at_rim = y >= reduced[at.RIM_Y, i]
+    tied = rim_is_tied(closing, y) or loading_is_tied(closing, y, at_rim, trace, walked.branches)
     tied = tied or (walked.ratio < 1.0 and rim_is_tied(opening, y))
-    return tied or unloading_is_tied(opening, y, walked.unloading, opened)
+    tied = tied or unloading_is_tied(opening, y, walked.unloading, walked.opened)
+    if turn == AT_RIM or tied:
+        return tied
+    own, target = measured_curve(closing, turn), reduced[at.TARGET_VALUE, i] / math.sqrt(walked.ratio)
+    visited, visits = walked.columns[0], walked.visits
+    return target_is_tied(own, target, y, trace, visited, visits, walked.turning, walked.measured)
 
 
 @leaf
-def _put_cycle(walked: Walked, wanted: Wanted, opened: int, y: float, reduced: Floats, i: int, out: Floats) -> int:
-    """Store what the cycle of scene i, which turns at y, loses; return its bits of status, -1: too short a table.
-
-    `opened` is the number of branches of opening.
-    """
+def _put_cycle(walked: Walked, task: Task, y: float, reduced: Floats, i: int, out: Floats) -> int:
+    """Store what the cycle of scene i, which turns at y, loses; return its bits of status, -1: too short a table."""
     closing, opening, loading, visited = walked.closing, walked.opening, walked.loading, walked.columns[0]
     loaded = load_to(closing, y, loading, visited, walked.visits)
     if not loaded.known:
         return -1
-    unloaded = unload_from(opening, y, walked.unloading, opened, walked.columns[1])
+    unloaded = unload_from(opening, y, walked.unloading, walked.opened, walked.columns[1])
     n, rim = visited_within(loading, visited, walked.visits, y), reduced[at.RIM_Y, i]
     beyond = n > 0 and y == rim and reduced[at.WINDOW, i] < y <= loading[END, visited[n - 1]]
     if beyond and walked.pattern.rows.shape[1] == 0:
@@ -194,35 +182,39 @@ def _put_cycle(walked: Walked, wanted: Wanted, opened: int, y: float, reduced: F
         loaded = Loaded(loaded.lost, loaded.jumps, math.inf, loaded.in_to_rim, True)
     reach = loading[LANDING, visited[n - 1]] if n > 0 else y
     landing = min(loading[LANDING, visited[0]] if walked.visits > 0 else math.inf, rim)
-    cycle = Cycle(loaded, unloaded, y, reach, snap_in(closing, landing))
+    one_disc = not task.wanted.contact or _loading_keeps_one_disc(task, walked, y, reduced, i)
+    tied = _is_tied(walked, task.punch.turn, y, reduced, i)
+    cycle = Cycle(loaded, unloaded, y, reach, snap_in(closing, landing), one_disc, tied)
     bits = put_losses(cycle, opening, walked.pattern, walked.ratio, reduced, i, out)
-    if wanted.residual:
+    if task.wanted.residual:
+        jumps, count, total = task.rooms.jumps, 0, 0
         top = y  # where one curve leads out beyond the last landing and back, its load does no work
         if walked.ratio == 1.0 and n > 0 and loading[END, visited[n - 1]] == math.inf:
             top = min(y, 1.01 * reach, end_of(closing.table))
-        work = work_of_cycle(closing, opening, top, loading, walked.visits, visited, walked.unloading, opened)
+        if top <= end_of(closing.table):
+            count = list_loading_jumps(closing, top, loading, visited, walked.visits, jumps)
+            total = list_unloading_jumps(opening, top, walked.unloading, walked.opened, jumps, count)
+        work = work_of_cycle(closing, opening, top, jumps, count, total)
         out[at.RESIDUAL, i] = out[at.ENERGY, i] - work * 2.0 * math.pi * reduced[at.LENGTH, i] ** 2
-    return bits | (CLOSE_TO_A_JUMP if _is_tied(walked, opened, y, y >= rim) else 0)
+    return bits
 
 
 @leaf
-def turns_of(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> Walked:
-    """Store where scenes of one curve turn, in TURN, as a reduced radius; return their curve of closing as walked.
+def walk_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> Walked:
+    """Trace and walk the curves that scenes share; store where they turn, in TURN, as a reduced radius.
 
-    The curve is traced as far as some scene is sure to turn, and farther where a jump has passed its target.
+    The curve of closing is traced as far as some scene is sure to turn, and farther where a jump has passed its target.
+    Scenes that turn beyond the table get SHORT as status and no TURN.
     """
-    rooms, turn, table, far = task.rooms, task.punch.turn, task.table, 0.0
-    nodes, polys, ratio = rooms.nodes, rooms.polys, reduced[at.CLOSING, first]
-    pattern = pattern_of(task.punch, scenes, reduced, first)
+    rooms, turn, end, far = task.rooms, task.punch.turn, end_of(task.table), 0.0
+    pattern, ratio = pattern_of(task.punch, scenes, reduced, first), reduced[at.CLOSING, first]
     loading, columns = rooms.traces[CLOSING_TRACE], rooms.columns
     for i in range(first, last):
         far = max(far, reduced[at.NEED, i] if turn != AT_RIM else reduced[at.RIM_Y, i])
-    while True:
-        closing = curve_of(table, task.crest, pattern, reduced, first, math.sqrt(ratio), far, nodes[0], polys[0])
-        opening, unloading, turning = closing, loading, loading
-        if ratio != 1.0:
-            opening = curve_of(table, task.crest, pattern, reduced, first, 1.0, far, nodes[1], polys[1])
-            unloading = rooms.traces[OPENING_TRACE]
+    farther = True
+    while farther:
+        closing, opening = curves_of(task.table, task.crest, rooms, pattern, reduced, first, far)
+        own, turning = measured_curve(closing, turn), loading
         rooms.limits[0], rooms.limits[1] = 0.0, -1.0
         branches, visits = find_folds(closing, far, loading), 0
         measured = branches
@@ -230,71 +222,54 @@ def turns_of(task: Task, scenes: Floats, reduced: Floats, first: int, last: int,
             visits = walk_loading(closing, loading, branches, columns[0])
         if branches >= 0 and turn != AT_RIM:  # losses forgive the error of a landing, but not where a cycle turns
             _polish_landings(closing, loading, columns[0], visits)
-            own = measured_curve(closing, turn)
             if own.by_depth != closing.by_depth or own.by_load != closing.by_load:
                 turning = rooms.traces[MEASURED_TRACE]
                 measured = find_folds(own, far, turning)
-        walked = Walked(
-            closing, opening, pattern, ratio, loading, unloading, turning, columns, branches, visits, measured
-        )
         farther = False
         for i in range(first, last):
-            out[at.TURN, i] = math.nan
-            if branches >= 0:
-                out[at.TURN, i] = reduced[at.RIM_Y, i] if turn == AT_RIM else _turn(walked, turn, reduced, i)
-            if (
-                turn != AT_RIM
-                and out[at.TURN, i] == reduced[at.RIM_Y, i]
-                and far < min(reduced[at.RIM_Y, i], end_of(table))
-            ):
-                farther = True  # not reached as far as the curve is traced
-        if not farther:
-            return walked
-        far = min(2.0 * far, end_of(table))
+            rim, target = reduced[at.RIM_Y, i], reduced[at.TARGET_VALUE, i] / math.sqrt(ratio)
+            y = rim if branches >= 0 else math.nan
+            if branches >= 0 and turn != AT_RIM:
+                y = 0.0
+                if turn != AT_DEPTH or target >= 0.0:
+                    y = min(turning_radius(own, target, loading, columns[0], visits, turning, measured), rim)
+                farther = farther or (y == rim and far < min(rim, end))  # not reached as far as the curve is traced
+            out[at.TURN, i] = y
+        far = min(2.0 * far, end)
+    opened, farthest = branches, 0.0
+    for i in range(first, last):
+        y = out[at.TURN, i]
+        if math.isnan(y) or (turn != AT_RIM and y >= end and branches >= 0):
+            no_value(out, i, at.SHORT)
+        else:
+            farthest = max(farthest, y)
+    unloading = loading if ratio == 1.0 else rooms.traces[OPENING_TRACE]
+    if ratio < 1.0 and branches >= 0 and farthest > 0.0:
+        opened = find_folds(opening, farthest, unloading)
+    traces = loading, unloading, turning, columns
+    return Walked(closing, opening, pattern, ratio, *traces, branches, opened, visits, measured, farthest)
 
 
 @kernel
 def _last_fold(opening: Curve, trace: Floats) -> float:
-    """Return the radius of the outermost fold of opening, 0 if there is none; the trace is overwritten."""
+    """Return the radius of the outermost fold of opening, 0 if there is none; NaN: the table is too short."""
     count = find_folds(opening, math.inf, trace)
     if count <= 0:
-        return 0.0 if count == 0 else math.inf
+        return 0.0 if count == 0 else math.nan
     return float(trace[START, count - 1] if trace[END, count - 1] == math.inf else trace[END, count - 1])
-
-
-@leaf
-def open_curve(walked: Walked, turn: int, first: int, last: int, out: Floats) -> tuple[int, float]:
-    """Trace the curve of opening of scenes whose TURN is stored; return its branches and the farthest turn.
-
-    Those that turn beyond the table get SHORT as status and no TURN.
-    """
-    end, farthest, opened = end_of(walked.opening.table), 0.0, walked.branches
-    for i in range(first, last):
-        beyond = turn != AT_RIM and out[at.TURN, i] >= end and opened >= 0
-        if math.isnan(out[at.TURN, i]) or beyond:
-            no_value(out, i, at.SHORT)
-        else:
-            farthest = max(farthest, out[at.TURN, i])
-    if walked.ratio < 1.0 and opened >= 0 and farthest > 0.0:
-        opened = find_folds(walked.opening, farthest, walked.unloading)
-    return opened, farthest
 
 
 @inlined
 def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Solve the scenes `first` to `last` - 1, all of one curve and valid; store their results, or SHORT as status."""
-    wanted, turn = task.wanted, task.punch.turn
-    walked = turns_of(task, scenes, reduced, first, last, out)
-    opened, farthest = open_curve(walked, turn, first, last, out)
-    patterned = walked.pattern.rows.shape[1] > 0
+    walked = walk_curve(task, scenes, reduced, first, last, out)
+    patterned, farthest = walked.pattern.rows.shape[1] > 0, walked.farthest
     pull = load_curve(walked.opening)
     if not patterned:
         pull = Curve(task.by_load, pull.B, pull.g, 0.0, 1.0)
-    lowest, last_fold, bins = Lowest(0.0, 0.0, 0.0, 0.0, True), 0.0, pull.table.bins
+    lowest, bins = Lowest(0.0, 0.0, 0.0, 0.0, True), pull.table.bins
     if farthest > 0.0:
         lowest = lowest_load(pull, farthest, 0, bins)
-    if wanted.saturation and walked.branches >= 0:
-        last_fold = _last_fold(walked.opening, task.rooms.traces[MEASURED_TRACE])
     for i in range(first, last):
         y = out[at.TURN, i]
         if math.isnan(y):
@@ -305,17 +280,12 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
         own, bits = lowest, -1
         if not serves(lowest, farthest, y):
             own = lowest_load(pull, y, 0, bins)
-        if walked.branches >= 0 and opened >= 0 and own.known and (own.load < 0.0 or patterned):
-            bits = _put_cycle(walked, wanted, opened, y, reduced, i, out)
-        if bits < 0:
+        if walked.branches >= 0 and walked.opened >= 0 and own.known and (own.load < 0.0 or patterned):
+            bits = _put_cycle(walked, task, y, reduced, i, out)
+        if bits >= 0:
+            out[at.STATUS, i] = bits | put_pull_off(own, y, reduced, i, out)
+        else:
             no_value(out, i, at.SHORT)
-            continue
-        if turn != AT_RIM and _target_is_tied(walked, turn, y, reduced, i):
-            bits |= CLOSE_TO_A_JUMP
-        if wanted.contact and not _loading_keeps_one_disc(task, walked, y, reduced, i):
-            bits |= LOADING_NOT_ONE_DISC
-        out[at.STATUS, i] = bits | put_pull_off(own, y, reduced, i, out)
-        out[at.SATURATION, i] = last_fold * reduced[at.LENGTH, i]
 
 
 @kernel
@@ -335,27 +305,43 @@ def curve_end(reach: float, scenes: Floats, reduced: Floats, start: int, last: i
 
 
 @leaf
-def solve_patterned_forces(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
-    """Solve the pull-off alone of the scenes `first` to `last` - 1 with a pattern: no farther than it can be."""
-    rooms = task.rooms
+def _solve_forces(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
+    """Solve the pull-off alone of the scenes `first` to `last` - 1: with a pattern no farther than it can be."""
+    table, nodes, polys = task.by_load, task.rooms.nodes[0], task.rooms.polys[0]
     for i in range(first, last):
         if curve_end(task.reach, scenes, reduced, i, i + 1, out) == i:
             continue
-        pattern = pattern_of(task.punch, scenes, reduced, i)
-        lowest = Lowest(0.0, 0.0, 0.0, 0.0, False)
-        for y_end in (reduced[at.NEED, i], end_of(task.table)):
+        pattern, lowest = pattern_of(task.punch, scenes, reduced, i), Lowest(0.0, 0.0, 0.0, 0.0, False)
+        for y_end in (reduced[at.NEED, i], end_of(table)):
             if not lowest.known:
-                own = curve_of(task.table, task.crest, pattern, reduced, i, 1.0, y_end, rooms.nodes[0], rooms.polys[0])
-                pull = Curve(own.table, own.B, own.g, 0.0, 1.0)
-                lowest = lowest_load(pull, reduced[at.RIM_Y, i], 0, own.table.bins)
+                own = curve_of(table, task.crest, pattern, reduced, i, 1.0, y_end, nodes, polys)
+                lowest = lowest_load(own, reduced[at.RIM_Y, i], 0, own.table.bins)
         put_force(lowest, reduced, i, out)
+
+
+@leaf
+def _fill_saturation(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
+    """Store the outermost folds of the scenes `first` to `last` - 1."""
+    nodes, polys = task.rooms.nodes[0], task.rooms.polys[0]
+    for i in range(first, last):
+        y = math.inf
+        if reduced[at.WINDOW, i] < math.inf or not reduced[at.VALID, i]:
+            if curve_end(task.reach, scenes, reduced, i, i + 1, out) == i:
+                continue
+            pattern = pattern_of(task.punch, scenes, reduced, i)
+            own = curve_of(task.table, task.crest, pattern, reduced, i, 1.0, reduced[at.NEED, i], nodes, polys)
+            y = _last_fold(own, task.rooms.traces[OPENING_TRACE])
+        out[at.SATURATION, i], out[at.STATUS, i] = y * reduced[at.LENGTH, i], at.SHORT if math.isnan(y) else 0.0
 
 
 @inlined
 def solve_exponent(task: Task, scenes: Floats, reduced: Floats, first: int, last: int, out: Floats) -> None:
     """Solve the scenes `first` to `last` - 1 of one exponent, on arrays that Python holds."""
-    if not task.wanted.cycle and task.punch.turn == AT_RIM:  # of an interface with a pattern
-        solve_patterned_forces(task, scenes, reduced, first, last, out)
+    if task.wanted.saturation:
+        _fill_saturation(task, scenes, reduced, first, last, out)
+        return
+    if not task.wanted.cycle and task.punch.turn == AT_RIM:
+        _solve_forces(task, scenes, reduced, first, last, out)
         return
     start = first
     while start < last:

@@ -3,26 +3,25 @@
 import math
 import threading
 from collections import OrderedDict
-from collections.abc import Callable
+from functools import partial
 from typing import Final
 
 import numpy as np
 
 from gradhesion.core.curve.values import Curve
-from gradhesion.core.cycle.disc import disc_of
 from gradhesion.core.cycle.pull_off import lowest_load
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.many.loop import begin, last_fold, loop_far, lowest_far, turn_far
 from gradhesion.core.many.losses import LOSSES
 from gradhesion.core.many.search import MOST, NEAR, Long, end_of_folds, from_birth, space_for, with_limits
 from gradhesion.core.many.waves import Waves, reach_of, start_of, waves_of
-from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE, TOO_MANY_WAVES
+from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.cycles import measured_curve, pattern_of
-from gradhesion.core.scenes.reduced import AT_DEPTH, AT_RIM, Punch, depth_factor_of
+from gradhesion.core.scenes.reduced import AT_DEPTH, AT_RIM, Punch, disc_of
 from gradhesion.core.scenes.requests import Wanted
-from gradhesion.core.scenes.results import Cycle, no_value, put_force, put_losses, put_no_contact, put_pull_off
-from gradhesion.core.scenes.tables import MOST_BINS, Task, long_table, rooms_for
+from gradhesion.core.scenes.results import no_value, put_force, put_losses, put_no_contact, put_pull_off
+from gradhesion.core.scenes.tables import MOST_BINS, Task, long_table, rooms_for, solve_some
 from gradhesion.core.table.filling import width_of
 from gradhesion.core.table.layout import BY_LOAD as OF_PULL_OFF
 from gradhesion.core.table.layout import EXACT, GEOMETRIC, PER_WAVE, end_of
@@ -99,36 +98,29 @@ def solve_long(
         if not task.wanted.cycle and turn == AT_RIM:
             put_force(lowest, reduced, i, out)
             continue
-        looped = loop_far(long, closing, opening, root == 1.0, folds, begun, starts, y, edge, total)
-        if not looped.loaded.known:
+        cycle = loop_far(long, closing, opening, root == 1.0, folds, begun, starts, y, edge, tied, total)
+        if not cycle.loaded.known:
             no_value(out, i, at.SHORT if reduced[at.NEED, i] < walkable else NO_VALUE | TOO_MANY_WAVES)
             continue
-        cycle = Cycle(looped.loaded, looped.unloaded, y, looped.reach, looped.snap)
         pattern = pattern_of(task.punch, scenes, reduced, i)
         bits = put_losses(cycle, opening, pattern, reduced[at.CLOSING, i], reduced, i, out)
-        bits |= put_pull_off(lowest, y, reduced, i, out)
-        if not looped.one_disc:
-            bits |= LOADING_NOT_ONE_DISC
-        out[at.STATUS, i] = bits | (CLOSE_TO_A_JUMP if tied or looped.tied else 0)
+        out[at.STATUS, i] = bits | put_pull_off(lowest, y, reduced, i, out)
 
 
 @kernel
 def fill_saturation(task: Task, every: Long, most: Integers, reduced: Floats, out: Floats) -> None:
-    """Store the radii of the outermost folds of opening, of scenes that have a value; `most` as of `solve_long`."""
+    """Store the radii of the outermost folds of opening, of scenes whose folds end; `most` as of `solve_long`."""
     for i in range(reduced.shape[1]):
-        if out[at.STATUS, i] < NO_VALUE or not int(out[at.STATUS, i]) & NO_VALUE:
-            long = with_limits(every, every.near, most[i])
-            y = last_fold(long, _curve(task, reduced, i, 1.0)) if reduced[at.WINDOW, i] < math.inf else math.inf
-            out[at.SATURATION, i] = y * reduced[at.LENGTH, i]  # NaN, and flagged, if there are too many waves up to it
-            if math.isnan(y):
-                out[at.STATUS, i] = int(out[at.STATUS, i]) | TOO_MANY_WAVES
+        y = last_fold(with_limits(every, every.near, most[i]), _curve(task, reduced, i, 1.0))
+        out[at.SATURATION, i] = y * reduced[at.LENGTH, i]
+        out[at.STATUS, i] = NO_VALUE | TOO_MANY_WAVES if math.isnan(y) else 0
 
 
 _waves: OrderedDict[tuple[object, ...], Waves] = OrderedDict()
 _lock = threading.Lock()
 
 
-def _long_of(punch: Punch, wanted: Wanted, k: float, form: int, profile: Floats, most: int) -> tuple[Task, Long]:
+def _long_of(punch: Punch, wanted: Wanted, k: float, form: int, most: int) -> tuple[Task, Long]:
     """Return what scenes of an exponent are summed with, up to a number of waves."""
     near = NEAR + 3.0
     if punch.exponent - 1.0 < 0.5 * (1.0 - k):  # folds may begin far out
@@ -143,7 +135,7 @@ def _long_of(punch: Punch, wanted: Wanted, k: float, form: int, profile: Floats,
         while len(_waves) > 1 and sum(own.values.nbytes for own in _waves.values()) > _KEPT_WAVES:
             _waves.popitem(last=False)
     rooms = rooms_for(0, patterned=False)
-    disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile, rooms.weights)
+    disc = disc_of(punch, k, rooms.weights)
     task = Task(punch, wanted, table, table, crest, disc, rooms, math.inf)
     spaces = (space_for(bins) for bins in (table.bins, 2 * waves.per, 3 * waves.per, 5 * waves.per))
     return task, Long(table, waves, NEAR, most, disc, wanted.contact, *spaces)
@@ -158,44 +150,25 @@ def _walked(punch: Punch, wanted: Wanted) -> float:
     return 2.0 * math.pi * min(waves, max(bins / per, 64.0))
 
 
-def solve_summed(
-    punch: Punch,
-    wanted: Wanted,
-    form: int,
-    profile: Floats,
-    scenes: Floats,
-    reduced: Floats,
-    out: Floats,
-    walk: Callable[[Floats, Floats, Floats], None],
-) -> None:
-    """Solve scenes of one exponent that have more waves than are walked; others are left as SHORT.
+def solve_summed(punch: Punch, wanted: Wanted, form: int, scenes: Floats, reduced: Floats, out: Floats) -> None:
+    """Solve scenes of one exponent that have more waves than are walked; others, and irregular ones, stay SHORT."""
+    far = np.flatnonzero(reduced[at.NEED] > _walked(punch, wanted))
+    solve_some(partial(_solve_summed, punch, wanted, form), far, scenes, reduced, out)
 
-    `walk` solves those of them that prove irregular.
-    """
-    out[at.STATUS] = at.SHORT
-    walked = _walked(punch, wanted)
-    far = np.flatnonzero(reduced[at.NEED] > walked)
-    if not far.size:
-        return
-    chosen, own = np.ascontiguousarray(scenes[:, far]), np.ascontiguousarray(reduced[:, far])
-    found = np.empty((at.RESULT_ROWS, far.size))
-    k, reach = float(scenes[at.K, 0]), own[at.NEED]
+
+def _solve_summed(punch: Punch, wanted: Wanted, form: int, scenes: Floats, reduced: Floats, out: Floats) -> None:
+    """Solve scenes of one exponent by sums over their waves."""
+    k, reach = float(scenes[at.K, 0]), reduced[at.NEED]
     if punch.turn != AT_RIM:  # a jump may pass where a cycle turns
-        reach = np.minimum(np.fmax(reach, own[at.WINDOW]), own[at.RIM_Y])
+        reach = np.minimum(np.fmax(reach, reduced[at.WINDOW]), reduced[at.RIM_Y])
     most = np.minimum(reach / (2.0 * math.pi) + 3.0, MOST + 8.0).astype(np.int64)
-    task, long = _long_of(punch, wanted, k, form, profile, int(most.max()))
+    task, long = _long_of(punch, wanted, k, form, int(most.max()))
+    if wanted.saturation:
+        fill_saturation(task, long, most, reduced, out)
+        return
     pull = long
     if form != EXACT:
-        by_load, pull = _long_of(punch, wanted, k, OF_PULL_OFF, profile, int(most.max()))
+        by_load, pull = _long_of(punch, wanted, k, OF_PULL_OFF, int(most.max()))
         task = task._replace(by_load=by_load.table)
     walkable = (MOST_BINS - 2 * GEOMETRIC) * width_of(punch.waves)
-    solve_long(task, long, pull, most, chosen, own, walkable, np.empty(LOSSES), found)
-    left = np.flatnonzero(found[at.STATUS] == at.SHORT)
-    if left.size:
-        rest = np.full((at.RESULT_ROWS, left.size), np.nan)
-        again, numbers = np.ascontiguousarray(chosen[:, left]), np.ascontiguousarray(own[:, left])
-        walk(again, numbers, rest)
-        found[:, left] = rest
-    if wanted.saturation:
-        fill_saturation(task, long, most, own, found)
-    out[:, far] = found
+    solve_long(task, long, pull, most, scenes, reduced, walkable, np.empty(LOSSES), out)

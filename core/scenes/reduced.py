@@ -11,8 +11,9 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from gradhesion.core.cycle.disc import Disc, fill_weights
 from gradhesion.core.cycle.turning import turning_reach
-from gradhesion.core.jit import inlined, kernel
+from gradhesion.core.jit import inlined, kernel, leaf
 from gradhesion.core.problem.material import theta_of
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.table.basis import Basis, between
@@ -35,11 +36,12 @@ class Punch(NamedTuple):
     """What all scenes of a call share.
 
     exponent    m of the punch r^m/(m R^(m-1))
-    waves       its harmonics, rows (n, cos, sin)
+    waves       its harmonics, rows (n, cos, sin) in the order of n
     control     DISPLACEMENT, AT_LOAD or MACHINE
     turn        AT_RIM, AT_DEPTH or AT_A_LOAD
     rows        the harmonics of the pattern of toughness, (2, highest); (2, 0) without one
     of_work     whether they multiply the work of adhesion
+    profile     heights of the waves, as of `profile_of`
     """
 
     exponent: float
@@ -48,6 +50,7 @@ class Punch(NamedTuple):
     turn: int
     rows: Floats
     of_work: bool
+    profile: Floats
 
 
 @kernel
@@ -74,13 +77,22 @@ def crest_of(k: float, waves: Floats) -> float:
     return total
 
 
-@inlined
+@leaf
 def mean_of(waves: Floats) -> float:
     """Return a bound of the part of U that has no waves."""
     total = 0.0
     for h in range(len(waves)):
         total += math.hypot(waves[h, 1], waves[h, 2])
     return total
+
+
+@kernel
+def disc_of(punch: Punch, k: float, weights: Floats) -> Disc:
+    """Return what the tests of the contact need of an exponent; `weights` is room for those of its rule, (RULE,)."""
+    fill_weights(k, weights)
+    crest, wave = crest_of(k, punch.waves), 2.0 * math.pi / punch.waves[-1, 0]
+    bend = 1.0 / (punch.exponent * depth_factor_of(k, punch.exponent))
+    return Disc(0.5 * (1.0 - k), weights, crest, mean_of(punch.waves), wave, bend, punch.profile, punch.waves)
 
 
 @inlined
@@ -210,7 +222,7 @@ def _is_below_tables(punch: Punch, i: int, least: float, reduced: Floats) -> boo
 def reduce_scenes(punch: Punch, basis: Basis, scenes: Floats, reduced: Floats) -> None:
     """Fill the reduced numbers of all scenes but MOST and STEEP; scenes that differ in the rim alone share the rest."""
     k = nu = theta = depth_factor = crest = steepest = math.nan
-    mean, least = mean_of(punch.waves), _LEAST / punch.waves[:, 0].max()
+    mean, least = mean_of(punch.waves), _LEAST / punch.waves[-1, 0]
     i = int(np.int64(0))  # a plain 0 would be a type of its own
     while i < scenes.shape[1]:
         if scenes[at.K, i] != k:

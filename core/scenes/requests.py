@@ -3,16 +3,19 @@
 import math
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from typing import Final, NamedTuple
+from itertools import pairwise
+from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 
-from gradhesion.core.edge.pattern import rows_by_number
 from gradhesion.core.processors import processors
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.reduced import Punch
+from gradhesion.core.table.basis import is_interpolated
 from gradhesion.core.types import Floats, Integers
 
+Places: TypeAlias = slice | Integers
+"""Of scenes among all."""
 _SCENES: Final = 1000
 """Scenes of a part, at least: a millisecond or more."""
 _MOST_SCENES: Final = 4000
@@ -23,34 +26,27 @@ class Wanted(NamedTuple):
     """What of a scene is wanted."""
 
     cycle: bool  # anything but the pull-off
-    depth: bool  # the depth at rims beyond the table
     contact: bool  # whether loading keeps the contact one disc
     residual: bool  # the loop integral
     saturation: bool  # the radius beyond which there is no fold
 
 
 class Request(NamedTuple):
-    """What a call asks for: the parameters of its scenes, and what all of them share, as `Punch` has it.
+    """What a call asks for.
 
     arrays      an array for each row of parameters (rows.py), all broadcastable
     shape       that of all of them together, which is that of the scenes
-    pattern     the harmonics of the pattern of toughness, rows (n, cos, sin)
+    punch       what they share
     """
 
     arrays: list[Floats]
     shape: tuple[int, ...]
-    exponent: float
-    waves: Floats
-    control: int
-    turn: int
-    pattern: Floats
-    of_work: bool
+    punch: Punch
 
 
 def punch_of(request: Request) -> Punch:
     """Return what the scenes of a request share."""
-    rows = rows_by_number(request.pattern)
-    return Punch(request.exponent, request.waves, request.control, request.turn, rows, request.of_work)
+    return request.punch
 
 
 def columns_of(request: Request) -> tuple[list[Floats], int]:
@@ -68,7 +64,7 @@ def scenes_of(columns: list[Floats], first: int, last: int) -> Floats:
     return scenes
 
 
-def scenes_by_exponent(columns: list[Floats], first: int, last: int) -> tuple[Floats, slice | Integers]:
+def _by_exponent(columns: list[Floats], first: int, last: int) -> tuple[Floats, Places]:
     """Return the scenes `first` to `last` - 1 in the order of their exponents, and their places among all."""
     scenes = scenes_of(columns, first, last)
     if not (scenes[at.K, 1:] < scenes[at.K, :-1]).any():
@@ -85,14 +81,31 @@ def set_lengths(punch: Punch, scenes: Floats) -> None:
         scenes[at.WAVELENGTH, smooth] = scenes[at.PATTERN_WAVELENGTH, smooth]
 
 
-def run_parts(count: int, work: Callable[[int, int], None], threads: int | None) -> None:
-    """Do the work on parts of `count` scenes, first to last, on threads that each take the next part."""
+def run_parts(request: Request, work: Callable[[Floats, Places], None], threads: int | None) -> None:
+    """Do the work on parts of the scenes, in the order of their exponents, on threads that each take the next part.
+
+    `work` takes the parameters of a part, (PARAMETER_ROWS, scenes), and the places of its scenes among all. Parts of a
+    long series, whose bins are not interpolated in k, have one exponent.
+    """
+    punch, (columns, count) = request.punch, columns_of(request)
     workers = 1 if count < 2 * _SCENES else min(threads or processors(), -(-count // _SCENES))
     size = max(_SCENES, min(_MOST_SCENES, -(-count // (4 * workers)))) if workers > 1 else _MOST_SCENES
-    parts = [(first, min(first + size, count)) for first in range(0, count, size)]
+
+    def part(first: int) -> None:
+        """Do the work on one part."""
+        scenes, places = _by_exponent(columns, first, min(first + size, count))
+        set_lengths(punch, scenes)
+        if is_interpolated(punch.waves):
+            work(scenes, places)
+            return
+        ends = [*(np.flatnonzero(np.diff(scenes[at.K]) != 0.0) + 1), scenes.shape[1]]
+        numbers = np.arange(count)[places]
+        for start, end in pairwise([0, *ends]):
+            work(np.ascontiguousarray(scenes[:, start:end]), numbers[start:end])
+
     if workers < 2:
-        for part in parts:
-            work(*part)
+        for first in range(0, count, size):
+            part(first)
         return
     with ThreadPoolExecutor(workers) as pool:
-        list(pool.map(lambda part: work(*part), parts))
+        list(pool.map(part, range(0, count, size)))

@@ -1,15 +1,20 @@
 """What the loops over scenes store: no value, no contact, a pull-off, what a cycle loses."""
 
 import math
-from typing import NamedTuple
 
 from gradhesion.core.curve.folds import CLOSE
 from gradhesion.core.curve.values import Curve, softness
-from gradhesion.core.cycle.path import Loaded, Unloaded
+from gradhesion.core.cycle.path import Cycle
 from gradhesion.core.cycle.pull_off import Lowest
 from gradhesion.core.edge.pattern import Pattern, edge_area, toughness_at
 from gradhesion.core.jit import kernel, leaf
-from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, NO_CONTACT, PULL_OFF_AT_RIM
+from gradhesion.core.problem.status import (
+    CLOSE_TO_A_JUMP,
+    JUMP_IN_TO_RIM,
+    LOADING_NOT_ONE_DISC,
+    NO_CONTACT,
+    PULL_OFF_AT_RIM,
+)
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.reduced import UNIT_OF_FORCE
 from gradhesion.core.types import Floats
@@ -64,21 +69,6 @@ def _put_edge(opening: Curve, pattern: Pattern, ratio: float, y: float, reduced:
         out[at.PINNED, i] = (1.0 - root) * stretch * by_machine
 
 
-class Cycle(NamedTuple):
-    """What a cycle has lost, in the units of its curves.
-
-    turn      the radius at which it turns
-    reach     of the last landing of loading
-    snap      the pull after the jump-in
-    """
-
-    loaded: Loaded
-    unloaded: Unloaded
-    turn: float
-    reach: float
-    snap: float
-
-
 @leaf
 def put_losses(
     cycle: Cycle, opening: Curve, pattern: Pattern, ratio: float, reduced: Floats, i: int, out: Floats
@@ -88,15 +78,14 @@ def put_losses(
     loaded, unloaded = cycle.loaded, cycle.unloaded
     out[at.LOADING, i], out[at.UNLOADING, i] = loaded.lost * area * ratio, unloaded.lost * area
     out[at.LOADING_JUMPS, i], out[at.UNLOADING_JUMPS, i] = loaded.jumps, unloaded.jumps
-    out[at.DEEPEST, i], out[at.JUMP_OUT, i] = (
-        loaded.deepest * reduced[at.DEPTH, i] * root,
-        unloaded.last * reduced[at.DEPTH, i],
-    )
+    out[at.DEEPEST, i] = loaded.deepest * reduced[at.DEPTH, i] * root
+    out[at.JUMP_OUT, i] = unloaded.last * reduced[at.DEPTH, i]
     out[at.SNAP, i] = cycle.snap * root * reduced[at.LOAD, i] * UNIT_OF_FORCE if opening.by_depth > 0.0 else 0.0
     _put_edge(opening, pattern, ratio, cycle.turn, reduced, i, out)
     out[at.ENERGY, i] = out[at.LOADING, i] + out[at.UNLOADING, i] + out[at.FRONT, i]
-    out[at.TURN, i], out[at.REACH, i] = cycle.turn * reduced[at.LENGTH, i], cycle.reach * reduced[at.LENGTH, i]
-    return JUMP_IN_TO_RIM if loaded.in_to_rim and cycle.turn == reduced[at.RIM_Y, i] else 0
+    out[at.TURN, i], out[at.FURTHEST, i] = cycle.turn * reduced[at.LENGTH, i], cycle.reach * reduced[at.LENGTH, i]
+    bits = JUMP_IN_TO_RIM if loaded.in_to_rim and cycle.turn == reduced[at.RIM_Y, i] else 0
+    return bits | (CLOSE_TO_A_JUMP if cycle.tied else 0) | (0 if cycle.one_disc else LOADING_NOT_ONE_DISC)
 
 
 @kernel

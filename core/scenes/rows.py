@@ -5,6 +5,8 @@ They are imported `as at`: `scenes[at.K, i]`, `reduced[at.RIM_Y, i]`, `out[at.FO
 
 from typing import Final
 
+from gradhesion.core.problem.names import EDGE, OUTPUTS, REACH
+
 # Parameters; those that a study may leave out have what stands beside them.
 K, NU, MODULUS, C0, WAVELENGTH, AMPLITUDE, RIM = range(7)
 STIFFNESS, TARGET, RATIO, PATTERN_WAVELENGTH, PATTERN_AMPLITUDE = range(7, 12)
@@ -24,29 +26,10 @@ PATTERN_WAVES, MOST, STEEP, EXPONENT, VALID = range(14, 19)
 REDUCED_ROWS: Final = 19
 
 # Results: forces in 1.5 pi R dgamma, lengths in R, energies in R^2 dgamma.
-FORCE, PULL_OFF_RADIUS, ENERGY, LOADING, UNLOADING, LOADING_JUMPS, UNLOADING_JUMPS = range(7)
-DEEPEST, JUMP_OUT, TURN, FRONT, PINNED, SNAP, REACH, RESIDUAL, SATURATION, STATUS = range(7, 17)
+FORCE, PULL_OFF_RADIUS, ENERGY, LOADING_JUMPS, UNLOADING_JUMPS, DEEPEST, JUMP_OUT, LOADING, UNLOADING = range(9)
+TURN, FRONT, SNAP, PINNED, FURTHEST, RESIDUAL, SATURATION, STATUS = range(9, 17)
 RESULT_ROWS: Final = 17
-NAMES: Final = (
-    "pull_off_force",
-    "pull_off_radius",
-    "dissipated_energy",
-    "loading_energy",
-    "unloading_energy",
-    "loading_jumps",
-    "unloading_jumps",
-    "delta_max",
-    "delta_jump_out",
-    "turning_radius",
-    "front_energy",
-    "pinned_depth",
-    "snap_in_force",
-    "reach",
-    "energy_residual",
-    "saturation_radius",
-)
+NAMES: Final = (*OUTPUTS, *EDGE, REACH, "energy_residual", "saturation_radius")
 """Names of results, in the order of their rows but for the status."""
-INTEGERS: Final = ("loading_jumps", "unloading_jumps")
-"""Results that are counts."""
 SHORT: Final = -1.0
 """In the place of a status: the table is too short."""

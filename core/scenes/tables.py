@@ -7,18 +7,18 @@ longer tables of their exponent. Which one it is depends on the scene alone.
 import math
 import threading
 from collections import OrderedDict
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
+from functools import lru_cache
 from typing import Final, NamedTuple
 
 import numpy as np
 
 from gradhesion.core.curve.trace import room_for
-from gradhesion.core.cycle.disc import RULE, Disc, disc_of
+from gradhesion.core.cycle.disc import RULE, Disc
+from gradhesion.core.cycle.jumps import JUMP_ROWS
 from gradhesion.core.jit import kernel
-from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.scenes import rows as at
-from gradhesion.core.scenes.reduced import Punch, depth_factor_of
+from gradhesion.core.scenes.reduced import Punch, disc_of
 from gradhesion.core.scenes.requests import Wanted
 from gradhesion.core.table.basis import Basis, Kept, basis_of, between, is_interpolated, kept_for, kept_table, room_of
 from gradhesion.core.table.filling import fill_bins, fill_bounds, source_of, width_of
@@ -30,12 +30,8 @@ MOST_BINS: Final = 130_000
 """Bins of a table, at most: 76 MB."""
 _KEPT_BINS: Final = 260_000
 """Bins of all long tables that are kept between calls."""
-_LONGEST: Final = 30.0
-"""By which a table may be longer than what was asked for at first."""
-_KEPT: Final = 14
-"""Punches of which near tables are kept: the bins of patterns have up to 13 widths."""
-_LENT: Final = 4
-"""Threads for which those of a punch are kept between calls."""
+_KEPT: Final = 28
+"""Near tables that are kept, of up to 4 MB: the bins of patterns have up to 13 widths, and threads have their own."""
 
 
 class Rooms(NamedTuple):
@@ -43,6 +39,7 @@ class Rooms(NamedTuple):
 
     traces      of closing, of opening, and of what is measured for the turn, (3, ROWS, branches)
     columns     those that loading visits, and a stack of unloading, (2, branches)
+    jumps       of one cycle (cycle/jumps.py): on each way one more than branches at most, (JUMP_ROWS, .)
     nodes       of the tables of closing and of opening of interfaces with a pattern, (2, ROWS, bins + 1)
     polys       their polynomials, (2, bins, LANES + 1, N)
     limits      those of `loading_is_one_disc` of the last curve, (2,)
@@ -51,6 +48,7 @@ class Rooms(NamedTuple):
 
     traces: Floats
     columns: Integers
+    jumps: Floats
     nodes: Floats
     polys: Floats
     limits: Floats
@@ -61,8 +59,9 @@ def rooms_for(bins: int, patterned: bool) -> Rooms:
     """Return room for tables of that many bins."""
     nodes, polys = room_of(bins if patterned else 0, LANES + 1)
     traces = np.empty((3, *room_for(bins).shape))
-    columns = np.empty((2, traces.shape[2]), dtype=np.int64)
-    return Rooms(traces, columns, np.stack((nodes, nodes)), np.stack((polys, polys)), np.empty(2), np.empty(RULE))
+    columns, jumps = np.empty((2, traces.shape[2]), dtype=np.int64), np.empty((JUMP_ROWS, 2 * traces.shape[2]))
+    two = np.stack((nodes, nodes)), np.stack((polys, polys))
+    return Rooms(traces, columns, jumps, *two, np.empty(2), np.empty(RULE))
 
 
 class Task(NamedTuple):
@@ -105,6 +104,7 @@ class Tables(NamedTuple):
     long, long_by_load      the long tables of the two, of one exponent; without bins, if scenes are near
     crest           a bound of -U' y^((k-1)/2) beyond them
     reach           scenes that must be known beyond it are left as SHORT
+    finer           by how much their bins are narrower than those of a profile
     rooms           for curves
     """
 
@@ -116,19 +116,13 @@ class Tables(NamedTuple):
     long_by_load: Table
     crest: float
     reach: float
+    finer: int
     rooms: Rooms
 
 
 @kernel
 def task_of(
-    punch: Punch,
-    wanted: Wanted,
-    tables: Tables,
-    profile: Floats,
-    scenes: Floats,
-    reduced: Floats,
-    first: int,
-    last: int,
+    punch: Punch, wanted: Wanted, tables: Tables, scenes: Floats, reduced: Floats, first: int, last: int
 ) -> Task:
     """Return what the scenes `first` to `last` - 1, of one exponent, are solved with, tables filled as they need."""
     k, table, pull, crest = scenes[at.K, first], tables.long, tables.long_by_load, tables.crest
@@ -146,57 +140,55 @@ def task_of(
             pull = kept_table(tables.by_load, tables.kept_by_load, k, bins)
         low, high = between(basis, k)
         crest = 1.01 * max(basis.crest[low], basis.crest[high])
-    disc = disc_of(k, punch.exponent, depth_factor_of(k, punch.exponent), punch.waves, profile, tables.rooms.weights)
+    disc = disc_of(punch, k, tables.rooms.weights)
     return Task(punch, wanted, table, pull, crest, disc, tables.rooms, tables.reach)
 
 
-def own_exponent(punch: Punch, scenes: Floats) -> float:
-    """Return the exponent that scenes of a long series share, whose bins are not interpolated; NaN for others."""
+def solve_some(solve: Callable[..., None], chosen: Integers, scenes: Floats, reduced: Floats, out: Floats) -> None:
+    """Solve chosen scenes: `solve` takes them, their reduced numbers, which it may change, and room for results."""
+    if chosen.size == scenes.shape[1]:
+        solve(scenes, reduced, out)
+    elif chosen.size:
+        own, numbers, found = (np.ascontiguousarray(array[:, chosen]) for array in (scenes, reduced, out))
+        solve(own, numbers, found)
+        reduced[:, chosen], out[:, chosen] = numbers, found
+
+
+def own_exponent(punch: Punch, scenes: Floats) -> float | None:
+    """Return the exponent that scenes of a long series share, whose bins are not interpolated; None for others."""
     if is_interpolated(punch.waves):
-        return math.nan
+        return None
     return float(scenes[at.K, 0]) if 0.0 <= scenes[at.K, 0] <= 1.0 else 0.5  # no value: any will do
 
 
-def _new_near_tables(punch: Punch, form: int, finer: int, k: float) -> Tables:
-    """Return the tables of `near_tables` for a thread that finds none."""
-    basis = basis_of(punch.exponent, punch.waves, form, finer, k)
-    by_load = basis if form == EXACT else basis_of(punch.exponent, punch.waves, BY_LOAD, finer, k)
+@lru_cache(maxsize=_KEPT)
+def _tables_of_thread(
+    _thread: int, exponent: float, waves: bytes, form: int, finer: int, k: float | None, patterned: bool
+) -> Tables:
+    """Return the tables of `near_tables` for a thread, harmonics as bytes."""
+    rows = np.frombuffer(waves).reshape(-1, 3).copy()  # a read-only array is another type to kernels
+    basis = basis_of(exponent, rows, form, finer, k)
+    by_load = basis if form == EXACT else basis_of(exponent, rows, BY_LOAD, finer, k)
     kept = kept_for(basis)
     bins = basis.values.shape[0] - 1
     reach = basis.start + (bins - 2 - GEOMETRIC) * basis.width
-    none = Table(0.5, punch.exponent, 0.5, basis.start, basis.width, 0.0, GEOMETRIC, 0, *room_of(0))
-    rooms = rooms_for(bins, punch.rows.shape[1] > 0)
+    none = Table(0.5, exponent, 0.5, basis.start, basis.width, 0.0, GEOMETRIC, 0, *room_of(0))
     pulls = kept if by_load is basis else kept_for(by_load)
-    return Tables(basis, kept, by_load, pulls, none, none, 0.0, reach, rooms)
+    return Tables(basis, kept, by_load, pulls, none, none, 0.0, reach, finer, rooms_for(bins, patterned))
 
 
-_lock = threading.Lock()
-_free: OrderedDict[tuple[object, ...], list[Tables]] = OrderedDict()
-"""Near tables of the last punches that no thread uses."""
-_long: OrderedDict[tuple[object, ...], tuple[Table, Source, float]] = OrderedDict()
-"""Long tables of the last calls, with their sources and bounds."""
-
-
-@contextmanager
-def near_tables(punch: Punch, form: int, finer: int, k: float) -> Iterator[Tables]:
-    """Lend a thread the tables of near scenes of one fineness of bins, and of one exponent if k is a number.
+def near_tables(punch: Punch, form: int, finer: int, k: float | None) -> Tables:
+    """Return this thread's tables of near scenes of one fineness of bins, and of one exponent if k is given.
 
     There are no long tables among them. What is filled stays filled between calls.
     """
-    patterned = punch.rows.shape[1] > 0
-    key = (punch.exponent, punch.waves.tobytes(), form, finer, k if k >= 0.0 else None, patterned)
-    with _lock:
-        free = _free.setdefault(key, [])
-        _free.move_to_end(key)
-        while len(_free) > _KEPT:
-            _free.popitem(last=False)
-        tables = free.pop() if free else None
-    if tables is None:
-        tables = _new_near_tables(punch, form, finer, k)
-    yield tables
-    with _lock:
-        if len(free) < _LENT:
-            free.append(tables)
+    shape = punch.exponent, punch.waves.tobytes(), form, finer, k, punch.rows.shape[1] > 0
+    return _tables_of_thread(threading.get_ident(), *shape)
+
+
+_lock = threading.Lock()
+_long: OrderedDict[tuple[object, ...], tuple[Table, Source, float]] = OrderedDict()
+"""Long tables of the last calls, with their sources and bounds."""
 
 
 def long_table(
@@ -218,7 +210,7 @@ def long_table(
         source = source_of(k, punch.exponent, punch.waves, width, cut / width % 1.0, form)
         bins = GEOMETRIC + max(16, int((y_end - source.start) / width) + 10)
         nodes, polys = room_of(bins)
-        fill_bins(source, FIRST, GEOMETRIC, bins, nodes, polys)
+        fill_bins(source, source.shift, FIRST, GEOMETRIC, bins, nodes, polys)
         lowest = _lowest(nodes, -wave)
         share = (1.0 + k) / (1.0 + k + punch.exponent)
         table = Table(k, punch.exponent, share, source.start, width, lowest, GEOMETRIC, bins, nodes, polys)
@@ -234,42 +226,3 @@ def _lowest(nodes: Floats, crest: float) -> float:
     """Return a bound below (U - U1)/(y E): that of the leading term, or 2 % more than the values near the centre."""
     near = nodes[:, GEOMETRIC - 20 : GEOMETRIC + 512]
     return min(crest, 1.02 * float(((near[U] - near[U1]) / (near[E] * near[Y])).min()))
-
-
-def solve_far(
-    punch: Punch,
-    form: int,
-    finer: int,
-    scenes: Floats,
-    reduced: Floats,
-    out: Floats,
-    solve: Callable[[Tables, Floats, Floats, Floats], None],
-    most_bins: int,
-) -> None:
-    """Solve scenes of one exponent beyond near tables, on tables that are tripled where they prove too short.
-
-    `solve` takes tables, scenes, their reduced numbers and room for results. Tables have `most_bins` bins at most.
-    """
-    k, most = float(scenes[at.K, 0]), (most_bins - GEOMETRIC) * width_of(punch.waves, finer)
-    left, factor = np.arange(scenes.shape[1]), 1.0
-    while left.size:
-        with np.errstate(over="ignore"):  # what is endless stays so
-            need = np.minimum(reduced[at.NEED, left] * factor, reduced[at.RIM_Y, left] * 1.01)
-        possible = need[need <= most]
-        y_end = float(possible.max()) if possible.size else most
-        table, _, crest = long_table(punch, k, form, finer, y_end)
-        pull = table if form == EXACT else long_table(punch, k, BY_LOAD, finer, y_end)[0]
-        # those that reach beyond all tables are left for the last, lest they take others of their curve along
-        reach = most if possible.size else math.inf
-        rooms = rooms_for(table.bins, punch.rows.shape[1] > 0)
-        chosen, own = np.ascontiguousarray(scenes[:, left]), np.ascontiguousarray(reduced[:, left])
-        found = np.full((len(out), left.size), np.nan)
-        with near_tables(punch, form, finer, own_exponent(punch, scenes)) as tables:
-            tables = tables._replace(long=table, long_by_load=pull, crest=crest, reach=reach, rooms=rooms)
-            solve(tables, chosen, own, found)
-        out[:, left] = found
-        left = left[found[at.STATUS] == at.SHORT]
-        factor *= 3.0
-        if factor > _LONGEST or y_end >= most:
-            break
-    out[at.STATUS, left] = NO_VALUE | TOO_MANY_WAVES

@@ -2,13 +2,13 @@
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Final, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.curve.values import Curve, bin_of
-from gradhesion.core.cycle.disc import profile_of
 from gradhesion.core.cycle.pull_off import Lowest, envelope_place, lowest_load, serves
 from gradhesion.core.edge.pattern import bins_of_wave, bounds_of
 from gradhesion.core.jit import allocating, kernel, leaf
@@ -17,36 +17,34 @@ from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.cycles import curve_end, solve_exponent
 from gradhesion.core.scenes.long import solve_summed
 from gradhesion.core.scenes.reduced import AT_RIM, Punch, reduced_of
-from gradhesion.core.scenes.requests import (
-    Request,
-    Wanted,
-    columns_of,
-    punch_of,
-    run_parts,
-    scenes_by_exponent,
-    set_lengths,
-)
+from gradhesion.core.scenes.requests import Places, Request, Wanted, run_parts
 from gradhesion.core.scenes.results import put_force
 from gradhesion.core.scenes.tables import (
     MOST_BINS,
     Tables,
     end_of_exponent,
+    long_table,
     near_tables,
     own_exponent,
-    solve_far,
+    rooms_for,
+    solve_some,
     task_of,
 )
-from gradhesion.core.table.basis import Basis, Kept, basis_of, fill_kept, is_interpolated, mix_bins, place_for, table_in
+from gradhesion.core.table.basis import Basis, Kept, basis_of, fill_kept, mix_bins, place_for, table_in
 from gradhesion.core.table.filling import source_of, waves_at, width_of
-from gradhesion.core.table.layout import PER_WAVE, end_of
+from gradhesion.core.table.layout import BY_LOAD, EXACT, GEOMETRIC, PER_WAVE, end_of
 from gradhesion.core.types import Floats, Integers
 
 FINEST: Final = 2**12
 """By which bins may be narrower than those of a profile, so that they resolve a pattern."""
 _AROUND: Final = 8
 """Bins around the lowest place of the envelope that are filled at once for a pull-off."""
-Group: TypeAlias = Callable[[int, Floats, Floats, Floats], None]
-"""What solves scenes of one fineness of bins: takes that, scenes, their reduced numbers, and room for results."""
+_LONGEST: Final = 30.0
+"""By which a table may be longer than what was asked for at first."""
+Summed: TypeAlias = Callable[[Floats, Floats, Floats], None]
+"""What solves scenes: takes them, their reduced numbers, and room for results."""
+Solve: TypeAlias = Callable[[Tables, Floats, Floats, Floats], None]
+"""The same on tables, which it takes first."""
 
 
 @leaf
@@ -79,7 +77,9 @@ def near_forces(basis: Basis, kept: Kept, scenes: Floats, reduced: Floats, out: 
             place = place_for(basis, kept, k)
         table = table_in(basis, k, kept.polys.shape[1], kept.nodes[place], kept.polys[place])
         curve = Curve(table, reduced[at.BY_POWER, first], reduced[at.BY_WAVES, first], 0.0, 1.0)
-        furthest = reduced[at.RIM_Y, first:last].max()
+        furthest = 0.0
+        for i in range(first, last):
+            furthest = max(furthest, reduced[at.RIM_Y, i])
         lowest = _near_lowest(basis, kept, place, curve, furthest)
         for i in range(first, last):
             rim, own = reduced[at.RIM_Y, i], lowest
@@ -90,14 +90,12 @@ def near_forces(basis: Basis, kept: Kept, scenes: Floats, reduced: Floats, out: 
 
 
 @kernel
-def solve_cycles(
-    punch: Punch, wanted: Wanted, tables: Tables, profile: Floats, scenes: Floats, reduced: Floats, out: Floats
-) -> None:
+def solve_cycles(punch: Punch, wanted: Wanted, tables: Tables, scenes: Floats, reduced: Floats, out: Floats) -> None:
     """Solve cycles in the order of their exponents; scenes that reach beyond the tables are left as SHORT."""
     first = int(np.int64(0))  # a plain 0 would be a type of its own, for which callees are compiled once more
     while first < scenes.shape[1]:
         last = end_of_exponent(scenes, first)
-        task = task_of(punch, wanted, tables, profile, scenes, reduced, first, last)
+        task = task_of(punch, wanted, tables, scenes, reduced, first, last)
         solve_exponent(task, scenes, reduced, first, last, out)
         first = last
 
@@ -117,19 +115,8 @@ def far_rims(punch: Punch, width: float, form: int, scenes: Floats, reduced: Flo
             out[at.DEEPEST, i] = (flat - stretch) * reduced[at.DEPTH, i]
 
 
-@kernel
-def far_forces(tables: Tables, scenes: Floats, reduced: Floats, out: Floats) -> None:
-    """Solve the pull-off alone of scenes on a long table."""
-    table = tables.long_by_load
-    for i in range(scenes.shape[1]):
-        curve = Curve(table, reduced[at.BY_POWER, i], reduced[at.BY_WAVES, i], 0.0, 1.0)
-        put_force(lowest_load(curve, reduced[at.RIM_Y, i], 0, table.bins), reduced, i, out)
-
-
 def _finer_bins(punch: Punch, scenes: Floats, least: Floats) -> Integers:
     """Return by which power of 2 the bins of each scene must be narrower than those of its profile."""
-    if punch.rows.shape[1] == 0:
-        return np.ones(scenes.shape[1], dtype=np.int64)
     per = bins_of_wave(punch.rows, scenes[at.PATTERN_AMPLITUDE], punch.of_work, least)
     with np.errstate(all="ignore"):
         ratio = per * scenes[at.WAVELENGTH] / scenes[at.PATTERN_WAVELENGTH] / (PER_WAVE * punch.waves[:, 0].max())
@@ -138,12 +125,9 @@ def _finer_bins(punch: Punch, scenes: Floats, least: Floats) -> Integers:
 
 
 def prepared(punch: Punch, form: int, scenes: Floats) -> tuple[Floats, Integers]:
-    """Return the reduced numbers of scenes, (REDUCED_ROWS, scenes), and by how much their bins are to be narrower.
-
-    The latter are of one item, or one a scene.
-    """
+    """Return the reduced numbers of scenes, (REDUCED_ROWS, scenes), and by how much their bins are to be narrower."""
     most, steep = np.ones(scenes.shape[1]), np.zeros(scenes.shape[1])
-    finer = np.ones(1, dtype=np.int64)
+    finer = np.ones(scenes.shape[1], dtype=np.int64)
     if punch.rows.shape[1] > 0:
         with np.errstate(all="ignore"):
             reach = scenes[at.RIM] / scenes[at.PATTERN_WAVELENGTH]
@@ -156,135 +140,123 @@ def prepared(punch: Punch, form: int, scenes: Floats) -> tuple[Floats, Integers]
     return reduced_of(punch, basis, scenes, most, steep), finer
 
 
-def in_groups(
+def _solve_far(
+    punch: Punch, form: int, near: Tables, most: float, solve: Solve, scenes: Floats, reduced: Floats, out: Floats
+) -> None:
+    """Solve scenes of one exponent beyond near tables, on tables that are tripled where they prove too short.
+
+    No table is longer than `most`.
+    """
+    k = float(scenes[at.K, 0])
+    left, factor, y_end = np.arange(scenes.shape[1]), 1.0, 0.0
+    while left.size and factor <= _LONGEST and y_end < most:
+        with np.errstate(over="ignore"):  # what is endless stays so
+            need = np.minimum(reduced[at.NEED, left] * factor, reduced[at.RIM_Y, left] * 1.01)
+        possible = need[need <= most]
+        y_end = float(possible.max()) if possible.size else most
+        table, _, crest = long_table(punch, k, form, near.finer, y_end)
+        pull = table if form == EXACT else long_table(punch, k, BY_LOAD, near.finer, y_end)[0]
+        # those that reach beyond all tables are left for the last, lest they take others of their curve along
+        reach = most if possible.size else math.inf
+        rooms = rooms_for(table.bins, punch.rows.shape[1] > 0)
+        tables = near._replace(long=table, long_by_load=pull, crest=crest, reach=reach, rooms=rooms)
+        solve_some(partial(solve, tables), left, scenes, reduced, out)
+        left = np.flatnonzero(out[at.STATUS] == at.SHORT)
+        factor *= 3.0
+    out[at.STATUS, left] = NO_VALUE | TOO_MANY_WAVES
+
+
+def solve_groups(
     punch: Punch,
     form: int,
     scenes: Floats,
-    rows: int,
-    near: Group,
-    far: Group,
+    out: Floats,
+    solve: Solve,
     *,
-    whole: bool = False,
+    summed: Summed | None = None,
     pull_off: bool = False,
-) -> tuple[Floats, Floats]:
-    """Return the results of scenes in the order of their exponents, (rows, scenes), and their reduced numbers.
+    most_bins: float = math.inf,
+) -> Floats:
+    """Solve scenes in the order of their exponents, those of a long series of one; return their reduced numbers.
 
-    STATUS is among the results. `near` solves scenes of one fineness of bins, `far` those of one exponent that it
-    leaves as SHORT; each takes the fineness, scenes, their reduced numbers, and room for results. `whole`: all folds
-    are needed, wherever the rim is; `pull_off`: nothing but the pull-off.
+    `solve` takes tables, scenes, their reduced numbers, and room for results, STATUS among them. First it solves near
+    scenes, those of one fineness of bins at a time; those of one exponent that it leaves as SHORT are passed to
+    `summed`, which takes the last three, and what that leaves to `solve` with long tables. `pull_off`: nothing else is
+    wanted, and no more need be known. Scenes that must be known beyond `most_bins` bins are not tried.
     """
-    if not is_interpolated(punch.waves) and (scenes[at.K] != scenes[at.K, 0]).any():
-        begins = np.flatnonzero(np.diff(scenes[at.K]) != 0.0) + 1
-        parts = [
-            in_groups(punch, form, np.ascontiguousarray(own), rows, near, far, whole=whole, pull_off=pull_off)
-            for own in np.split(scenes, begins, axis=1)
-        ]
-        return np.hstack([out for out, _ in parts]), np.hstack([reduced for _, reduced in parts])
-    out = np.full((rows, scenes.shape[1]), np.nan)
     reduced, finer = prepared(punch, form, scenes)
-    if whole:
-        reduced[at.NEED] = np.fmax(reduced[at.NEED], reduced[at.WINDOW])
     if pull_off:
         reduced[at.NEED] = np.fmin(reduced[at.PULL], reduced[at.RIM_Y])
+    out[at.STATUS] = NO_VALUE | TOO_MANY_WAVES  # where finer bins than FINEST are needed
+    finenesses = np.unique(finer[finer <= FINEST]).tolist() if punch.rows.shape[1] > 0 else [1]
+    for fineness in finenesses:
+        chosen = np.flatnonzero(finer == fineness)
+        near = near_tables(punch, form, fineness, own_exponent(punch, scenes))
+        solve_some(partial(solve, near), chosen, scenes, reduced, out)
+        short = chosen[out[at.STATUS, chosen] == at.SHORT]
+        if not short.size:
+            continue
+        most, longest = ((bins - GEOMETRIC) * width_of(punch.waves, fineness) for bins in (most_bins, MOST_BINS))
+        out[at.STATUS, short[reduced[at.NEED, short] > most]] = NO_VALUE | TOO_MANY_WAVES
+        short, most = short[reduced[at.NEED, short] <= most], min(most, longest)
+        for k in np.unique(scenes[at.K, short]):
+            own = short[scenes[at.K, short] == k]
+            if summed is not None:
+                solve_some(summed, own, scenes, reduced, out)
+                own = own[out[at.STATUS, own] == at.SHORT]
+            solve_some(partial(_solve_far, punch, form, near, most, solve), own, scenes, reduced, out)
+    return reduced
 
-    def put(solve: Group, value: int, chosen: Integers) -> None:
-        """Solve chosen scenes."""
-        own, numbers = (np.ascontiguousarray(array[:, chosen]) for array in (scenes, reduced))
-        found = np.full((rows, own.shape[1]), np.nan)
-        solve(value, own, numbers, found)
-        out[:, chosen] = found
 
-    if (finer == finer[0]).all() and finer[0] <= FINEST:
-        near(int(finer[0]), scenes, reduced, out)
-    else:
-        out[at.STATUS, finer > FINEST] = NO_VALUE | TOO_MANY_WAVES
-        for value in np.unique(finer[finer <= FINEST]):
-            put(near, int(value), np.flatnonzero(finer == value))
-    short = np.flatnonzero(out[at.STATUS] == at.SHORT)
-    if short.size:
-        finenesses, exponents = np.broadcast_to(finer, scenes.shape[1])[short], scenes[at.K, short]
-        for value, k in sorted({*zip(finenesses.tolist(), exponents.tolist(), strict=True)}):
-            put(far, value, short[(exponents == k) & (finenesses == value)])
-    return out, reduced
+def _solve_task(punch: Punch, wanted: Wanted, form: int, scenes: Floats, *, depth: bool = False) -> Floats:
+    """Return the results of scenes in the order of their exponents, those of a long series of one; of one thread.
 
+    `depth`: that at rims beyond the tables is wanted as well.
+    """
+    alone = not (wanted.cycle or wanted.saturation or punch.turn != AT_RIM)
+    plain = punch.rows.shape[1] == 0
 
-def _solve_task(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes: Floats) -> Floats:
-    """Return the results of scenes in the order of their exponents, of one thread."""
-    if wanted.saturation:  # folds beyond the rim are looked for apart, so that asking for them changes no value
-        out = _solve_task(punch, wanted._replace(saturation=False), form, profile, scenes)
-        alone = Wanted(cycle=True, depth=False, contact=False, residual=False, saturation=True)
-        whole, _ = _in_groups(punch, alone, form, profile, scenes)
-        too_many = whole[at.STATUS].astype(np.int64) & TOO_MANY_WAVES
-        failed = (out[at.STATUS].astype(np.int64) & NO_VALUE) > 0
-        out[at.SATURATION] = np.where(failed | (too_many > 0), np.nan, whole[at.SATURATION])
-        out[at.STATUS] = out[at.STATUS].astype(np.int64) | too_many
-        return out
-    out, reduced = _in_groups(punch, wanted, form, profile, scenes)
-    if wanted.depth:
+    def solve(tables: Tables, own: Floats, reduced: Floats, found: Floats) -> None:
+        """Solve scenes on tables: on near ones the pull-off alone needs but a few bins."""
+        if alone and plain and tables.long.bins == 0:
+            near_forces(tables.by_load, tables.kept_by_load, own, reduced, found)
+        else:
+            solve_cycles(punch, wanted, tables, own, reduced, found)
+
+    out = np.full((at.RESULT_ROWS, scenes.shape[1]), np.nan)
+    summed = partial(solve_summed, punch, wanted, form) if plain else None
+    reduced = solve_groups(punch, form, scenes, out, solve, summed=summed, pull_off=alone)
+    if depth:
         far_rims(punch, width_of(punch.waves), form, scenes, reduced, out)
     return out
 
 
-def _solver(punch: Punch, wanted: Wanted, profile: Floats) -> Callable[[Tables, Floats, Floats, Floats], None]:
-    """Return what solves scenes on given tables: cycles, or the pull-off alone if that is all that is wanted."""
-    cycles = wanted.cycle or punch.turn != AT_RIM or punch.rows.shape[1] > 0
-
-    def solve(tables: Tables, scenes: Floats, reduced: Floats, out: Floats) -> None:
-        """Solve scenes in the order of their exponents."""
-        if cycles:
-            solve_cycles(punch, wanted, tables, profile, scenes, reduced, out)
-        elif tables.long.bins > 0:
-            far_forces(tables, scenes, reduced, out)
-        else:
-            near_forces(tables.by_load, tables.kept_by_load, scenes, reduced, out)
-
-    return solve
-
-
-def _in_groups(punch: Punch, wanted: Wanted, form: int, profile: Floats, scenes: Floats) -> tuple[Floats, Floats]:
-    """Return results and reduced numbers of scenes, as `in_groups`, but for depths at rims beyond their tables."""
-    solve = _solver(punch, wanted, profile)
-
-    def near(finer: int, own: Floats, reduced: Floats, out: Floats) -> None:
-        """Solve near scenes."""
-        with near_tables(punch, form, finer, own_exponent(punch, own)) as tables:
-            solve(tables, own, reduced, out)
-
-    def far(finer: int, own: Floats, reduced: Floats, out: Floats) -> None:
-        """Solve others."""
-
-        def walk(irregular: Floats, numbers: Floats, found: Floats) -> None:
-            """Solve scenes that cannot be summed."""
-            alone = _solver(punch, wanted._replace(saturation=False), profile)
-            solve_far(punch, form, 1, irregular, numbers, found, alone, MOST_BINS)
-
-        solve_summed(punch, wanted, form, profile, own, reduced, out, walk)
-        left = np.flatnonzero(out[at.STATUS] == at.SHORT)
-        if left.size:
-            rest = np.full((at.RESULT_ROWS, left.size), np.nan)
-            solve_far(punch, form, finer, own[:, left], np.ascontiguousarray(reduced[:, left]), rest, solve, MOST_BINS)
-            out[:, left] = rest
-
-    pull_off = punch.rows.shape[1] > 0 and punch.turn == AT_RIM and not wanted.cycle
-    return in_groups(punch, form, scenes, at.RESULT_ROWS, near, far, whole=wanted.saturation, pull_off=pull_off)
+def _with_saturation(punch: Punch, form: int, scenes: Floats, out: Floats) -> None:
+    """Store the radii of outermost folds, wherever the rim is; NaN, and flagged: too many waves up to there."""
+    wanted = Wanted(cycle=False, contact=False, residual=False, saturation=True)
+    endless = scenes.copy()
+    endless[at.RIM] = np.inf
+    whole = _solve_task(punch._replace(turn=AT_RIM), wanted, form, endless)
+    known, status = whole[at.STATUS].astype(np.int64), out[at.STATUS].astype(np.int64)
+    out[at.SATURATION] = np.where((known | status) & NO_VALUE, np.nan, whole[at.SATURATION])
+    out[at.STATUS] = status | (known & TOO_MANY_WAVES)
 
 
 def solve_all(
     request: Request, wanted: Wanted, form: int, rows: list[int], threads: int | None
 ) -> tuple[Floats, NDArray[np.int16]]:
     """Return the chosen rows of results, (rows, scenes), and the status of all scenes."""
-    punch, profile = punch_of(request), profile_of(request.waves)
-    columns, count = columns_of(request)
+    punch, count = request.punch, math.prod(request.shape)
     out, status = np.empty((len(rows), count)), np.empty(count, dtype=np.int16)
 
-    def work(first: int, last: int) -> None:
+    def work(scenes: Floats, places: Places) -> None:
         """Solve a part of the scenes."""
-        scenes, places = scenes_by_exponent(columns, first, last)
-        set_lengths(punch, scenes)
-        found = _solve_task(punch, wanted, form, profile, scenes)
+        found = _solve_task(punch, wanted._replace(saturation=False), form, scenes, depth=at.DEEPEST in rows)
+        if wanted.saturation:
+            _with_saturation(punch, form, scenes, found)
         for row, wanted_row in enumerate(rows):
             out[row, places] = found[wanted_row]
         status[places] = found[at.STATUS]
 
-    run_parts(count, work, threads)
+    run_parts(request, work, threads)
     return out, status

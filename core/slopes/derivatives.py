@@ -11,21 +11,21 @@ import numpy as np
 
 from gradhesion.core.curve.trace import END, LANDING
 from gradhesion.core.curve.values import Curve, bin_of, load_curve
-from gradhesion.core.cycle.jumps import JUMP_ROWS, LANDED, LEFT, list_loading_jumps, list_unloading_jumps
+from gradhesion.core.cycle.jumps import LANDED, LEFT, list_loading_jumps, list_unloading_jumps
 from gradhesion.core.cycle.path import visited_within
 from gradhesion.core.cycle.pull_off import lowest_load
-from gradhesion.core.edge.pattern import Pattern, edge_area, toughness_at
+from gradhesion.core.edge.pattern import Pattern, toughness_at
 from gradhesion.core.jit import kernel, leaf
 from gradhesion.core.scenes import rows as at
-from gradhesion.core.scenes.cycles import Walked, curve_end, curve_of, open_curve, pattern_of, turns_of
-from gradhesion.core.scenes.reduced import AT_DEPTH, AT_RIM, MACHINE, Punch
+from gradhesion.core.scenes.cycles import Walked, curve_end, curves_of, pattern_of, walk_curve
+from gradhesion.core.scenes.reduced import AT_RIM, MACHINE, Punch
 from gradhesion.core.scenes.requests import Wanted
 from gradhesion.core.scenes.results import no_value
 from gradhesion.core.scenes.tables import Rooms, Tables, Task, end_of_exponent, task_of
 from gradhesion.core.slopes.frozen import (
+    AREA,
     GAP,
     LOADING,
-    OBSERVED,
     PULL,
     UNLOADING,
     Frozen,
@@ -35,22 +35,16 @@ from gradhesion.core.slopes.frozen import (
     rate_at,
     unloading_by_turn,
 )
-from gradhesion.core.table.basis import NODES, Basis, fill_table, table_in
+from gradhesion.core.table.basis import Basis, Kept, bounded_table, empty_place, fill_kept, table_in
 from gradhesion.core.table.layout import Table, end_of
-from gradhesion.core.types import Floats, Integers
+from gradhesion.core.types import Floats
 
 # Rows of derivatives: d ln(value)/d ln of the reduced numbers B, g, by_load, waves and amplitude of the pattern, k (by
 # itself, at fixed others), radius of the rim, target and ratio.
 OF_POWER, OF_WAVES, OF_MACHINE, OF_PATTERN_WAVES, OF_PATTERN, OF_EXPONENT, OF_RIM, OF_TARGET, OF_RATIO = range(9)
 ROWS: Final = 9
-FORCE, ENERGY = at.RESULT_ROWS, at.RESULT_ROWS + ROWS
-"""Where the rows of each value begin, behind those of results, of which TURN and STATUS are used."""
-AREA: Final = OBSERVED
-"""What is observed besides: the area of the edge."""
-UNIT: Final = at.RESULT_ROWS + 2 * ROWS
-"""The row of the unit of length."""
-ALL: Final = -1
-"""In the place of a number of bins: the whole table is filled."""
+FORCE, ENERGY, ALL_ROWS = at.RESULT_ROWS, at.RESULT_ROWS + ROWS, at.RESULT_ROWS + 2 * ROWS
+"""Where the rows of each value begin, behind those of results, of which TURN and STATUS are used; and all of them."""
 STEP: Final = 2.0**-11
 """Of a difference of fourth order: it leaves step^4/30 of the fifth derivative, and of rounding eps/step."""
 _PHASE_STEP: Final = 2.0**-9
@@ -64,111 +58,53 @@ FourTables: TypeAlias = tuple[Table, Table, Table, Table]
 
 
 class Near(NamedTuple):
-    """What neighbours of a scene are made from.
+    """What neighbours of a scene are made from, and room that each scene overwrites.
 
-    basis, weights  of which tables are filled, and room for its weights, (NODES,)
-    filled      the bins of the tables of neighbouring exponents that are filled, (1,), or ALL
+    kept        near tables of the four neighbouring exponents, filled as far as scenes have needed
     rooms       for tables of interfaces with a pattern
-    jumps       those of a cycle, (JUMP_ROWS, .)
     scene, numbers  one scene and its reduced numbers, (PARAMETER_ROWS, 1) and (REDUCED_ROWS, 1)
-    by          derivatives of what is observed, (ROWS, AREA + 1)
-    value       what is observed, (AREA + 1,)
+    by          derivatives of what is observed, (ROWS, OBSERVED)
+    value       what is observed, (OBSERVED,)
     """
 
-    basis: Basis
-    weights: Floats
-    filled: Integers
+    kept: Kept
     rooms: Rooms
-    jumps: Floats
     scene: Floats
     numbers: Floats
     by: Floats
     value: Floats
 
 
-def near_of(basis: Basis, rooms: Rooms, bins: int) -> Near:
-    """Return what neighbours of a scene are made from: what is given, and room that each scene overwrites.
-
-    `basis` is what near tables are filled from, `rooms` are for tables with a pattern. `bins` is how many bins each
-    table has, which bounds the number of jumps: those of loading and of unloading are one more than branches at most
-    (`room_for`).
-    """
-    jumps, by = np.empty((JUMP_ROWS, 2 * bins + 16)), np.zeros((ROWS, AREA + 1))
-    scene, numbers = np.empty((at.PARAMETER_ROWS, 1)), np.empty((at.REDUCED_ROWS, 1))
-    return Near(basis, np.zeros(NODES), np.array([ALL]), rooms, jumps, scene, numbers, by, np.zeros(AREA + 1))
+@kernel
+def _fill_near_tables(basis: Basis, kept: Kept, bins: int) -> None:
+    """See to it that the first bins of the near tables of neighbouring exponents are filled."""
+    filled = kept.filled[0, 1]
+    if bins > filled:
+        bins = min(max(bins, 2 * filled), kept.polys.shape[1])
+        for place in range(4):
+            fill_kept(basis, kept, place, 0, bins)
+            bounded_table(basis, kept.k[place], bins, kept.nodes[place], kept.polys[place])
 
 
 @kernel
-def _fill_tables(near: Near, tables: FourTables, y: float) -> None:
-    """See to it that the tables of neighbouring exponents are filled up to a radius."""
-    bins = bin_of(tables[0], y) + 1
-    if near.filled[0] == ALL or bins <= near.filled[0]:
-        return
-    near.filled[0] = min(max(bins, 2 * near.filled[0]), tables[0].bins)
-    for table in tables:
-        fill_table(near.basis, table.k, near.weights, near.filled[0], table.nodes, table.polys)
+def _freeze(task: Task, walked: Walked, y: float, pull: float, turns: bool) -> Frozen:
+    """Return the radii of the cycle of a scene that turns at y, short of its rim if it `turns`.
 
-
-class Pair(NamedTuple):
-    """The curves of closing and of opening of a scene, its pattern, and the ratio of the works."""
-
-    closing: Curve
-    opening: Curve
-    pattern: Pattern
-    ratio: float
-
-
-@leaf
-def _neighbour(
-    punch: Punch, crest: float, rooms: Rooms, scene: Floats, numbers: Floats, table: Table, y_end: float
-) -> Pair:
-    """Return the curves of a scene, one of whose numbers may be displaced, on a table of its exponent.
-
-    `scene` and `numbers` are columns as in `Near`, `crest` is that of a task. With a pattern, the tables of the curves
-    are filled up to y_end, into `rooms`.
+    `pull` is the radius of the lowest load: where that is y, it moves with the turn. A turn that a jump has passed lies
+    where that jump lands. Where no energy is wanted there are no jumps.
     """
-    pattern, ratio, nodes, polys = (
-        pattern_of(punch, scene, numbers, 0),
-        numbers[at.CLOSING, 0],
-        rooms.nodes,
-        rooms.polys,
-    )
-    closing = curve_of(table, crest, pattern, numbers, 0, math.sqrt(ratio), y_end, nodes[0], polys[0])
-    opening = closing
-    if ratio != 1.0:
-        opening = curve_of(table, crest, pattern, numbers, 0, 1.0, y_end, nodes[1], polys[1])
-    return Pair(closing, opening, pattern, ratio)
-
-
-@kernel
-def _observe(pair: Pair, frozen: Frozen, weight: float, out: Floats) -> None:
-    """Add what is observed at frozen radii, times a weight, to `out`, (AREA + 1,)."""
-    observe(pair.closing, pair.opening, frozen, weight, out)
-    if frozen.turn < math.inf:
-        out[AREA] += weight * edge_area(pair.opening.table, pair.pattern, frozen.turn)
-
-
-@kernel
-def _freeze(task: Task, walked: Walked, opened: int, y: float, pull: float, turns: bool, jumps: Floats) -> Frozen:
-    """Return the radii of the cycle of a scene that turns at y, short of its rim if it `turns`; fill `jumps`.
-
-    `opened` is the number of branches of opening, `pull` the radius of the lowest load: where that is y, it moves with
-    the turn. A turn that a jump has passed lies where that jump lands. Where no energy is wanted there are no jumps.
-    """
-    own, visited = walked.loading, walked.columns[0]
+    own, visited, jumps = walked.loading, walked.columns[0], task.rooms.jumps
     loading = list_loading_jumps(walked.closing, y, own, visited, walked.visits, jumps)
     n = visited_within(own, visited, walked.visits, y)
     passed = turns and n > 0 and own[LANDING, visited[n - 1]] == y
     turn = y
     if passed:
         turn = jumps[LANDED, loading - 1]
-    by_depth = 1.0 if task.punch.turn == AT_DEPTH else 0.0
     pull = turn if pull == y else pull
-    left = jumps[LEFT, loading - 1] if passed else 0.0
-    if not task.wanted.cycle:
-        return Frozen(pull, turn, turns, passed, left, by_depth, 1.0 - by_depth, jumps, 0, 0)
-    count = list_unloading_jumps(walked.opening, turn, walked.unloading, opened, jumps, loading)
-    return Frozen(pull, turn, turns, passed, left, by_depth, 1.0 - by_depth, jumps, loading, count)
+    left, count = jumps[LEFT, loading - 1] if passed else 0.0, 0
+    if task.wanted.cycle:
+        count = list_unloading_jumps(walked.opening, turn, walked.unloading, walked.opened, jumps, loading)
+    return Frozen(pull, turn, turns, passed, left, task.punch.turn, jumps, min(loading, count), count)
 
 
 @kernel
@@ -207,7 +143,7 @@ def _step_of(near: Near, pattern: Pattern, y_end: float, row: int) -> float:
 
 @leaf
 def _fill_by(task: Task, near: Near, tables: FourTables, pattern: Pattern, frozen: Frozen, y_end: float) -> None:
-    """Fill the derivatives of what is observed by all numbers but those of the turn."""
+    """Fill the derivatives of what is observed, nowhere beyond y_end, by all numbers but those of the turn."""
     near.by[:] = 0.0
     for row in range(OF_RIM):
         fixed = row == OF_MACHINE and task.punch.control != MACHINE
@@ -223,13 +159,14 @@ def _fill_by(task: Task, near: Near, tables: FourTables, pattern: Pattern, froze
                 table = tables[j]
             else:
                 numbers[number, 0] = value * (1.0 + step * PLACES[j])
-            pair = _neighbour(task.punch, task.crest, near.rooms, near.scene, near.numbers, table, y_end)
-            _observe(pair, frozen, weight / step, near.by[row])
+            own = pattern_of(task.punch, near.scene, near.numbers, 0)
+            closing, opening = curves_of(table, task.crest, near.rooms, own, near.numbers, 0, y_end)
+            observe(closing, opening, own, frozen, weight / step, near.by[row])
         numbers[number, 0] = value
 
 
 @leaf
-def _move_of(near: Near, pair: Pair, frozen: Frozen, target: float, row: int) -> float:
+def _move_of(near: Near, closing: Curve, frozen: Frozen, target: float, row: int) -> float:
     """Return d ln y/d ln(number of this row), for k d ln y/dk, of the radius y at which the cycle turns.
 
     It keeps what is measured there at its `target`, in units of closing: -(d measured/d ln number)/(d measured/d ln y).
@@ -241,31 +178,30 @@ def _move_of(near: Near, pair: Pair, frozen: Frozen, target: float, row: int) ->
         by = -0.5 * (near.by[OF_POWER, GAP] + near.by[OF_WAVES, GAP])
     if not frozen.passed:
         by += 0.5 * target if row == OF_RATIO else -target if row == OF_TARGET else 0.0
-    return -by / rate_at(measured_by(pair.closing, frozen), frozen.turn)
+    return -by / rate_at(measured_by(closing, frozen), frozen.turn)
 
 
 @leaf
-def _put_slopes(near: Near, pair: Pair, frozen: Frozen, target: float, out: Floats, i: int) -> None:
+def _put_slopes(near: Near, walked: Walked, frozen: Frozen, target: float, out: Floats, i: int) -> None:
     """Store the derivatives of force and energy of scene i, by the chain rule from those of what is observed.
 
     energy = ratio LOADING + UNLOADING + (1 - ratio) AREA;   d/d ln(number) = that at a fixed turn y, plus
     d/d ln y times d ln y/d ln(number) of `_move_of`. `target` is as there.
     """
-    by, value, y, ratio = near.by, near.value, frozen.turn, pair.ratio
+    by, value, y, ratio = near.by, near.value, frozen.turn, walked.ratio
     energy = ratio * value[LOADING] + value[UNLOADING]
     force_by_turn = energy_by_turn = 0.0
     if frozen.pull == y:
-        force_by_turn = rate_at(load_curve(pair.opening), y)
+        force_by_turn = rate_at(load_curve(walked.opening), y)
     if y < math.inf:
-        kappa = toughness_at(pair.pattern, y)
+        kappa = toughness_at(walked.pattern, y)
         energy += (1.0 - ratio) * value[AREA]
-        energy_by_turn = ratio * loading_by_turn(pair.closing, kappa, frozen) + unloading_by_turn(pair.opening, frozen)
-        energy_by_turn += (1.0 - ratio) * (kappa * y) ** 2
+        energy_by_turn = ratio * loading_by_turn(walked.closing, kappa, frozen)
+        energy_by_turn += unloading_by_turn(walked.opening, frozen) + (1.0 - ratio) * (kappa * y) ** 2
     elif ratio < 1.0:
         energy = math.nan  # it has no bound
     else:
         value[AREA] = math.nan
-    out[UNIT, i] = near.numbers[at.LENGTH, 0]
     for row in range(ROWS):
         force = loss = 0.0
         if row < OF_RIM:
@@ -274,7 +210,7 @@ def _put_slopes(near: Near, pair: Pair, frozen: Frozen, target: float, out: Floa
         elif row == OF_RATIO:  # B and g of closing go with its root
             loading = value[LOADING] - 0.5 * (by[OF_POWER, LOADING] + by[OF_WAVES, LOADING])
             loss = ratio * (loading - value[AREA])
-        move = _move_of(near, pair, frozen, target, row)
+        move = _move_of(near, walked.closing, frozen, target, row)
         out[FORCE + row, i] = (force + force_by_turn * move) / value[PULL]
         out[ENERGY + row, i] = (loss + energy_by_turn * move) / energy
 
@@ -282,10 +218,10 @@ def _put_slopes(near: Near, pair: Pair, frozen: Frozen, target: float, out: Floa
 @leaf
 def _fill_scene(
     task: Task,
+    basis: Basis,
     near: Near,
     tables: FourTables,
     walked: Walked,
-    opened: int,
     y: float,
     scenes: Floats,
     reduced: Floats,
@@ -294,26 +230,27 @@ def _fill_scene(
 ) -> bool:
     """Store the derivatives of scene i, which turns at y; return False if the table is too short.
 
-    `tables` are of the exponents k + STEP PLACES, filled as far as `near` says.
+    `tables` are of the exponents k + STEP PLACES: near ones, in `near`, if there are any there.
     """
-    pair = Pair(walked.closing, walked.opening, walked.pattern, walked.ratio)
+    closing, opening, pattern = walked.closing, walked.opening, walked.pattern
     own, n = walked.loading, walked.visits
-    lowest = lowest_load(pair.opening, y, 0, pair.opening.table.bins)
-    beyond = y > end_of(pair.closing.table) and (n == 0 or own[END, walked.columns[0, n - 1]] < y)
-    if walked.branches < 0 or opened < 0 or beyond or not (lowest.known and lowest.load < 0.0):
+    lowest = lowest_load(opening, y, 0, opening.table.bins)
+    beyond = y > end_of(closing.table) and (n == 0 or own[END, walked.columns[0, n - 1]] < y)
+    if walked.branches < 0 or walked.opened < 0 or beyond or not (lowest.known and lowest.load < 0.0):
         return False
     turns = task.punch.turn != AT_RIM and y < reduced[at.RIM_Y, i]
-    frozen = _freeze(task, walked, opened, y, lowest.y, turns, near.jumps)
+    frozen = _freeze(task, walked, y, lowest.y, turns)
     for row in range(scenes.shape[0]):  # one by one: numba would copy whole columns by way of an array of its own
         near.scene[row, 0] = scenes[row, i]
     for row in range(reduced.shape[0]):
         near.numbers[row, 0] = reduced[row, i]
     near.value[:] = 0.0
-    _observe(pair, frozen, 1.0, near.value)
-    y_end = _farthest(frozen, pair.pattern.rows.shape[1] > 0)
-    _fill_tables(near, tables, y_end)
-    _fill_by(task, near, tables, pair.pattern, frozen, y_end)
-    _put_slopes(near, pair, frozen, reduced[at.TARGET_VALUE, i] / math.sqrt(pair.ratio), out, i)
+    observe(closing, opening, pattern, frozen, 1.0, near.value)
+    y_end = _farthest(frozen, pattern.rows.shape[1] > 0)
+    if near.kept.k.size > 0:
+        _fill_near_tables(basis, near.kept, bin_of(tables[0], y_end) + 1)
+    _fill_by(task, near, tables, pattern, frozen, y_end)
+    _put_slopes(near, walked, frozen, reduced[at.TARGET_VALUE, i] / math.sqrt(walked.ratio), out, i)
     return True
 
 
@@ -324,39 +261,38 @@ def solve_slopes(
     tables: Tables,
     near: Near,
     neighbours: FourTables,
-    nodes: Floats,
-    polys: Floats,
-    profile: Floats,
     scenes: Floats,
     reduced: Floats,
     out: Floats,
 ) -> None:
     """Store the derivatives of scenes in the order of their exponents; those that reach beyond the tables are SHORT.
 
-    `neighbours` are the long tables of the exponents next to that of `tables`; where it has no long one, `nodes`
-    (4, ROWS, bins + 1) and `polys` (4, bins, LANES, N) have room for near ones. `out` has the rows of results, of
-    force, of energy and of the unit, (UNIT + 1, scenes).
+    `neighbours` are the long tables of the exponents next to that of `tables`, if it is long; else they are made here.
+    `out` has the rows of results, of force and of energy, (ALL_ROWS, scenes).
     """
-    first = int(np.int64(0))  # a plain 0 would be a type of its own to callees
+    first, basis, kept = int(np.int64(0)), tables.basis, near.kept  # a plain 0 would be a type of its own to callees
     while first < scenes.shape[1]:
         last, k = end_of_exponent(scenes, first), scenes[at.K, first]
-        task = task_of(punch, wanted, tables, profile, scenes, reduced, first, last)
+        task = task_of(punch, wanted, tables, scenes, reduced, first, last)
         if tables.long.bins == 0:
-            basis, bins = near.basis, polys.shape[1]
+            for place in range(4):
+                empty_place(basis, kept, place, k + STEP * PLACES[place])
+            bins = kept.polys.shape[1]
             neighbours = (
-                table_in(basis, k - 2.0 * STEP, bins, nodes[0], polys[0]),
-                table_in(basis, k - STEP, bins, nodes[1], polys[1]),
-                table_in(basis, k + STEP, bins, nodes[2], polys[2]),
-                table_in(basis, k + 2.0 * STEP, bins, nodes[3], polys[3]),
+                table_in(basis, kept.k[0], bins, kept.nodes[0], kept.polys[0]),
+                table_in(basis, kept.k[1], bins, kept.nodes[1], kept.polys[1]),
+                table_in(basis, kept.k[2], bins, kept.nodes[2], kept.polys[2]),
+                table_in(basis, kept.k[3], bins, kept.nodes[3], kept.polys[3]),
             )
-            near.filled[0] = 0
         while first < last:
             end = curve_end(task.reach, scenes, reduced, first, last, out)
             if end > first:
-                walked = turns_of(task, scenes, reduced, first, end, out)
-                opened, _ = open_curve(walked, task.punch.turn, first, end, out)
+                walked = walk_curve(task, scenes, reduced, first, end, out)
                 for i in range(first, end):
                     y = out[at.TURN, i]
-                    if y > 0.0 and not _fill_scene(task, near, neighbours, walked, opened, y, scenes, reduced, i, out):
+                    known = not y > 0.0 or _fill_scene(
+                        task, basis, near, neighbours, walked, y, scenes, reduced, i, out
+                    )
+                    if not known:
                         no_value(out, i, at.SHORT)
             first = max(end, first + 1)

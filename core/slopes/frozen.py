@@ -5,6 +5,7 @@ the loss are those of what jumps between the same radii lose, and those of the p
 fixed radii a loss is of the second degree in B and g, and a load of the first. The turn alone moves.
 """
 
+import math
 from typing import Final, NamedTuple
 
 from gradhesion.core.curve.energy import jump_energy
@@ -19,15 +20,18 @@ from gradhesion.core.curve.values import (
 )
 from gradhesion.core.cycle.jumps import LANDED, LANDED_BRANCH, LEFT, LEFT_DEPTH, LEFT_LOAD, frozen_loss
 from gradhesion.core.cycle.turning import value_at
+from gradhesion.core.edge.pattern import Pattern, edge_area
 from gradhesion.core.jit import kernel
+from gradhesion.core.scenes.cycles import measured_curve
 from gradhesion.core.table.layout import HALF
 from gradhesion.core.types import Floats
 
 # What is observed at frozen radii, in the units of the curves.
-PULL, LOADING, UNLOADING, GAP = range(4)
-# load of the pull-off; losses of loading (in units of closing) and of unloading; what is measured at the turn, less
-# that at the fold which a jump has left, if it has passed the target (which itself is taken off by derivatives.py)
-OBSERVED: Final = 4
+PULL, LOADING, UNLOADING, AREA, GAP = range(5)
+# load of the pull-off; losses of loading (in units of closing) and of unloading; the area of the edge up to the turn;
+# what is measured there, less that at the fold which a jump has left, if it has passed the target (which itself is
+# taken off by derivatives.py)
+OBSERVED: Final = 5
 
 
 class Frozen(NamedTuple):
@@ -38,7 +42,7 @@ class Frozen(NamedTuple):
     moves       whether that moves with the numbers
     passed      whether it lies where a jump lands that has passed the target: what is prescribed is then that at `left`
     left        the radius from which this jump came, 0 for no contact
-    by_depth, by_load  weights of depth and load in the target
+    target      which kind it is (scenes/reduced.py): AT_DEPTH or AT_A_LOAD
     jumps       those of the cycle (jumps.py), of loading first
     loading     the number of these
     total       of all jumps
@@ -49,8 +53,7 @@ class Frozen(NamedTuple):
     moves: bool
     passed: bool
     left: float
-    by_depth: float
-    by_load: float
+    target: int
     jumps: Floats
     loading: int
     total: int
@@ -61,20 +64,23 @@ def measured_by(closing: Curve, frozen: Frozen) -> Curve:
     """Return the curve of closing with what decides on the turn as what is prescribed."""
     if frozen.passed:
         return closing
-    return Curve(closing.table, closing.B, closing.g, frozen.by_depth, frozen.by_load)
+    return measured_curve(closing, frozen.target)
 
 
 @kernel
-def observe(closing: Curve, opening: Curve, frozen: Frozen, weight: float, out: Floats) -> None:
+def observe(closing: Curve, opening: Curve, pattern: Pattern, frozen: Frozen, weight: float, out: Floats) -> None:
     """Add what is observed at frozen radii, times `weight`, to `out` (OBSERVED,): a difference is a sum of such terms.
 
     PULL is the lowest load, on the curve of opening; LOADING and UNLOADING are losses in 2 pi l^2 dgamma, of the work
-    of closing and of that of opening. If the turn moves, GAP is what is measured there on the curve of closing, less
-    that at `frozen.left` where a jump has passed the target. The row LOSS of `frozen.jumps` is overwritten.
+    of closing and of that of opening, and AREA is int y kappa^2 dy up to a turn. If that
+    moves, GAP is what is measured there on the curve of closing, less that at `frozen.left` where a jump has passed the
+    target. The row LOSS of `frozen.jumps` is overwritten.
     """
     out[PULL] += weight * value_at(load_curve(opening), frozen.pull)
     out[LOADING] += weight * frozen_loss(closing, frozen.jumps, 0, frozen.loading)
     out[UNLOADING] += weight * frozen_loss(opening, frozen.jumps, frozen.loading, frozen.total)
+    if frozen.turn < math.inf:
+        out[AREA] += weight * edge_area(opening.table, pattern, frozen.turn)
     if frozen.moves:
         measured = measured_by(closing, frozen)
         aim = value_at(measured, frozen.left) if frozen.passed and frozen.left > 0.0 else 0.0

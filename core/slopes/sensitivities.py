@@ -14,15 +14,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import psi
 
-from gradhesion.core.cycle.disc import profile_of
 from gradhesion.core.problem.material import theta_slopes
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, SENSITIVITIES, TURNS
+from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.reduced import AT_A_LOAD, Punch
-from gradhesion.core.scenes.requests import Request, Wanted, columns_of, punch_of, run_parts, scenes_by_exponent
-from gradhesion.core.scenes.tables import Tables, long_table, near_tables, rooms_for, solve_far
-from gradhesion.core.scenes.tasks import in_groups
+from gradhesion.core.scenes.requests import Places, Request, Wanted, run_parts
+from gradhesion.core.scenes.tables import Tables, long_table, rooms_for
+from gradhesion.core.scenes.tasks import solve_groups
 from gradhesion.core.slopes.derivatives import (
+    ALL_ROWS,
     ENERGY,
     FORCE,
     OF_EXPONENT,
@@ -37,59 +38,40 @@ from gradhesion.core.slopes.derivatives import (
     PLACES,
     ROWS,
     STEP,
-    UNIT,
-    near_of,
+    Near,
     solve_slopes,
 )
-from gradhesion.core.table.basis import room_of
-from gradhesion.core.table.filling import width_of
-from gradhesion.core.table.layout import EXACT, GEOMETRIC, Y, span_of
+from gradhesion.core.slopes.frozen import OBSERVED
+from gradhesion.core.table.basis import NOTHING_KEPT, kept_for
+from gradhesion.core.table.layout import EXACT, span_of
 from gradhesion.core.types import Floats
 
-_ALL_ROWS: Final = UNIT + 1
 FURTHER: Final = ("machine_stiffness", *TURNS, CLOSING, *PATTERN)
 """Parameters beyond the seven, in the order of the last axis."""
 _MOST_BINS: Final = 26_000
 """Bins of a table at most, of which there are five: 3,250 waves."""
 
 
-def _near(
-    punch: Punch, wanted: Wanted, profile: Floats, finer: int, scenes: Floats, reduced: Floats, out: Floats
-) -> None:
-    """Store the derivatives of near scenes of one fineness of bins."""
-    patterned = punch.rows.shape[1] > 0
-    with near_tables(punch, EXACT, finer, math.nan) as tables:  # neighbours need a basis of all exponents
-        none, bins = tables.long, tables.basis.values.shape[0] - 1
-        nodes, polys = (np.stack([room] * 4) for room in room_of(bins))
-        nodes[:, Y] = tables.basis.fixed[0, : bins + 1]  # a table ends where its last bin does, filled or not
-        rooms = rooms_for(bins if patterned else 0, patterned)
-        near, four = near_of(tables.basis, rooms, bins), (none, none, none, none)
-        solve_slopes(punch, wanted, tables, near, four, nodes, polys, profile, scenes, reduced, out)
+def _solve(punch: Punch, wanted: Wanted, tables: Tables, scenes: Floats, reduced: Floats, out: Floats) -> None:
+    """Store the derivatives of scenes on near tables, or on a long one and four of neighbouring exponents as long.
 
-
-def _far(
-    punch: Punch, wanted: Wanted, profile: Floats, finer: int, scenes: Floats, reduced: Floats, out: Floats
-) -> None:
-    """Store the derivatives of scenes of one exponent that reach beyond near tables.
-
-    Those of more waves than _MOST_BINS holds have none: here sums over waves would take over.
+    Those of more waves than _MOST_BINS holds have none: here sums over waves would take over. Near tables of a long
+    series have one exponent alone: its scenes are left for long ones.
     """
-    patterned = punch.rows.shape[1] > 0
-    within = np.flatnonzero(reduced[at.NEED] <= (_MOST_BINS - GEOMETRIC) * width_of(punch.waves, finer))
-
-    def solve(tables: Tables, own: Floats, numbers: Floats, found: Floats) -> None:
-        """Store those of scenes within a long table, on tables of neighbouring exponents as long."""
-        k, y_end, bins = tables.long.k, span_of(tables.long), tables.long.bins
-        long = [long_table(punch, k + STEP * place, EXACT, finer, y_end)[0] for place in PLACES]
-        nodes, polys = (np.stack([room] * 4) for room in room_of(0))
-        rooms = rooms_for(bins if patterned else 0, patterned)
-        near, four = near_of(tables.basis, rooms, bins), (long[0], long[1], long[2], long[3])
-        solve_slopes(punch, wanted, tables, near, four, nodes, polys, profile, own, numbers, found)
-
-    if within.size:
-        found = np.empty((len(out), within.size))
-        solve_far(punch, EXACT, finer, scenes[:, within], reduced[:, within], found, solve, _MOST_BINS)
-        out[:, within] = found
+    long, patterned = tables.long, punch.rows.shape[1] > 0
+    bins, four, kept = long.bins, [long] * 4, NOTHING_KEPT
+    if bins > 0:
+        made = (long_table(punch, long.k + STEP * place, EXACT, tables.finer, span_of(long)) for place in PLACES)
+        four = [table for table, _, _ in made]
+    elif tables.basis.k.size > 1:
+        bins, kept = tables.basis.values.shape[0] - 1, kept_for(tables.basis, len(PLACES))
+    else:
+        out[at.STATUS] = np.where(reduced[at.VALID] > 0.0, at.SHORT, NO_VALUE)
+        return
+    scene, numbers = np.empty((at.PARAMETER_ROWS, 1)), np.empty((at.REDUCED_ROWS, 1))
+    rooms = rooms_for(bins if patterned else 0, patterned)
+    near = Near(kept, rooms, scene, numbers, np.zeros((ROWS, OBSERVED)), np.zeros(OBSERVED))
+    solve_slopes(punch, wanted, tables, near, (four[0], four[1], four[2], four[3]), scenes, reduced, out)
 
 
 def _material_slopes(k: Floats, nu: Floats, m: float) -> tuple[Floats, Floats, Floats]:
@@ -153,27 +135,24 @@ def sensitivities(
     the value is not positive or has no bound, for nu at k = 1, and for the closing ratio of the energy of an unbounded
     punch that does not turn.
     """
-    punch, profile = punch_of(request), profile_of(request.waves)
-    of_energy = SENSITIVITIES[1] in outputs
-    wanted = Wanted(cycle=of_energy, depth=False, contact=False, residual=False, saturation=False)
-    columns, count = columns_of(request)
+    punch, of_energy = request.punch, SENSITIVITIES[1] in outputs
+    wanted = Wanted(cycle=of_energy, contact=False, residual=False, saturation=False)
     names = [*PARAMETERS, *(name for name in FURTHER if name in given)]
-    found = {name: np.empty((count, len(names))) for name in outputs}
+    found = {name: np.empty((math.prod(request.shape), len(names))) for name in outputs}
 
-    def work(first: int, last: int) -> None:
+    def work(scenes: Floats, places: Places) -> None:
         """Fill a part of the scenes."""
-        scenes, places = scenes_by_exponent(columns, first, last)
-        near, far = partial(_near, punch, wanted, profile), partial(_far, punch, wanted, profile)
-        out, _ = in_groups(punch, EXACT, scenes, _ALL_ROWS, near, far)
+        out = np.full((ALL_ROWS, scenes.shape[1]), np.nan)
+        reduced = solve_groups(punch, EXACT, scenes, out, partial(_solve, punch, wanted), most_bins=_MOST_BINS)
         with np.errstate(all="ignore"):  # what has no value has no sensitivity
             material = _material_slopes(scenes[at.K], scenes[at.NU], punch.exponent)
             for output in outputs:
                 of_force = output == SENSITIVITIES[0]
                 by = out[FORCE : FORCE + ROWS] if of_force else out[ENERGY : ENERGY + ROWS]
-                slopes = _by_parameter(punch, scenes, out[UNIT], by, material, of_force=of_force)
+                slopes = _by_parameter(punch, scenes, reduced[at.LENGTH], by, material, of_force=of_force)
                 rows = np.array([slopes[name] for name in names])
                 has_value = np.isfinite(by[OF_POWER])
                 found[output][places] = np.where(has_value & np.isfinite(rows), rows + 0.0, np.nan).T  # no -0
 
-    run_parts(count, work, threads)
+    run_parts(request, work, threads)
     return {name: values.reshape(*request.shape, len(names)) for name, values in found.items()}

@@ -7,9 +7,8 @@ much as 49 exponents, of which a study of rough profiles has one or two.) All sc
 such tables, whatever else is in their call, so that a value does not depend on its neighbours.
 """
 
-import math
 import threading
-from collections import OrderedDict
+from functools import lru_cache
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -84,23 +83,22 @@ def is_interpolated(waves: Floats) -> bool:
     return len(waves) <= _MOST_HARMONICS
 
 
-def make_basis(exponent: float, waves: Floats, form: int = EXACT, finer: int = 1, k: float = math.nan) -> Basis:
-    """Return the basis of a punch of a power with harmonics (n, cos, sin); its bins are `finer` times narrower.
-
-    It is that of the exponent `k` alone, if one is given.
-    """
+@lru_cache(maxsize=_KEPT)
+def _make_basis(exponent: float, harmonics: bytes, form: int, finer: int, k: float | None) -> Basis:
+    """Return the basis of `basis_of`, harmonics as bytes."""
+    waves = np.frombuffer(harmonics).reshape(-1, 3).copy()  # a read-only array is another type to kernels
     width = width_of(waves, finer)
     bins = GEOMETRIC + UNIFORM + 1  # one more than tables have, for the last edge
     panel = 0.5 - 0.5 * np.cos(np.pi * np.arange(NODES - 1) / (NODES - 1))
     ends = np.append((np.arange(PANELS)[:, None] + panel).ravel(), PANELS) / PANELS
-    if k >= 0.0:
+    if k is not None:
         ends = np.array([k])
     values = np.empty((bins, ends.size, SIZE))
     nodes, polys = np.zeros((at.ROWS, bins + 1)), np.empty((bins, LANES, N))
     crest, lowest = np.empty(ends.size), np.empty(ends.size)
     for node, own in enumerate(ends):
         source = source_of(own, exponent, waves, width, 0.0, form)
-        fill_bins(source, FIRST, GEOMETRIC, bins, nodes, polys)
+        fill_bins(source, source.shift, FIRST, GEOMETRIC, bins, nodes, polys)
         _pack(own, node, nodes, polys, values)
         crest[node], wave, _ = crests_of(own, waves)
         near = ((nodes[at.U] - nodes[at.U1]) / (nodes[at.E] * nodes[at.Y]))[GEOMETRIC - 20 :].min()
@@ -110,20 +108,16 @@ def make_basis(exponent: float, waves: Floats, form: int = EXACT, finer: int = 1
     )
 
 
-_bases: OrderedDict[tuple[object, ...], Basis] = OrderedDict()
 _lock = threading.Lock()
 
 
-def basis_of(exponent: float, waves: Floats, form: int = EXACT, finer: int = 1, k: float = math.nan) -> Basis:
-    """Return the basis of `make_basis`, one of the last few if it is among them."""
-    key = (exponent, waves.tobytes(), form, finer, k if k >= 0.0 else None)
-    with _lock:
-        if key not in _bases:
-            _bases[key] = make_basis(exponent, waves, form, finer, k)
-            if len(_bases) > _KEPT:
-                _bases.popitem(last=False)
-        _bases.move_to_end(key)
-        return _bases[key]
+def basis_of(exponent: float, waves: Floats, form: int = EXACT, finer: int = 1, k: float | None = None) -> Basis:
+    """Return the basis of a punch of a power with harmonics (n, cos, sin), one of the last few if it is among them.
+
+    Its bins are `finer` times narrower than usual. It is that of the exponent `k` alone, if one is given.
+    """
+    with _lock:  # of threads that need the same, one makes it
+        return _make_basis(exponent, waves.tobytes(), form, finer, k)
 
 
 @leaf
@@ -154,7 +148,10 @@ def fill_weights(basis: Basis, k: float, weights: Floats) -> None:
 
 @quadrature
 def mix_bins(basis: Basis, k: float, weights: Floats, first: int, last: int, nodes: Floats, polys: Floats) -> None:
-    """Fill the bins `first` to `last` - 1 of an exponent, whose weights are given, and the edge of `last`."""
+    """Fill the bins `first` to `last` - 1 of an exponent, whose weights are given, and the edge of `last`.
+
+    `nodes` and `polys` have what does not depend on k.
+    """
     power = -0.5 * (1.0 + k)
     mixed = np.zeros(SIZE)
     node, count = _panel_of(basis, k)
@@ -165,9 +162,8 @@ def mix_bins(basis: Basis, k: float, weights: Floats, first: int, last: int, nod
             weight = weights[n]
             for c in range(SIZE):
                 mixed[c] += weight * basis.values[i, node + n, c]
-        nodes[at.Y, i], nodes[at.P, i], nodes[at.SLOPE, i] = basis.fixed[0, i], basis.fixed[1, i], basis.fixed[2, i]
         nodes[at.V, i], nodes[at.U, i], nodes[at.U1, i] = mixed[3 * N], mixed[3 * N + 1], mixed[3 * N + 2]
-        centre = basis.fixed[6, i]
+        centre, half, low = nodes[at.YC, i], nodes[at.HALF, i], nodes[at.Y, i]
         at_centre = centre**power
         stretch, sign = 0.0, 1.0  # at the lower edge, t = -1
         for n in range(N):
@@ -180,14 +176,11 @@ def mix_bins(basis: Basis, k: float, weights: Floats, first: int, last: int, nod
             return
         for n in range(N):
             polys[i, at.PU, n], polys[i, at.PU1, n] = mixed[n], mixed[N + n]
-            polys[i, at.PP, n], polys[i, at.PE, n] = basis.powers[i, n], at_centre * mixed[2 * N + n]
+            polys[i, at.PE, n] = at_centre * mixed[2 * N + n]
         of_y_to_k = 1.0 / (at_centre * at_centre * centre)
         for row in range(6):
             nodes[at.K0 + row, i] = mixed[3 * N + 3 + row] * of_y_to_k
-        nodes[at.BP, i], nodes[at.M0, i], nodes[at.PC, i] = basis.fixed[3, i], basis.fixed[4, i], basis.fixed[5, i]
-        nodes[at.YC, i], nodes[at.HALF, i] = centre, basis.fixed[7, i]
         nodes[at.BV, i] = 1.01 * mixed[SIZE - 1]  # a largest value, which is not quite smooth in k
-        half, low = basis.fixed[7, i], basis.fixed[0, i]
         nodes[at.BE, i] = 0.5 * half * half * power * (power - 1.0) * stretch / (low * low)
 
 
@@ -207,14 +200,6 @@ def table_in(basis: Basis, k: float, bins: int, nodes: Floats, polys: Floats) ->
     lowest = 1.01 * min(basis.lowest[low], basis.lowest[high])
     share = (1.0 + k) / (1.0 + k + basis.exponent)
     return Table(k, basis.exponent, share, basis.start, basis.width, lowest, GEOMETRIC, bins, nodes, polys)
-
-
-@kernel
-def fill_table(basis: Basis, k: float, weights: Floats, bins: int, nodes: Floats, polys: Floats) -> Table:
-    """Return the table of an exponent with its first `bins` bins filled, bounds and integrals included."""
-    fill_weights(basis, k, weights)
-    mix_bins(basis, k, weights, 0, bins, nodes, polys)
-    return bounded_table(basis, k, bins, nodes, polys)
 
 
 @kernel
@@ -245,13 +230,31 @@ class Kept(NamedTuple):
     polys: Floats
 
 
-def kept_for(basis: Basis) -> Kept:
-    """Return room for the tables of a basis, none of which is filled yet."""
-    bins = basis.values.shape[0] - 1
-    nodes, polys = np.zeros((_TABLES, at.ROWS, bins + 1)), np.zeros((_TABLES, bins, LANES, N))
-    nodes[:, at.Y] = basis.fixed[0, : bins + 1]  # a table ends where its last bin does, filled or not
-    marks = np.zeros((_TABLES, 2), dtype=np.int64), np.zeros(1, dtype=np.int64)
-    return Kept(np.full(_TABLES, np.nan), *marks, np.zeros((_TABLES, NODES)), nodes, polys)
+def _room_for(tables: int, bins: int) -> Kept:
+    """Return room for tables of that many bins, none of which is filled yet."""
+    nodes, polys = np.zeros((tables, at.ROWS, bins + 1)), np.zeros((tables, bins, LANES, N))
+    marks = np.zeros((tables, 2), dtype=np.int64), np.zeros(1, dtype=np.int64)
+    return Kept(np.full(tables, np.nan), *marks, np.zeros((tables, NODES)), nodes, polys)
+
+
+NOTHING_KEPT: Final = _room_for(0, 0)
+"""In the place of kept tables, where others are used."""
+
+
+def kept_for(basis: Basis, tables: int = _TABLES) -> Kept:
+    """Return room for tables of a basis, of which nothing is filled yet but what does not depend on k."""
+    kept = _room_for(tables, basis.values.shape[0] - 1)
+    kept.nodes[:, list(FIXED)] = basis.fixed[:, : kept.nodes.shape[2]]
+    kept.polys[:, :, at.PP] = basis.powers[: kept.polys.shape[1]]
+    return kept
+
+
+@kernel
+def empty_place(basis: Basis, kept: Kept, place: int, k: float) -> None:
+    """Let a place be that of the table of an exponent, of which nothing is filled yet."""
+    kept.k[place] = k
+    kept.filled[place, 0] = kept.filled[place, 1] = 0
+    fill_weights(basis, k, kept.weights[place])
 
 
 @kernel
@@ -262,9 +265,7 @@ def place_for(basis: Basis, kept: Kept, k: float) -> int:
             return place
     place = kept.oldest[0]
     kept.oldest[0] = (place + 1) % _TABLES
-    kept.k[place] = k
-    kept.filled[place, 0] = kept.filled[place, 1] = 0
-    fill_weights(basis, k, kept.weights[place])
+    empty_place(basis, kept, place, k)
     return place
 
 

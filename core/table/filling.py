@@ -203,12 +203,15 @@ def bend_of_power(m: float, low: float, high: float) -> float:
 
 
 @quadrature
-def fill_bins(source: Source, first: int, geometric: int, count: int, nodes: Floats, polys: Floats) -> None:
+def fill_bins(
+    source: Source, shift: float, first: int, geometric: int, count: int, nodes: Floats, polys: Floats
+) -> None:
     """Fill `count` bins: `geometric` ones up to y = (first + shift) width, and uniform ones from there on.
 
+    The phase of the waves is that of bins with the shift of the source; only the radius follows another.
     Rows of bounds and integrals from 0 are left to `fill_bounds`, for they need all bins from the first one.
     """
-    k, m, width, shift = source.k, source.exponent, source.width, source.shift
+    k, m, width = source.k, source.exponent, source.width
     start, power = (first + shift) * width, -0.5 * (1.0 + k)
     per = source.far_waves.shape[2]
     values, room = np.zeros((4, N)), np.zeros(N)

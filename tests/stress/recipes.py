@@ -20,9 +20,9 @@ SPRING = "    elif punch.control == OWN_SPRING:\n"
 SPRING += "        reduced[at.BY_LOAD, i] = load / depth / scenes[at.MODULUS, i]\n"
 Edits = list[tuple[str, str, str]]
 OUTPUT: Edits = [  # file, old, new
-    ("core/scenes/rows.py", "SATURATION, STATUS = range(7, 17)", "SATURATION, AREA, STATUS = range(7, 18)"),
+    ("core/scenes/rows.py", "LOADING, UNLOADING = range(9)", "LOADING, UNLOADING, AREA = range(10)"),
+    ("core/scenes/rows.py", "SATURATION, STATUS = range(9, 17)", "SATURATION, STATUS = range(10, 18)"),
     ("core/scenes/rows.py", "RESULT_ROWS: Final = 17", "RESULT_ROWS: Final = 18"),
-    ("core/scenes/rows.py", '    "saturation_radius",\n)', '    "saturation_radius",\n    "pull_off_area",\n)'),
     ("core/scenes/results.py", RADIUS, f"{RADIUS}    out[at.AREA, i] = math.pi * out[at.PULL_OFF_RADIUS, i] ** 2\n"),
     ("core/problem/outputs.py", '    Output("turning_radius",', f'{AREA}    Output("turning_radius",'),
 ]

@@ -132,6 +132,19 @@ def test_nothing_folds_beyond_the_saturation_radius(k: float, amplitude: float) 
         assert np.all(sign * np.diff(depths) > 0.0)
 
 
+@pytest.mark.parametrize(
+    ("k", "end"), [(0.31, {}), (0.32, {"indentation_max_over_R": 0.0005}), (0.33, {"load_max": 0.01})]
+)
+def test_the_saturation_radius_is_that_of_the_curve_wherever_a_cycle_ends(k: float, end: dict[str, float]) -> None:
+    """Of some hundred waves that fold the cycle meets a few; it is solved first, as no longer table is kept then."""
+    whole = scene_of(k, 0.3, 500.0, 0.01, 0.01, 0.03, math.inf)
+    part = solve(whole | {"a_max_over_R": 0.03} | end, ("saturation_radius",))
+    assert not part["status"] & FAILED
+    expected = float(solve(whole, ("saturation_radius",))["saturation_radius"])
+    assert 1.0 < expected < 2.0
+    assert part["saturation_radius"] == pytest.approx(expected, rel=1e-12)
+
+
 def test_what_has_no_report() -> None:
     many = solve(SCENE | {"lambda_over_R": 1e-5, "A": 0.05, "k": 0.0, "modulus": 1e4}, ("energy_residual",))
     assert np.isnan(many["energy_residual"])
