@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
@@ -114,14 +115,15 @@ def notebook(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Notebook]:
 def test_every_form_shows_a_picture_once(notebook: Callable[..., Notebook], grid: xarray.Dataset) -> None:
     page = notebook()
     kept: list[Any] = []
+    one = partial(gr.plot, grid, "pull_off_force")
     forms: dict[str, tuple[Callable[[], Any], int]] = {
-        "the last expression": (lambda: gr.plot(grid), 1),
-        "assigned": (lambda: kept.append(gr.plot(grid)), 1),
-        "assigned, then the last expression": (lambda: kept.append(gr.plot(grid)) or kept[-1], 1),
-        "one of its axes": (lambda: gr.plot(grid)[0], 1),
-        "of the accessor": (grid.gr.plot, 1),
-        "a loop": (lambda: [gr.plot(grid, at={"k": k}) for k in (0.0, 0.3)], 2),
-        "displayed": (lambda: page.display(gr.plot(grid)), 1),
+        "the last expression": (one, 1),
+        "assigned": (lambda: kept.append(one()), 1),
+        "assigned, then the last expression": (lambda: kept.append(one()) or kept[-1], 1),
+        "one of its axes": (lambda: one()[0], 1),
+        "of the accessor": (lambda: grid.gr.plot("pull_off_force"), 1),
+        "a loop": (lambda: [one(at={"k": k}) for k in (0.0, 0.3)], 2),
+        "displayed": (lambda: page.display(one()), 1),
         "a cell without a picture": (lambda: None, 0),
         "a picture of an earlier cell": (lambda: kept[0], 1),
     }
@@ -134,11 +136,11 @@ def test_what_a_cell_changes_is_shown_and_a_terminal_shows_nothing_by_itself(
     notebook: Callable[..., Notebook], grid: xarray.Dataset
 ) -> None:
     page = notebook()
-    page.cell(lambda: gr.plot(grid))
+    one = partial(gr.plot, grid, "pull_off_force")
+    page.cell(one)
     (plain,) = page.outputs
-
-    page.cell(lambda: gr.plot(grid)[0].set_ylim(0.0, 9.0) and None)
+    page.cell(lambda: one()[0].set_ylim(0.0, 9.0) and None)
     assert page.outputs != [plain]
     page = notebook(kernel=False)
-    assert page.cell(lambda: gr.plot(grid) and None) == 0
+    assert page.cell(lambda: one() and None) == 0
     assert not page.callbacks["post_execute"]

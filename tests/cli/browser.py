@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import xarray
-from playwright.sync_api import Browser, Page
+from playwright.sync_api import Page
 
 import gradhesion as gr
 
@@ -52,18 +52,23 @@ def written(name: str, folder: Path) -> Path:
 class Opened:
     """A page in a tab, what it asked for and what it complained of."""
 
-    def __init__(self, browser: Browser, file: Path, address: str = "", **options: Any) -> None:
-        self.page: Page = browser.new_page(**{"viewport": {"width": 1400, "height": 900}, **options})
+    def __init__(self, tab: Page, file: Path, address: str = "") -> None:
+        self.page = tab
         self.page.set_default_timeout(120_000)  # a busy machine
         self.requests: list[str] = []
         self.complaints: list[str] = []
-        self.page.on("request", lambda request: self.requests.append(request.url))
-        self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
-        self.page.on("console", lambda told: self.complaints.append(f"{told.type}: {told.text}"))
+        self.listeners: dict[Any, Any] = {
+            "request": lambda request: self.requests.append(request.url),
+            "pageerror": lambda error: self.complaints.append(str(error)),
+            "console": lambda told: self.complaints.append(f"{told.type}: {told.text}"),
+        }
         with xarray.open_dataset(file.with_suffix(".nc")) as dataset:
             self.dataset = dataset.load()
-        self.page.goto(file.as_uri() + address)
-        self.page.wait_for_selector("html[data-ready=true]", state="attached")
+        tab.goto("about:blank")  # another address of one page would not load it anew
+        for event, listener in self.listeners.items():
+            tab.on(event, listener)
+        tab.goto(file.as_uri() + address)
+        tab.wait_for_selector("html[data-ready=true]", state="attached")
 
     def js(self, expression: str) -> Any:
         return self.page.evaluate(f"async () => {{ {DRAWN}; return {expression} }}")
@@ -111,8 +116,10 @@ class Opened:
         assert {name: shown[name] for name, value in expected.items() if not same(shown[name], value)} == {}
         return scene
 
-    def checked(self) -> None:
-        """Check that it needs nothing else, and complains of nothing."""
+    def closed(self) -> None:
+        """Leave the tab to the next, and check that this one needed nothing else and complained of nothing."""
+        for event, listener in self.listeners.items():
+            self.page.remove_listener(event, listener)
         assert [url[:60] for url in self.requests if not url.startswith(("file:", "data:", "blob:"))] == []
         assert len([url for url in self.requests if url.startswith("file:")]) == 1
         assert [told for told in self.complaints if not told.startswith(("log:", "info:", "debug:"))] == []

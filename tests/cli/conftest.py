@@ -40,6 +40,18 @@ E_star = { start = "1 MPa", stop = "100 MPa" }
 """
 WORK: Final = 'work_of_adhesion = { start = "5 mJ/m^2", stop = "200 mJ/m^2" }\n'
 """The study of a fit of a smooth ball, as parts of a text."""
+PROFILE: Final = """outputs = ["pull_off_force"]
+[parameters]
+k = 0.0
+nu = 0.3
+[physical]
+E_star = "50 MPa"
+work_of_adhesion = "50 mJ/m^2"
+a_max = "1.5 um"
+[profile]
+file = "table.csv"   # measured
+terms = 1
+"""
 
 
 @pytest.fixture(scope="session")

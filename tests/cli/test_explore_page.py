@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from bokeh.palettes import Viridis256
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser, Page, sync_playwright
 
 import gradhesion as gr
 from tests.cli.browser import TITLE, VALUES, Opened, number, same, written
@@ -44,22 +44,33 @@ Open = Callable[..., Opened]
 
 
 @pytest.fixture(scope="module")
+def tab(browser: Browser) -> Page:
+    """One tab for all pages: a new one compiles the scripts of Bokeh anew, which takes longer than the rest."""
+    return browser.new_page()
+
+
+@pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("pages")
 
 
 @pytest.fixture
-def open_page(browser: Browser, folder: Path) -> Iterator[Open]:
+def open_page(tab: Page, folder: Path) -> Iterator[Open]:
+    """Open the page of a study in the tab, where it takes the place of the one before."""
     opened: list[Opened] = []
 
-    def open_one(name: str, address: str = "", **options: Any) -> Opened:
-        opened.append(Opened(browser, written(name, folder), address, **options))
+    def open_one(name: str, address: str = "", size: tuple[int, int] = (1400, 900), tab: Page = tab) -> Opened:
+        close()
+        tab.set_viewport_size({"width": size[0], "height": size[1]})
+        opened.append(Opened(tab, written(name, folder), address))
         return opened[-1]
 
+    def close() -> None:
+        while opened:
+            opened.pop().closed()
+
     yield open_one
-    for one in opened:
-        one.checked()
-        one.page.close()
+    close()
 
 
 def test_the_keys_move_the_sliders_and_the_values_are_those_of_the_dataset(open_page: Open) -> None:
@@ -152,8 +163,8 @@ def test_other_axes_and_variables_are_chosen(open_page: Open) -> None:
         assert drawn == values.values.tolist(), "the sections are the row and the column of the cell"
 
 
-def test_on_a_phone_there_is_one_column_and_a_finger_reads_a_cell(open_page: Open) -> None:
-    page = open_page("maps", viewport={"width": 390, "height": 844}, has_touch=True)
+def test_on_a_phone_there_is_one_column_and_a_finger_reads_a_cell(open_page: Open, browser: Browser) -> None:
+    page = open_page("maps", size=(390, 844), tab=browser.new_page(has_touch=True))
     first, second = page.boxes(".plot.map")
     assert first["left"] == second["left"]
     assert second["top"] > first["bottom"]
@@ -169,7 +180,7 @@ def test_on_a_phone_there_is_one_column_and_a_finger_reads_a_cell(open_page: Ope
 
 @pytest.mark.parametrize("width", [360, 1920])
 def test_the_page_is_used_frames_stand_in_line_and_everything_has_a_label(width: int, open_page: Open) -> None:
-    page = open_page("maps", viewport={"width": width, "height": 900})
+    page = open_page("maps", size=(width, 900))
     assert page.js("document.documentElement.scrollWidth <= window.innerWidth")
     frames = np.array(page.js(FRAMES))
     np.testing.assert_allclose(frames[2:], frames[[0, 0, 1, 1]], rtol=0, atol=1.5)
@@ -237,10 +248,11 @@ def test_the_address_brings_a_colleague_to_the_same_state(open_page: Open) -> No
     page.page.select_option("#along-y", label="A – amplitude over wavelength of the waviness")
     page.page.select_option("#shown-1", label="jumps on loading")
     page.page.wait_for_function("location.hash.includes('loading_jumps')")
-    there = open_page("maps", "#" + page.page.url.partition("#")[2])
     state = "[explorer.at, explorer.x, explorer.y, explorer.drawn, explorer.held]"
-    assert there.js(state) == page.js(state)
-    assert there.page.input_value("#along-y") == page.page.input_value("#along-y")
+    kept, along_y, address = page.js(state), page.page.input_value("#along-y"), page.page.url.partition("#")[2]
+    there = open_page("maps", f"#{address}")
+    assert there.js(state) == kept
+    assert there.page.input_value("#along-y") == along_y
     assert there.page.is_hidden("#wrong")
 
 

@@ -88,7 +88,7 @@ def edited(draw: st.DrawFn) -> str:
 
 
 @given(text=edited(), overrides=st.lists(st.builds("{}={}".format, KEYS, pieces), max_size=2, unique=True))
-@settings(max_examples=2000)
+@settings(max_examples=1000)
 def test_slips_in_real_studies_and_in_overrides(text: str, overrides: list[str]) -> None:
     read(text.encode("utf-8", "replace"), overrides)
 

@@ -35,10 +35,10 @@ def shell(tmp_path: Path) -> Shell:
 def test_names_reach_the_terminal_as_text(name: str, gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
     path, study = tmp_path / name, tmp_path / name.replace(".nc", ".toml")
     study.write_text(study_file.read_text())
-    told = []
+    told, more = [], ["--overwrite"] if "\n" in name else ["--variable", "k"]  # one is drawn
     for command in (
         ["info", path], ["run", study, "-o", path], ["run", study, "-o", path], ["info", path], ["status", path], ["plan", study, "-o", path],
-        ["validate", study, "--set", "title=3"], ["merge", path], ["plot", path, "--overwrite"], ["init", "-o", study], ["verify", path, "--sample", "1"],
+        ["validate", study, "--set", "title=3"], ["merge", path], ["plot", path, *more], ["init", "-o", study], ["verify", path, "--sample", "1"],
     ):  # fmt: skip
         result = gradhesion(*command)
         told.append(result.stdout + result.stderr)
@@ -68,8 +68,8 @@ def test_messages_do_not_decide(where: str, shell: Shell, study_file: Path, grad
 @pytest.mark.usefixtures("dataset_file", "study_file")
 def test_output_that_cannot_be_written_is_a_sentence(command: str, shell: Shell) -> None:
     for where, words in (("> /dev/full", "No space left on device"), (">&-", "is closed")):
-        if where == ">&-" and "help" in command:
-            continue
+        if where == ">&-" and command != "validate study.toml":
+            continue  # all but help are printed by one function
         done = shell(f"gradhesion {command} {where}")
         assert done.returncode == 4
         last = done.stderr.decode().splitlines()[-1]

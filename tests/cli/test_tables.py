@@ -18,7 +18,7 @@ from gradhesion.cli.tables import reading
 from gradhesion.cli.tables.columns import ColumnsError, Wanted
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.tables.text import of_text
-from tests.cli.conftest import BALL, COLUMNS, Call
+from tests.cli.conftest import BALL, COLUMNS, PROFILE, Call
 from tests.conftest import mistakes
 
 
@@ -141,18 +141,7 @@ STUDIES = {
 file = "table.csv"
 {COLUMNS}{BALL}work_of_adhesion = "30 mJ/m^2"
 """,
-    "profile": """outputs = ["pull_off_force"]
-[parameters]
-k = 0.0
-nu = 0.3
-[physical]
-E_star = "50 MPa"
-work_of_adhesion = "50 mJ/m^2"
-a_max = "1.5 um"
-[profile]
-file = "table.csv"
-terms = 1
-""",
+    "profile": PROFILE,
 }
 """For each reader of a study a study, whose table has the columns x and y."""
 HEADS = {"points": ("modulus", "A", ""), "fit": ("depth", "force", " [nm]"), "profile": ("r", "height", " [nm]"), "data": ("depth", "load", " [nm]")}  # fmt: skip

@@ -52,7 +52,7 @@ def test_scenes_on_a_tie_are_close_to_a_jump(kind: Kind, at_1: bool) -> None:
     A billionth away most are free, and an error of 1e-12 changes no count of these.
     """
     scenes, tied, free = drawn(kind)[0], 0, 0
-    scenes = some(scenes, np.flatnonzero((scenes["k"] == 1) == at_1)[: SCENES // 2])
+    scenes = some(scenes, np.flatnonzero((scenes["k"] == 1) == at_1)[: SCENES // 3])
     steps = (("A", COUNTS[0]), ("lambda_over_R", COUNTS[1]), ("lambda_over_R", "pull_off_radius"))
     for name, output in steps if scenes["k"].size else ():
         for ends, off in zip(bisected(kind, scenes, name, output), (-1e-9, 1e-9), strict=True):
@@ -127,7 +127,7 @@ def test_one_disc_against_the_gap_by_brute_force(kind: Kind, at_1: bool) -> None
     own = own | ({"k": np.ones_like(own["k"]), "nu": np.full_like(own["k"], 0.5)} if at_1 else {})
     for scenes in beside_the_step(kind, own):
         flagged = has(kind.solve(scenes), NOT_ONE)
-        for i in rng.permutation(flagged.size)[:6]:
+        for i in rng.permutation(flagged.size)[:4]:
             least, flag = least_gap(kind, one_of(scenes, i)), bool(flagged[i])
             if abs(least) > 2e-3 and not touches_elsewhere(kind, one_of(scenes, i)):  # nearer, radii between decide
                 assert (least < 0) == flag, (least, one_of(scenes, i))

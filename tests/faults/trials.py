@@ -93,7 +93,7 @@ class Trials:
     """A study, its dataset in a single go, and a folder for trials."""
 
     def __init__(self, folder: Path) -> None:
-        os.environ["GRADHESION_CHUNK"] = "2"
+        os.environ["GRADHESION_CHUNK"] = "4"
         self.study = folder / "study.toml"
         self.study.write_text(study_from(SMALL).text)
         self.folder = folder / "data"

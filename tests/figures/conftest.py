@@ -23,7 +23,7 @@ SMALL = {
     "extra_rim": ("a_max_over_R={ start = 0.02, stop = 0.8, num = 40 }",),
     "extra_energy_map": ('lambda_over_R={ start = 0.0001, stop = 0.01, num = 5, spacing = "log" }', "A={ start = 0.0, stop = 0.15, num = 4 }"),
     "extra_energy_amplitude": ("A={ start = 0.0, stop = 0.15, num = 7 }",),
-    "extra_roughness": ("A=[0.0, 0.003, 0.006]", "profile.spectrum={ hurst = 0.8, first = 1, last = 32, realisations = 30, seed = 1 }"),
+    "extra_roughness": ("A=[0.0, 0.006]", "profile.spectrum={ hurst = 0.8, first = 1, last = 16, realisations = 8, seed = 1 }"),
     "extra_energy_wavelength": ('lambda_over_R={ start = 0.0001, stop = 0.01, num = 7, spacing = "log" }',),
 }  # fmt: skip
 """Shorter axes for the studies that are maps, and fewer random profiles."""

@@ -51,11 +51,11 @@ def test_every_study_has_a_picture_and_every_picture_a_study() -> None:
 
 def test_a_picture_has_every_form_and_the_resolution_that_is_named(computed: Compute, tmp_path: Path) -> None:
     """And is twice the same."""
-    files = [tmp_path / "a.png", tmp_path / "b.pdf", tmp_path / "c.png"]
-    for dpi, pixels in ((None, (1005, 780)), (120, (402, 312))):
-        draw("fig8", computed("fig8"), files, dpi=dpi)
-        assert files[1].read_bytes().startswith(b"%PDF")
-        assert files[0].read_bytes() == files[2].read_bytes()
+    files = [tmp_path / "a.png", tmp_path / "c.png", tmp_path / "b.pdf"]
+    for dpi, pixels, forms in ((None, (1005, 780), 3), (120, (402, 312), 2)):
+        draw("fig8", computed("fig8"), files[:forms], dpi=dpi)
+        assert files[2].read_bytes().startswith(b"%PDF")
+        assert files[0].read_bytes() == files[1].read_bytes()
         assert struct.unpack(">II", files[0].read_bytes()[16:24]) == pixels  # 3.35 x 2.6 inches
 
 

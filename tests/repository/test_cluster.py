@@ -38,7 +38,7 @@ class SLURMCluster(LocalCluster):
         super().__init__(n_workers=0, threads_per_worker=1, dashboard_address="127.0.0.1:0", silence_logs=60)
 
     def adapt(self, *, minimum_jobs, maximum_jobs):
-        self.scale(2)
+        self.scale(1)
 """
 
 

@@ -11,7 +11,7 @@ import xarray
 import gradhesion as gr
 from gradhesion.cli.dataset import compute
 from gradhesion.cli.study import load_study, study_from
-from tests.cli.conftest import Call, Made, Patch, Told, mistakes_of
+from tests.cli.conftest import PROFILE, Call, Made, Patch, Told, mistakes_of
 
 LISTS: dict[str, list[float]] = {
     "modulus": [430.0, 517.3, 611.9],
@@ -128,22 +128,7 @@ def test_shards_and_merge_find_the_file(points: Path, gradhesion: Call, tmp_path
         np.testing.assert_array_equal(found["pull_off_force"], gr.run(points)["pull_off_force"])
 
 
-PROBE = """\
-outputs = ["pull_off_force"]
-
-[parameters]
-k = 0.0
-nu = 0.3
-
-[physical]
-E_star = "50 MPa"
-work_of_adhesion = "50 mJ/m^2"
-a_max = "1.5 um"
-
-[profile]
-file = "tip.csv"   # measured
-terms = 1
-"""
+PROBE = PROFILE.replace("table.csv", "tip.csv")
 RADIUS, WAVELENGTH, AMPLITUDE = 5e-6, 0.35e-6, 4e-9
 PLAIN = {"k": 0.0, "nu": 0.3, "E_star": 50e6, "work_of_adhesion": 0.05, "a_max": 1.5e-6}
 
@@ -191,7 +176,7 @@ def test_the_dataset_has_file_fingerprint_and_residual(probe: Path, gradhesion: 
     assert study_from(tomllib.loads(stored), folder=tmp_path).measured.sha256 == sha256
     (tmp_path / "tip.csv").write_text(table(noise=1e-12))
     (sentence,) = mistakes_of(probe)
-    assert sentence.startswith(f"{probe}:13: profile.file = "), "it is another file"
+    assert sentence.startswith(f"{probe}:10: profile.file = "), "it is another file"
     (tmp_path / "tip.csv").unlink()
     assert gradhesion("verify", output, "--sample", "1").exit_code == 0, "the dataset has the fit"
 

@@ -19,7 +19,7 @@ from tests.cli.conftest import Call, Patch
 from tests.faults.trials import values_of
 
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("small_blocks")]
-Cluster = Callable[[], str]
+Cluster = Callable[..., str]
 
 PRELOAD = """
 import os, signal, time
@@ -48,13 +48,13 @@ if (order / "other_version").exists():
 
 @pytest.fixture
 def cluster(tmp_path: Path) -> Iterator[Cluster]:
-    """Start two workers that obey, and give the address of their scheduler."""
+    """Start workers that obey, and give the address of their scheduler."""
     preload = tmp_path / "preload.py"
     preload.write_text(PRELOAD.format(folder=str(tmp_path)))
-    how = {"n_workers": 2, "threads_per_worker": 1, "memory_limit": None, "dashboard_address": None, "silence_logs": 60}
+    how = {"threads_per_worker": 1, "memory_limit": None, "dashboard_address": None, "silence_logs": 60}
     own = {"distributed.worker.preload": [str(preload)], "distributed.scheduler.allowed-failures": 1}
     with dask.config.set(own), ExitStack() as made:
-        yield lambda: made.enter_context(LocalCluster(**how)).scheduler_address
+        yield lambda workers: made.enter_context(LocalCluster(n_workers=workers, **how)).scheduler_address
 
 
 def test_workers_give_the_bytes_of_threads_and_what_dies_is_replaced(
@@ -62,7 +62,7 @@ def test_workers_give_the_bytes_of_threads_and_what_dies_is_replaced(
 ) -> None:
     """By address, by the file of a scheduler, on what another engine has left, and with a worker that is killed."""
     output, file = tmp_path / "data" / "out.nc", tmp_path / "scheduler.json"
-    address = cluster()
+    address = cluster(2)
     file.write_text(json.dumps({"address": address}))
     assert gradhesion("run", study_file, "-o", output, "--shard", "1/3").exit_code == 0
     (tmp_path / "die").touch()
@@ -81,7 +81,7 @@ def test_workers_that_cannot_do_it_end_the_run(
     what: str, code: int, gradhesion: Call, study_file: Path, tmp_path: Path, cluster: Cluster
 ) -> None:
     (tmp_path / what).touch()
-    address, output = cluster(), tmp_path / "data" / "out.nc"
+    address, output = cluster(1), tmp_path / "data" / "out.nc"
     assert gradhesion("run", study_file, "-o", output, "--shard", "1/3").exit_code == 0
     result = gradhesion("run", study_file, "-o", output, "--engine", "dask", "--scheduler", address, code=code)
     assert result.stderr.startswith("--engine dask: ")
