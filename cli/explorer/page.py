@@ -2,6 +2,7 @@
 
 import tomllib
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
 
@@ -145,7 +146,9 @@ def _kind_of(study: Entry) -> str:
 
 def _study_of_a_scene(dataset: xarray.Dataset) -> Entry:
     """Describe the study of one scene: the keys that give it, each with its table, and all else that it has as TOML."""
-    stored = tomllib.loads(str(dataset.attrs.get("study", "")))
+    stored: dict[str, Any] = {}
+    with suppress(tomllib.TOMLDecodeError, RecursionError):
+        stored = tomllib.loads(str(dataset.attrs.get("study", "")))
     keys = {name: INPUTS[name].table for name in given(dataset.coords)}
     own = [str(name) for name in dataset.data_vars if name != "status" and not str(name).endswith(SI)]
     head = {"title": f"A scene of: {dataset.attrs.get('title', 'a dataset')}", "outputs": stored.get("outputs", own)}

@@ -161,23 +161,22 @@ def starts_downwards(parameters: Mapping[str, ArrayLike], profile: Profile) -> N
 
 
 @lru_cache(maxsize=256)
-def extremes(k: float, rows: Rows) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return how far waves of some rows swing above their mean and where, and below, at large radii.
+def swings(k: float, rows: Rows) -> tuple[float, float]:
+    """Return how far waves of some rows swing above and below their mean at large radii, where they keep their shape.
 
-    There they keep their shape.
     For short waves depth swings by r zeta(x) a^c about its mean, c = (1-k)/2, with the r of one cosine and
 
         zeta(x) = sum n^c [cos_n sin(2 pi n x - phi) + sin_n cos(2 pi n x - phi)],   phi = pi (1+k)/4      (5.17)
 
-    These are the largest zeta and minus the least, both >= 0, to a few units in the last place of their terms, and x
-    from 0 to 1: those of a sampled period that may be the best are refined by Newton's method. Any k: with k - 2 zeta
-    is its derivative by 2 pi x, and at -1 and -3 it is f2'/(2 pi A) and f2''/(4 pi^2 A).
+    These are the largest zeta and minus the least, both >= 0, to a few units in the last place of their terms: those of
+    a sampled period that may be the best are refined by Newton's method. Any k: at -1 and -3 zeta is f2'/(2 pi A) and
+    f2''/(4 pi^2 A).
 
-    >>> extremes(1.0, ((1.0, 1.0, 0.0),))
-    ((1.0, 0.5), (1.0, 0.0))
+    >>> [round(float(swing), 12) for swing in swings(0.3, ((1.0, 1.0, 0.0),))]
+    [1.0, 1.0]
     """
     if not rows:
-        return (0.0, 0.0), (0.0, 0.0)
+        return 0.0, 0.0
     numbers, even, odd = np.array(rows).T[:, :, np.newaxis]
     even, odd = (numbers ** (0.5 * (1.0 - k)) * size for size in (even, odd))
     count, shift = _SAMPLES * int(numbers.max()), 0.25 * math.pi * (1.0 + k)
@@ -200,17 +199,9 @@ def extremes(k: float, rows: Rows) -> tuple[tuple[float, float], tuple[float, fl
             bend = sign * zeta(samples, rest, 2)
             step = np.divide(-sign * zeta(samples, rest, 1), bend, out=np.zeros_like(bend), where=bend < 0.0)
             rest = np.clip(rest + step, -1.0 / count, 1.0 / count)
-        places, rest = np.tile(samples, 2), np.append(rest, np.zeros(samples.size))
-        ends = sign * zeta(places, rest)
-        highest = int(ends.argmax())
-        found.append((max(0.0, float(ends[highest])), float(places[highest] / count + rest[highest]) % 1.0))
+        ends = np.concatenate([zeta(samples, rest), zeta(samples, np.zeros(samples.size))])
+        found.append(max(0.0, float((sign * ends).max())))
     return found[0], found[1]
-
-
-def swings(k: float, rows: Rows) -> tuple[float, float]:
-    """Return how far waves of some rows swing above and below their mean, the values of `extremes`."""
-    (up, _), (down, _) = extremes(k, rows)
-    return up, down
 
 
 def swings_of(k: NDArray[np.float64], rows: Rows) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

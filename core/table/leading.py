@@ -9,8 +9,9 @@ G((1+k)/2). The slopes of these two are no multiples of each other, so that the 
 
 import math
 
+import numpy as np
+
 from gradhesion.core.jit import kernel, leaf
-from gradhesion.core.problem.profile import extremes
 from gradhesion.core.table.layout import BY_DEPTH, BY_LOAD, POINTS, N
 from gradhesion.core.types import Floats
 
@@ -25,9 +26,20 @@ def crests_of(k: float, waves: Floats) -> tuple[float, float, float]:
 
     `waves` are rows (n, cos, sin); the phase is y within a wavelength.
     """
-    rows, size = tuple(map(tuple, waves.tolist())), 1.005 * amplitude_of(k)  # more for the terms after the leading one
-    (_, (steepest, place)), (_, (wave, _)) = extremes(k - 2.0, rows), extremes(k, rows)
-    return size * steepest, size * wave, 2.0 * math.pi * place
+    phases = np.linspace(0.0, 2.0 * np.pi, 256 * int(waves[:, 0].max()) + 1)
+    slope, wave = np.zeros(phases.size), np.zeros(phases.size)
+    for n, cos, sin in waves:
+        angle = n * phases - 0.25 * np.pi * (1.0 + k)
+        size = amplitude_of(k) * n ** (0.5 * (1.0 - k))
+        cosine, sine = np.cos(angle), np.sin(angle)
+        slope += size * n * (cos * cosine - sin * sine)
+        wave += size * (cos * sine + sin * cosine)
+    margin = 1.005  # of the maxima between the phases that are looked at, and of the terms after the leading one
+    at = int(slope[:-1].argmin())
+    before, least, after = slope[at - 1 if at > 0 else -2], slope[at], slope[at + 1]
+    step = 0.5 * (before - after) / (before - 2.0 * least + after)  # to the vertex of the parabola
+    steepest = float(phases[at] + step * phases[1]) % (2.0 * np.pi)
+    return -margin * float(slope.min()), -margin * float(wave.min()), steepest
 
 
 @leaf

@@ -13,7 +13,6 @@ from gradhesion.cli.dataset.read.reader import tiling_of
 from gradhesion.cli.names.curves import curve_of
 from gradhesion.cli.names.outputs import BEST, value_of
 from gradhesion.cli.names.scenes import STEEP
-from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling
 from gradhesion.cli.terminal.amounts import counted, share_of
 from gradhesion.core import doubts_about
@@ -26,6 +25,8 @@ from gradhesion.core.problem.status import DOUBTFUL, FLAGS
 if TYPE_CHECKING:
     import netCDF4
     import xarray
+
+    from gradhesion.cli.study.study import Study
 
     Amplitude = xarray.DataArray | netCDF4.Variable[Any]
 
@@ -158,7 +159,7 @@ def flagged_in(status: NDArray[np.integer]) -> dict[str, int]:
     return {name: int(np.count_nonzero(status.astype(np.int16) & bit)) for name, bit in flags.items()}
 
 
-def cautions(study: Study, flagged: Mapping[str, int], steep: int, amplitude: "Amplitude | None") -> Iterator[str]:
+def cautions(study: "Study", flagged: Mapping[str, int], steep: int, amplitude: "Amplitude | None") -> Iterator[str]:
     """Say of each flag in what share of the cells it is set, and what to do; and how many contacts are `steep`."""
     counts = {"steep": steep, **flagged}
     if study.is_cone and depends_on_contact(study.solved):

@@ -19,7 +19,7 @@ from tests.cli.conftest import Call, Patch
 from tests.faults.trials import values_of
 
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("small_blocks")]
-Cluster = Callable[..., str]
+Cluster = Callable[[int], str]
 
 PRELOAD = """
 import os, signal, time
@@ -51,10 +51,16 @@ def cluster(tmp_path: Path) -> Iterator[Cluster]:
     """Start workers that obey, and give the address of their scheduler."""
     preload = tmp_path / "preload.py"
     preload.write_text(PRELOAD.format(folder=str(tmp_path)))
-    how = {"threads_per_worker": 1, "memory_limit": None, "dashboard_address": None, "silence_logs": 60}
+    how = {"threads_per_worker": 1, "memory_limit": None, "dashboard_address": ":0", "silence_logs": 60}
     own = {"distributed.worker.preload": [str(preload)], "distributed.scheduler.allowed-failures": 1}
     with dask.config.set(own), ExitStack() as made:
-        yield lambda workers: made.enter_context(LocalCluster(n_workers=workers, **how)).scheduler_address
+
+        def started(workers: int) -> str:
+            cluster = made.enter_context(LocalCluster(n_workers=workers, **how))
+            made.callback(cluster.wait_for_workers, workers, 60)  # none is closed while it is started again
+            return str(cluster.scheduler_address)
+
+        yield started
 
 
 def test_workers_give_the_bytes_of_threads_and_what_dies_is_replaced(
