@@ -38,7 +38,7 @@ KINDS: dict[str, dict[str, Any]] = {
     "map": {"parameters": PUNCH},
     "points": {"layout": "points", "parameters": MATERIAL | LISTS},
     "solvers": {"parameters": PUNCH, "method": {"solver": ["envelope", "exact", "asymptotic"]}},
-    "points of solvers": {"layout": "points", "parameters": MATERIAL | LISTS, "method": {"solver": ["exact", "envelope"]}},
+    "points of solvers": {"layout": "points", "outputs": [*OUTPUTS], "parameters": MATERIAL | LISTS, "method": {"solver": ["exact", "envelope"]}},
     "similarity": {"parameters": REDUCED},
     "points of similarity": {"layout": "points", "parameters": REDUCED | {"k": 0.31}},
     "rim over jump-in": {"parameters": RIM},
