@@ -21,7 +21,7 @@ from gradhesion.core.rate import edge as steps
 from gradhesion.core.rate.edge import Edge, Room, Step, Way, advance, lag_of, place_at, pulls_at, state_of, stride
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.reduced import AT_RIM, UNIT_OF_FORCE, Punch, reduced_of
-from gradhesion.core.scenes.requests import columns_of, punch_of, scenes_of
+from gradhesion.core.scenes.requests import columns_of, scenes_of
 from gradhesion.core.scenes.tables import long_table
 from gradhesion.core.sweep import request_of
 from gradhesion.core.table.basis import basis_of
@@ -222,7 +222,7 @@ def move(
     """
     turn = TURNS[0] if TURNS[0] in parameters and not opens else None
     request = request_of(parameters, turn, known["profile"], known["loading"], None)
-    punch, names, (columns, count) = punch_of(request), OPENED if opens else CLOSED, columns_of(request)
+    punch, names, (columns, count) = request.punch, OPENED if opens else CLOSED, columns_of(request)
     scenes = np.vstack([scenes_of(columns, 0, count), np.broadcast_to(parameters[SPEED], request.shape).reshape(1, -1)])
     reduced = reduced_of(punch, basis_of(punch.exponent, punch.waves), scenes, np.ones(count), np.zeros(count))
     out, track = np.full((len(names) + 1, count), np.nan), np.zeros((3, points))

@@ -44,11 +44,6 @@ class Request(NamedTuple):
     punch: Punch
 
 
-def punch_of(request: Request) -> Punch:
-    """Return what the scenes of a request share."""
-    return request.punch
-
-
 def columns_of(request: Request) -> tuple[list[Floats], int]:
     """Return each row of parameters, of one item or one a scene, and the number of scenes."""
     shape = request.shape

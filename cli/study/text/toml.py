@@ -182,7 +182,7 @@ def _set(data: dict[str, Any], override: str) -> Key:
     with suppress(ValueError, RecursionError):
         parsed = parsed or tomllib.loads(f"value = {value}")
     if parsed.keys() != {"value"}:
-        words = "the value is not TOML; put strings in quotes and several values in brackets"
+        words = "the value is not TOML; strings are in quotes, several values in brackets, and decimals have a point"
         raise ValueError(f"""{words}, as in --set 'title="A map"' --set 'parameters.k=[0, 0.5]'""")
     if len(steps) > _DEEPEST or is_deep(parsed["value"]):
         raise ValueError(DEEP)
