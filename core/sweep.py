@@ -36,7 +36,7 @@ from gradhesion.core.problem.names import (
 from gradhesion.core.problem.profile import WAVY, Profile, in_own_wavelength, starts_downwards
 from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE
 from gradhesion.core.problem.toughness import rows_of_pattern
-from gradhesion.core.scenes import rows as at
+from gradhesion.core.scenes import results
 from gradhesion.core.scenes.reduced import Punch
 from gradhesion.core.scenes.requests import Request, Wanted
 from gradhesion.core.scenes.tasks import solve_all
@@ -158,9 +158,9 @@ def _solved(
         needed |= {"loading_energy", "loading_jumps", "dissipated_energy"}
     if cycle and solver == "asymptotic":
         needed |= {"dissipated_energy"}
-    names = [name for name in at.NAMES if name in needed]
+    names = [name for name in results.NAMES if name in needed]
     form = BY_DEPTH if solver == "asymptotic" else EXACT
-    rows, status = solve_all(request, wanted, form, [at.NAMES.index(name) for name in names], threads)
+    rows, status = solve_all(request, wanted, form, [results.NAMES.index(name) for name in names], threads)
     found: Results = {name: row.reshape(request.shape) for name, row in zip(names, rows, strict=True)}
     status = status.reshape(request.shape)
     if "dissipated_energy" in found:  # NaN is beyond all numbers, and a gain a contact that is no larger than a wave

@@ -104,7 +104,8 @@ def _page(dataset: xarray.Dataset, file: str, cut: xarray.Dataset) -> str:
         "script": "\n".join(_read(f"{name}.js") for name in _SCRIPTS),
     }
     template = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True).from_string(_read("page.html"))
-    return file_html(document, INLINE, document.title, template=template, template_variables=about)
+    page: str = file_html(document, INLINE, document.title, template=template, template_variables=about)
+    return page
 
 
 def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[str]) -> xarray.Dataset:

@@ -22,9 +22,9 @@ from gradhesion.core.cycle.turning import turning_radius
 from gradhesion.core.edge.pattern import Pattern, patterned_table
 from gradhesion.core.jit import inlined, kernel, leaf
 from gradhesion.core.problem.status import NO_VALUE
+from gradhesion.core.scenes import results
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.reduced import AT_A_LOAD, AT_DEPTH, AT_RIM, Punch
-from gradhesion.core.scenes.results import no_value, put_force, put_losses, put_no_contact, put_pull_off
 from gradhesion.core.scenes.tables import Rooms, Task
 from gradhesion.core.table.layout import Table, end_of
 from gradhesion.core.types import Floats, Integers
@@ -185,7 +185,7 @@ def _put_cycle(walked: Walked, task: Task, y: float, reduced: Floats, i: int, ou
     one_disc = not task.wanted.contact or _loading_keeps_one_disc(task, walked, y, reduced, i)
     tied = _is_tied(walked, task.punch.turn, y, reduced, i)
     cycle = Cycle(loaded, unloaded, y, reach, snap_in(closing, landing), one_disc, tied)
-    bits = put_losses(cycle, opening, walked.pattern, walked.ratio, reduced, i, out)
+    bits = results.put_losses(cycle, opening, walked.pattern, walked.ratio, reduced, i, out)
     if task.wanted.residual:
         jumps, count, total = task.rooms.jumps, 0, 0
         top = y  # where one curve leads out beyond the last landing and back, its load does no work
@@ -195,7 +195,7 @@ def _put_cycle(walked: Walked, task: Task, y: float, reduced: Floats, i: int, ou
             count = list_loading_jumps(closing, top, loading, visited, walked.visits, jumps)
             total = list_unloading_jumps(opening, top, walked.unloading, walked.opened, jumps, count)
         work = work_of_cycle(closing, opening, top, jumps, count, total)
-        out[at.RESIDUAL, i] = out[at.ENERGY, i] - work * 2.0 * math.pi * reduced[at.LENGTH, i] ** 2
+        out[results.RESIDUAL, i] = out[results.ENERGY, i] - work * 2.0 * math.pi * reduced[at.LENGTH, i] ** 2
     return bits
 
 
@@ -234,13 +234,13 @@ def walk_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: in
                 if turn != AT_DEPTH or target >= 0.0:
                     y = min(turning_radius(own, target, loading, columns[0], visits, turning, measured), rim)
                 farther = farther or (y == rim and far < min(rim, end))  # not reached as far as the curve is traced
-            out[at.TURN, i] = y
+            out[results.TURN, i] = y
         far = min(2.0 * far, end)
     opened, farthest = branches, 0.0
     for i in range(first, last):
-        y = out[at.TURN, i]
+        y = out[results.TURN, i]
         if math.isnan(y) or (turn != AT_RIM and y >= end and branches >= 0):
-            no_value(out, i, at.SHORT)
+            results.no_value(out, i, results.SHORT)
         else:
             farthest = max(farthest, y)
     unloading = loading if ratio == 1.0 else rooms.traces[OPENING_TRACE]
@@ -271,11 +271,11 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
     if farthest > 0.0:
         lowest = lowest_load(pull, farthest, 0, bins)
     for i in range(first, last):
-        y = out[at.TURN, i]
+        y = out[results.TURN, i]
         if math.isnan(y):
             continue
         if y == 0.0:
-            put_no_contact(scenes, i, out)
+            results.put_no_contact(scenes, i, out)
             continue
         own, bits = lowest, -1
         if not serves(lowest, farthest, y):
@@ -283,9 +283,9 @@ def solve_curve(task: Task, scenes: Floats, reduced: Floats, first: int, last: i
         if walked.branches >= 0 and walked.opened >= 0 and own.known and (own.load < 0.0 or patterned):
             bits = _put_cycle(walked, task, y, reduced, i, out)
         if bits >= 0:
-            out[at.STATUS, i] = bits | put_pull_off(own, y, reduced, i, out)
+            out[results.STATUS, i] = bits | results.put_pull_off(own, y, reduced, i, out)
         else:
-            no_value(out, i, at.SHORT)
+            results.no_value(out, i, results.SHORT)
 
 
 @kernel
@@ -300,7 +300,7 @@ def curve_end(reach: float, scenes: Floats, reduced: Floats, start: int, last: i
         if solvable:
             end += 1
         else:
-            no_value(out, end, at.SHORT if reduced[at.VALID, end] > 0.0 else NO_VALUE)
+            results.no_value(out, end, results.SHORT if reduced[at.VALID, end] > 0.0 else NO_VALUE)
     return end
 
 
@@ -316,7 +316,7 @@ def _solve_forces(task: Task, scenes: Floats, reduced: Floats, first: int, last:
             if not lowest.known:
                 own = curve_of(table, task.crest, pattern, reduced, i, 1.0, y_end, nodes, polys)
                 lowest = lowest_load(own, reduced[at.RIM_Y, i], 0, own.table.bins)
-        put_force(lowest, reduced, i, out)
+        results.put_force(lowest, reduced, i, out)
 
 
 @leaf
@@ -331,7 +331,8 @@ def _fill_saturation(task: Task, scenes: Floats, reduced: Floats, first: int, la
             pattern = pattern_of(task.punch, scenes, reduced, i)
             own = curve_of(task.table, task.crest, pattern, reduced, i, 1.0, reduced[at.NEED, i], nodes, polys)
             y = _last_fold(own, task.rooms.traces[OPENING_TRACE])
-        out[at.SATURATION, i], out[at.STATUS, i] = y * reduced[at.LENGTH, i], at.SHORT if math.isnan(y) else 0.0
+        out[results.SATURATION, i] = y * reduced[at.LENGTH, i]
+        out[results.STATUS, i] = results.SHORT if math.isnan(y) else 0.0
 
 
 @inlined

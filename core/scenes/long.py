@@ -16,11 +16,11 @@ from gradhesion.core.many.losses import LOSSES
 from gradhesion.core.many.search import MOST, NEAR, Long, end_of_folds, from_birth, space_for, with_limits
 from gradhesion.core.many.waves import Waves, reach_of, start_of, waves_of
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
+from gradhesion.core.scenes import results
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.cycles import measured_curve, pattern_of
 from gradhesion.core.scenes.reduced import AT_DEPTH, AT_RIM, Punch, disc_of
 from gradhesion.core.scenes.requests import Wanted
-from gradhesion.core.scenes.results import no_value, put_force, put_losses, put_no_contact, put_pull_off
 from gradhesion.core.scenes.tables import MOST_BINS, Task, long_table, rooms_for, solve_some
 from gradhesion.core.table.filling import width_of
 from gradhesion.core.table.layout import BY_LOAD as OF_PULL_OFF
@@ -67,17 +67,17 @@ def solve_long(
     """
     turn, bins = task.punch.turn, task.by_load.bins
     for i in range(scenes.shape[1]):
-        no_value(out, i, NO_VALUE)
+        results.no_value(out, i, NO_VALUE)
         if not reduced[at.VALID, i]:
             continue
         if turn == AT_DEPTH and reduced[at.TARGET_VALUE, i] < 0.0:
-            put_no_contact(scenes, i, out)
+            results.put_no_contact(scenes, i, out)
             continue
         edge, tied, root = reduced[at.RIM_Y, i], False, math.sqrt(reduced[at.CLOSING, i])
         closing, opening = _curve(task, reduced, i, root), _curve(task, reduced, i, 1.0)
         long = from_birth(with_limits(every, every.near, most[i]), closing)
         if start_of(long.waves, long.near + 2.0) > end_of(long.table):
-            out[at.STATUS, i] = NO_VALUE | TOO_MANY_WAVES
+            out[results.STATUS, i] = NO_VALUE | TOO_MANY_WAVES
             continue
         folds, y = end_of_folds(long, closing), edge
         begun, starts = begin(long, closing, folds)
@@ -85,26 +85,26 @@ def solve_long(
             target = reduced[at.TARGET_VALUE, i] / root
             y, tied = turn_far(long, closing, measured_curve(closing, turn), target, begun, edge)
         if y < start_of(long.waves, long.near + 4.0):
-            no_value(out, i, at.SHORT)
+            results.no_value(out, i, results.SHORT)
             reduced[at.NEED, i] = start_of(long.waves, long.near + 8.0)
             continue
         load = Curve(task.by_load, opening.B, opening.g, 0.0, 1.0)
         lowest = lowest_load(load, y, 0, bins)
         if not lowest.known:
             lowest = lowest_far(with_limits(pull, pull.near, most[i]), load, y)
-        out[at.STATUS, i] = NO_VALUE | TOO_MANY_WAVES
+        out[results.STATUS, i] = NO_VALUE | TOO_MANY_WAVES
         if not (lowest.known and lowest.load < 0.0):
             continue
         if not task.wanted.cycle and turn == AT_RIM:
-            put_force(lowest, reduced, i, out)
+            results.put_force(lowest, reduced, i, out)
             continue
         cycle = loop_far(long, closing, opening, root == 1.0, folds, begun, starts, y, edge, tied, total)
         if not cycle.loaded.known:
-            no_value(out, i, at.SHORT if reduced[at.NEED, i] < walkable else NO_VALUE | TOO_MANY_WAVES)
+            results.no_value(out, i, results.SHORT if reduced[at.NEED, i] < walkable else NO_VALUE | TOO_MANY_WAVES)
             continue
         pattern = pattern_of(task.punch, scenes, reduced, i)
-        bits = put_losses(cycle, opening, pattern, reduced[at.CLOSING, i], reduced, i, out)
-        out[at.STATUS, i] = bits | put_pull_off(lowest, y, reduced, i, out)
+        bits = results.put_losses(cycle, opening, pattern, reduced[at.CLOSING, i], reduced, i, out)
+        out[results.STATUS, i] = bits | results.put_pull_off(lowest, y, reduced, i, out)
 
 
 @kernel
@@ -112,8 +112,8 @@ def fill_saturation(task: Task, every: Long, most: Integers, reduced: Floats, ou
     """Store the radii of the outermost folds of opening, of scenes whose folds end; `most` as of `solve_long`."""
     for i in range(reduced.shape[1]):
         y = last_fold(with_limits(every, every.near, most[i]), _curve(task, reduced, i, 1.0))
-        out[at.SATURATION, i] = y * reduced[at.LENGTH, i]
-        out[at.STATUS, i] = NO_VALUE | TOO_MANY_WAVES if math.isnan(y) else 0
+        out[results.SATURATION, i] = y * reduced[at.LENGTH, i]
+        out[results.STATUS, i] = NO_VALUE | TOO_MANY_WAVES if math.isnan(y) else 0
 
 
 _waves: OrderedDict[tuple[object, ...], Waves] = OrderedDict()

@@ -1,11 +1,9 @@
-"""The rows of the arrays of scenes, (rows, scenes): parameters, reduced numbers, results.
+"""The rows of the arrays of scenes, (rows, scenes): parameters and reduced numbers; those of results are in results.py.
 
-They are imported `as at`: `scenes[at.K, i]`, `reduced[at.RIM_Y, i]`, `out[at.FORCE, i]`.
+They are imported `as at`: `scenes[at.K, i]`, `reduced[at.RIM_Y, i]`.
 """
 
 from typing import Final
-
-from gradhesion.core.problem.names import EDGE, OUTPUTS, REACH
 
 # Parameters; those that a study may leave out have what stands beside them.
 K, NU, MODULUS, C0, WAVELENGTH, AMPLITUDE, RIM = range(7)
@@ -24,12 +22,3 @@ WINDOW, PULL, FAR, NEED = range(10, 14)
 PATTERN_WAVES, MOST, STEEP, EXPONENT, VALID = range(14, 19)
 # waves of the pattern in one of the profile; bounds of kappa and its slope; k; 1 if the scene can have a value, else 0
 REDUCED_ROWS: Final = 19
-
-# Results: forces in 1.5 pi R dgamma, lengths in R, energies in R^2 dgamma.
-FORCE, PULL_OFF_RADIUS, ENERGY, LOADING_JUMPS, UNLOADING_JUMPS, DEEPEST, JUMP_OUT, LOADING, UNLOADING = range(9)
-TURN, FRONT, SNAP, PINNED, FURTHEST, RESIDUAL, SATURATION, STATUS = range(9, 17)
-RESULT_ROWS: Final = 17
-NAMES: Final = (*OUTPUTS, *EDGE, REACH, "energy_residual", "saturation_radius")
-"""Names of results, in the order of their rows but for the status."""
-SHORT: Final = -1.0
-"""In the place of a status: the table is too short."""

@@ -13,12 +13,12 @@ from gradhesion.core.cycle.pull_off import Lowest, envelope_place, lowest_load, 
 from gradhesion.core.edge.pattern import bins_of_wave, bounds_of
 from gradhesion.core.jit import allocating, kernel, leaf
 from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
+from gradhesion.core.scenes import results
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.cycles import curve_end, solve_exponent
 from gradhesion.core.scenes.long import solve_summed
 from gradhesion.core.scenes.reduced import AT_RIM, Punch, reduced_of
 from gradhesion.core.scenes.requests import Places, Request, Wanted, run_parts
-from gradhesion.core.scenes.results import put_force
 from gradhesion.core.scenes.tables import (
     MOST_BINS,
     Tables,
@@ -85,7 +85,7 @@ def near_forces(basis: Basis, kept: Kept, scenes: Floats, reduced: Floats, out: 
             rim, own = reduced[at.RIM_Y, i], lowest
             if not serves(lowest, furthest, rim):
                 own = _near_lowest(basis, kept, place, curve, rim)
-            put_force(own, reduced, i, out)
+            results.put_force(own, reduced, i, out)
         first = last
 
 
@@ -106,13 +106,13 @@ def far_rims(punch: Punch, width: float, form: int, scenes: Floats, reduced: Flo
     source = source_of(0.5, punch.exponent, punch.waves, width, 0.0, form)
     for i in range(scenes.shape[1]):
         y = reduced[at.RIM_Y, i]
-        if out[at.DEEPEST, i] == math.inf and y < math.inf:
+        if out[results.DEEPEST, i] == math.inf and y < math.inf:
             if source.k != scenes[at.K, i]:
                 source = source_of(scenes[at.K, i], punch.exponent, punch.waves, width, 0.0, form)
             u, _ = waves_at(source, y)
             flat = reduced[at.BY_POWER, i] * y**punch.exponent + reduced[at.BY_WAVES, i] * u
             stretch = math.sqrt(reduced[at.CLOSING, i]) * y ** (0.5 * (1.0 - scenes[at.K, i]))
-            out[at.DEEPEST, i] = (flat - stretch) * reduced[at.DEPTH, i]
+            out[results.DEEPEST, i] = (flat - stretch) * reduced[at.DEPTH, i]
 
 
 def _finer_bins(punch: Punch, scenes: Floats, least: Floats) -> Integers:
@@ -161,9 +161,9 @@ def _solve_far(
         rooms = rooms_for(table.bins, punch.rows.shape[1] > 0)
         tables = near._replace(long=table, long_by_load=pull, crest=crest, reach=reach, rooms=rooms)
         solve_some(partial(solve, tables), left, scenes, reduced, out)
-        left = np.flatnonzero(out[at.STATUS] == at.SHORT)
+        left = np.flatnonzero(out[results.STATUS] == results.SHORT)
         factor *= 3.0
-    out[at.STATUS, left] = NO_VALUE | TOO_MANY_WAVES
+    out[results.STATUS, left] = NO_VALUE | TOO_MANY_WAVES
 
 
 def solve_groups(
@@ -187,23 +187,23 @@ def solve_groups(
     reduced, finer = prepared(punch, form, scenes)
     if pull_off:
         reduced[at.NEED] = np.fmin(reduced[at.PULL], reduced[at.RIM_Y])
-    out[at.STATUS] = NO_VALUE | TOO_MANY_WAVES  # where finer bins than FINEST are needed
+    out[results.STATUS] = NO_VALUE | TOO_MANY_WAVES  # where finer bins than FINEST are needed
     finenesses = np.unique(finer[finer <= FINEST]).tolist() if punch.rows.shape[1] > 0 else [1]
     for fineness in finenesses:
         chosen = np.flatnonzero(finer == fineness)
         near = near_tables(punch, form, fineness, own_exponent(punch, scenes))
         solve_some(partial(solve, near), chosen, scenes, reduced, out)
-        short = chosen[out[at.STATUS, chosen] == at.SHORT]
+        short = chosen[out[results.STATUS, chosen] == results.SHORT]
         if not short.size:
             continue
         most, longest = ((bins - GEOMETRIC) * width_of(punch.waves, fineness) for bins in (most_bins, MOST_BINS))
-        out[at.STATUS, short[reduced[at.NEED, short] > most]] = NO_VALUE | TOO_MANY_WAVES
+        out[results.STATUS, short[reduced[at.NEED, short] > most]] = NO_VALUE | TOO_MANY_WAVES
         short, most = short[reduced[at.NEED, short] <= most], min(most, longest)
         for k in np.unique(scenes[at.K, short]):
             own = short[scenes[at.K, short] == k]
             if summed is not None:
                 solve_some(summed, own, scenes, reduced, out)
-                own = own[out[at.STATUS, own] == at.SHORT]
+                own = own[out[results.STATUS, own] == results.SHORT]
             solve_some(partial(_solve_far, punch, form, near, most, solve), own, scenes, reduced, out)
     return reduced
 
@@ -223,7 +223,7 @@ def _solve_task(punch: Punch, wanted: Wanted, form: int, scenes: Floats, *, dept
         else:
             solve_cycles(punch, wanted, tables, own, reduced, found)
 
-    out = np.full((at.RESULT_ROWS, scenes.shape[1]), np.nan)
+    out = np.full((results.RESULT_ROWS, scenes.shape[1]), np.nan)
     summed = partial(solve_summed, punch, wanted, form) if plain else None
     reduced = solve_groups(punch, form, scenes, out, solve, summed=summed, pull_off=alone)
     if depth:
@@ -237,9 +237,9 @@ def _with_saturation(punch: Punch, form: int, scenes: Floats, out: Floats) -> No
     endless = scenes.copy()
     endless[at.RIM] = np.inf
     whole = _solve_task(punch._replace(turn=AT_RIM), wanted, form, endless)
-    known, status = whole[at.STATUS].astype(np.int64), out[at.STATUS].astype(np.int64)
-    out[at.SATURATION] = np.where((known | status) & NO_VALUE, np.nan, whole[at.SATURATION])
-    out[at.STATUS] = status | (known & TOO_MANY_WAVES)
+    known, status = whole[results.STATUS].astype(np.int64), out[results.STATUS].astype(np.int64)
+    out[results.SATURATION] = np.where((known | status) & NO_VALUE, np.nan, whole[results.SATURATION])
+    out[results.STATUS] = status | (known & TOO_MANY_WAVES)
 
 
 def solve_all(
@@ -251,12 +251,12 @@ def solve_all(
 
     def work(scenes: Floats, places: Places) -> None:
         """Solve a part of the scenes."""
-        found = _solve_task(punch, wanted._replace(saturation=False), form, scenes, depth=at.DEEPEST in rows)
+        found = _solve_task(punch, wanted._replace(saturation=False), form, scenes, depth=results.DEEPEST in rows)
         if wanted.saturation:
             _with_saturation(punch, form, scenes, found)
         for row, wanted_row in enumerate(rows):
             out[row, places] = found[wanted_row]
-        status[places] = found[at.STATUS]
+        status[places] = found[results.STATUS]
 
     run_parts(request, work, threads)
     return out, status

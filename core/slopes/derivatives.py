@@ -16,11 +16,11 @@ from gradhesion.core.cycle.path import visited_within
 from gradhesion.core.cycle.pull_off import lowest_load
 from gradhesion.core.edge.pattern import Pattern, toughness_at
 from gradhesion.core.jit import kernel, leaf
+from gradhesion.core.scenes import results
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.cycles import Walked, curve_end, curves_of, pattern_of, walk_curve
 from gradhesion.core.scenes.reduced import AT_RIM, MACHINE, Punch
 from gradhesion.core.scenes.requests import Wanted
-from gradhesion.core.scenes.results import no_value
 from gradhesion.core.scenes.tables import Rooms, Tables, Task, end_of_exponent, task_of
 from gradhesion.core.slopes.frozen import (
     AREA,
@@ -43,7 +43,7 @@ from gradhesion.core.types import Floats
 # itself, at fixed others), radius of the rim, target and ratio.
 OF_POWER, OF_WAVES, OF_MACHINE, OF_PATTERN_WAVES, OF_PATTERN, OF_EXPONENT, OF_RIM, OF_TARGET, OF_RATIO = range(9)
 ROWS: Final = 9
-FORCE, ENERGY, ALL_ROWS = at.RESULT_ROWS, at.RESULT_ROWS + ROWS, at.RESULT_ROWS + 2 * ROWS
+FORCE, ENERGY, ALL_ROWS = results.RESULT_ROWS, results.RESULT_ROWS + ROWS, results.RESULT_ROWS + 2 * ROWS
 """Where the rows of each value begin, behind those of results, of which TURN and STATUS are used; and all of them."""
 STEP: Final = 2.0**-11
 """Of a difference of fourth order: it leaves step^4/30 of the fifth derivative, and of rounding eps/step."""
@@ -289,10 +289,10 @@ def solve_slopes(
             if end > first:
                 walked = walk_curve(task, scenes, reduced, first, end, out)
                 for i in range(first, end):
-                    y = out[at.TURN, i]
+                    y = out[results.TURN, i]
                     known = not y > 0.0 or _fill_scene(
                         task, basis, near, neighbours, walked, y, scenes, reduced, i, out
                     )
                     if not known:
-                        no_value(out, i, at.SHORT)
+                        results.no_value(out, i, results.SHORT)
             first = max(end, first + 1)

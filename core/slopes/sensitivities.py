@@ -17,6 +17,7 @@ from scipy.special import psi
 from gradhesion.core.problem.material import theta_slopes
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, SENSITIVITIES, TURNS
 from gradhesion.core.problem.status import NO_VALUE
+from gradhesion.core.scenes import results
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.reduced import AT_A_LOAD, Punch
 from gradhesion.core.scenes.requests import Places, Request, Wanted, run_parts
@@ -66,7 +67,7 @@ def _solve(punch: Punch, wanted: Wanted, tables: Tables, scenes: Floats, reduced
     elif tables.basis.k.size > 1:
         bins, kept = tables.basis.values.shape[0] - 1, kept_for(tables.basis, len(PLACES))
     else:
-        out[at.STATUS] = np.where(reduced[at.VALID] > 0.0, at.SHORT, NO_VALUE)
+        out[results.STATUS] = np.where(reduced[at.VALID] > 0.0, results.SHORT, NO_VALUE)
         return
     scene, numbers = np.empty((at.PARAMETER_ROWS, 1)), np.empty((at.REDUCED_ROWS, 1))
     rooms = rooms_for(bins if patterned else 0, patterned)

@@ -14,16 +14,14 @@ from tests.conftest import ROOT
 
 ROOMS = ("cli", "configs", "core", "twin")
 
-RADIUS = "    out[at.PULL_OFF_RADIUS, i] = lowest.y * reduced[at.LENGTH, i]\n"
+RADIUS = "    out[PULL_OFF_RADIUS, i] = lowest.y * reduced[at.LENGTH, i]\n"
 AREA = '    Output("pull_off_area", "contact area at pull-off (in R^2)", "area at pull-off", "cycle", "m^2", "pull-off", exact_alone=True),\n'
 SPRING = "    elif punch.control == OWN_SPRING:\n"
 SPRING += "        reduced[at.BY_LOAD, i] = load / depth / scenes[at.MODULUS, i]\n"
 Edits = list[tuple[str, str, str]]
 OUTPUT: Edits = [  # file, old, new
-    ("core/scenes/rows.py", "LOADING, UNLOADING = range(9)", "LOADING, UNLOADING, AREA = range(10)"),
-    ("core/scenes/rows.py", "SATURATION, STATUS = range(9, 17)", "SATURATION, STATUS = range(10, 18)"),
-    ("core/scenes/rows.py", "RESULT_ROWS: Final = 17", "RESULT_ROWS: Final = 18"),
-    ("core/scenes/results.py", RADIUS, f"{RADIUS}    out[at.AREA, i] = math.pi * out[at.PULL_OFF_RADIUS, i] ** 2\n"),
+    ("core/scenes/results.py", "LOADING, UNLOADING,\n    TURN,", "LOADING, UNLOADING, AREA,\n    TURN,"),
+    ("core/scenes/results.py", RADIUS, f"{RADIUS}    out[AREA, i] = math.pi * out[PULL_OFF_RADIUS, i] ** 2\n"),
     ("core/problem/outputs.py", '    Output("turning_radius",', f'{AREA}    Output("turning_radius",'),
 ]
 CONTROL: Edits = [
