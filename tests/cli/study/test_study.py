@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import gradhesion as gr
@@ -126,6 +126,7 @@ def test_values_that_no_short_decimal_is_near_stay_and_no_zero_is_negative() -> 
 
 
 @pytest.mark.slow
+@settings(max_examples=50)
 @given(shape=SHAPES, chunk=st.integers(1, 3000), many=st.integers(1, 9))
 def test_blocks_cover_every_cell_once_in_whole_chunks(shape: tuple[int, ...], chunk: int, many: int) -> None:
     tiling = Tiling(shape, chunk, many)

@@ -67,9 +67,9 @@ def pulls(found: FittedProfile, both: bool) -> list[float]:
 
 @pytest.mark.parametrize("exponent", [None, 2.37])
 def test_with_noise_everything_is_within_its_errors_and_the_residual_is_the_noise(exponent: float | None) -> None:
-    """Over 12 draws: the squares of errors in units of their standard deviations have the mean 1."""
+    """Over 8 draws: the squares of errors in units of their standard deviations have the mean 1."""
     noise, squares, residuals = 3e-4, [], []
-    for seed in range(12):
+    for seed in range(8):
         both = bool(seed % 2)
         found = fit_profile(*drawn(noise, seed, both=both), up_to=1.0, terms=5, exponent=exponent)
         squares += [pull**2 for pull in pulls(found, both)]

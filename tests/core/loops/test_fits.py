@@ -220,10 +220,10 @@ def test_a_turn_between_points_leaves_what_is_found_with_unequal_works() -> None
 @pytest.mark.slow
 @pytest.mark.parametrize("one", ["speed_over_reference", "exponent"])
 def test_the_speed_of_the_edge_or_its_exponent_comes_back_with_the_material(one: str) -> None:
-    """From a quarter of the points of a drawn path, and a base line."""
+    """From an eighth of the points of a drawn path, and a base line."""
     value, ends = (0.6, (0.3, 0.9)) if one == "exponent" else (0.3, (0.01, 10.0))
     scene = SCENE | {"A": 0.0, "a_max_over_R": math.inf, "indentation_max_over_R": TURN, "speed_over_reference": 0.3}
-    path = {name.removeprefix("path_"): row[::4] for name, row in draw_curves(scene, ["path"], rate=RATE)[0].items()}
+    path = {name.removeprefix("path_"): row[::8] for name, row in draw_curves(scene, ["path"], rate=RATE)[0].items()}
     line = R * (path["indentation"].min() + np.linspace(-0.02, 0.0, 20))
     depth, load = np.append(line, R * path["indentation"]), np.append(0.0 * line, UNIT * path["load"])
     back, noise = np.append(line > 0.0, path["unloading"] == 1), (2e-5 * R, 0.01 * UNIT)
