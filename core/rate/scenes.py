@@ -22,9 +22,9 @@ from gradhesion.core.rate.edge import Edge, Room, Step, Way, advance, lag_of, pl
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.reduced import AT_RIM, UNIT_OF_FORCE, Punch, reduced_of
 from gradhesion.core.scenes.requests import columns_of, scenes_of
-from gradhesion.core.scenes.tables import long_table
+from gradhesion.core.scenes.tables import exponents_of, long_table
 from gradhesion.core.sweep import request_of
-from gradhesion.core.table.basis import basis_of
+from gradhesion.core.table.basis import basis_of, make_known
 from gradhesion.core.table.layout import EXACT, Table
 from gradhesion.core.types import Floats
 
@@ -224,7 +224,9 @@ def move(
     request = request_of(parameters, turn, known["profile"], known["loading"], None)
     punch, names, (columns, count) = request.punch, OPENED if opens else CLOSED, columns_of(request)
     scenes = np.vstack([scenes_of(columns, 0, count), np.broadcast_to(parameters[SPEED], request.shape).reshape(1, -1)])
-    reduced = reduced_of(punch, basis_of(punch.exponent, punch.waves), scenes, np.ones(count), np.zeros(count))
+    basis = basis_of(punch.exponent, punch.waves)
+    make_known(basis, exponents_of(punch, scenes)[0])
+    reduced = reduced_of(punch, basis, scenes, np.ones(count), np.zeros(count))
     out, track = np.full((len(names) + 1, count), np.nan), np.zeros((3, points))
     out[-1] = NO_VALUE
     far = np.where(reduced[at.BY_WAVES] > 0.0, reduced[at.RIM_Y if turn is None else at.NEED], 0.0)

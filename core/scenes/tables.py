@@ -20,7 +20,17 @@ from gradhesion.core.jit import kernel
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.reduced import Punch, disc_of
 from gradhesion.core.scenes.requests import Wanted
-from gradhesion.core.table.basis import Basis, Kept, basis_of, between, is_interpolated, kept_for, kept_table, room_of
+from gradhesion.core.table.basis import (
+    Basis,
+    Kept,
+    basis_of,
+    between,
+    is_interpolated,
+    kept_for,
+    kept_table,
+    make_known,
+    room_of,
+)
 from gradhesion.core.table.filling import fill_bins, fill_bounds, source_of, width_of
 from gradhesion.core.table.layout import BY_LOAD, EXACT, FIRST, GEOMETRIC, LANES, U1, E, Source, Table, U, Y, span_of
 from gradhesion.core.table.leading import crests_of
@@ -131,8 +141,8 @@ def task_of(
         for i in range(first, last):
             if reduced[at.NEED, i] <= tables.reach:
                 far = max(far, reduced[at.NEED, i])
-        if not (far > 0.0 and 0.0 <= k <= 1.0):
-            k = 0.5  # none can be solved here
+        if not 0.0 <= k <= 1.0:
+            k = 0.5  # none can be solved
         most = basis.values.shape[0] - 1
         bins = min(GEOMETRIC + max(16, int((far - basis.start) / basis.width) + 2), most)
         pull = table = kept_table(basis, tables.kept, k, bins)
@@ -154,11 +164,11 @@ def solve_some(solve: Callable[..., None], chosen: Integers, scenes: Floats, red
         reduced[:, chosen], out[:, chosen] = numbers, found
 
 
-def own_exponent(punch: Punch, scenes: Floats) -> float | None:
-    """Return the exponent that scenes of a long series share, whose bins are not interpolated; None for others."""
-    if is_interpolated(punch.waves):
-        return None
-    return float(scenes[at.K, 0]) if 0.0 <= scenes[at.K, 0] <= 1.0 else 0.5  # no value: any will do
+def exponents_of(punch: Punch, scenes: Floats) -> tuple[Floats, float | None]:
+    """Return the exponents of scenes, and that which all share whose series is too long to be interpolated, or None."""
+    k = scenes[at.K]
+    k = np.where((k >= 0.0) & (k <= 1.0), k, 0.5)  # no value: any will do
+    return k, None if is_interpolated(punch.waves) else float(k[0])
 
 
 @lru_cache(maxsize=_KEPT)
@@ -177,13 +187,17 @@ def _tables_of_thread(
     return Tables(basis, kept, by_load, pulls, none, none, 0.0, reach, finer, rooms_for(bins, patterned))
 
 
-def near_tables(punch: Punch, form: int, finer: int, k: float | None) -> Tables:
-    """Return this thread's tables of near scenes of one fineness of bins, and of one exponent if k is given.
+def near_tables(punch: Punch, form: int, finer: int, scenes: Floats) -> Tables:
+    """Return this thread's tables for near scenes of one fineness of bins, and of one exponent where a series is long.
 
     There are no long tables among them. What is filled stays filled between calls.
     """
-    shape = punch.exponent, punch.waves.tobytes(), form, finer, k, punch.rows.shape[1] > 0
-    return _tables_of_thread(threading.get_ident(), *shape)
+    exponents, alone = exponents_of(punch, scenes)
+    shape = punch.exponent, punch.waves.tobytes(), form, finer, alone, punch.rows.shape[1] > 0
+    tables = _tables_of_thread(threading.get_ident(), *shape)
+    for basis in (tables.basis, tables.by_load):
+        make_known(basis, exponents)
+    return tables
 
 
 _lock = threading.Lock()

@@ -23,14 +23,14 @@ from gradhesion.core.scenes.tables import (
     MOST_BINS,
     Tables,
     end_of_exponent,
+    exponents_of,
     long_table,
     near_tables,
-    own_exponent,
     rooms_for,
     solve_some,
     task_of,
 )
-from gradhesion.core.table.basis import Basis, Kept, basis_of, fill_kept, mix_bins, place_for, table_in
+from gradhesion.core.table.basis import Basis, Kept, basis_of, fill_kept, make_known, mix_bins, place_for, table_in
 from gradhesion.core.table.filling import source_of, waves_at, width_of
 from gradhesion.core.table.layout import BY_LOAD, EXACT, GEOMETRIC, PER_WAVE, end_of
 from gradhesion.core.types import Floats, Integers
@@ -136,7 +136,9 @@ def prepared(punch: Punch, form: int, scenes: Floats) -> tuple[Floats, Integers]
         allowed = (least > 0.0) if punch.of_work else (least >= -1e-14)
         most = np.where(allowed, most, np.nan)
         finer = _finer_bins(punch, scenes, least)
-    basis = basis_of(punch.exponent, punch.waves, form, 1, own_exponent(punch, scenes))
+    exponents, alone = exponents_of(punch, scenes)
+    basis = basis_of(punch.exponent, punch.waves, form, 1, alone)
+    make_known(basis, exponents)
     return reduced_of(punch, basis, scenes, most, steep), finer
 
 
@@ -191,7 +193,7 @@ def solve_groups(
     finenesses = np.unique(finer[finer <= FINEST]).tolist() if punch.rows.shape[1] > 0 else [1]
     for fineness in finenesses:
         chosen = np.flatnonzero(finer == fineness)
-        near = near_tables(punch, form, fineness, own_exponent(punch, scenes))
+        near = near_tables(punch, form, fineness, scenes)
         solve_some(partial(solve, near), chosen, scenes, reduced, out)
         short = chosen[out[results.STATUS, chosen] == results.SHORT]
         if not short.size:

@@ -21,7 +21,7 @@ from gradhesion.core.scenes import results
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.reduced import AT_A_LOAD, Punch
 from gradhesion.core.scenes.requests import Places, Request, Wanted, run_parts
-from gradhesion.core.scenes.tables import Tables, long_table, rooms_for
+from gradhesion.core.scenes.tables import Tables, exponents_of, long_table, rooms_for
 from gradhesion.core.scenes.tasks import solve_groups
 from gradhesion.core.slopes.derivatives import (
     ALL_ROWS,
@@ -43,7 +43,7 @@ from gradhesion.core.slopes.derivatives import (
     solve_slopes,
 )
 from gradhesion.core.slopes.frozen import OBSERVED
-from gradhesion.core.table.basis import NOTHING_KEPT, kept_for
+from gradhesion.core.table.basis import NOTHING_KEPT, kept_for, make_known
 from gradhesion.core.table.layout import EXACT, span_of
 from gradhesion.core.types import Floats
 
@@ -66,6 +66,7 @@ def _solve(punch: Punch, wanted: Wanted, tables: Tables, scenes: Floats, reduced
         four = [table for table, _, _ in made]
     elif tables.basis.k.size > 1:
         bins, kept = tables.basis.values.shape[0] - 1, kept_for(tables.basis, len(PLACES))
+        make_known(tables.basis, np.add.outer(STEP * PLACES, exponents_of(punch, scenes)[0]))
     else:
         out[results.STATUS] = np.where(reduced[at.VALID] > 0.0, results.SHORT, NO_VALUE)
         return

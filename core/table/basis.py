@@ -2,9 +2,10 @@
 
 All that a bin holds is a smooth function of k, once the powers of the radius are taken out. A basis holds the bins of
 one power, series and form at 49 exponents, the Chebyshev points of each quarter of [0, 1]; the bins of any k are sums
-over the 13 of its quarter, at a fraction of the price of new ones. (Those of a long series are not: a basis costs as
-much as 49 exponents, of which a study of rough profiles has one or two.) All scenes within its reach are solved on
-such tables, whatever else is in their call, so that a value does not depend on its neighbours.
+over the 13 of its quarter, at a fraction of the price of new ones. A quarter is known once an exponent of it has been
+asked for. (Those of a long series are not interpolated: a quarter costs as much as 13 exponents, of which a study of
+rough profiles has one or two.) All scenes within its reach are solved on such tables, whatever else is in their call,
+so that a value does not depend on its neighbours.
 """
 
 import threading
@@ -18,7 +19,7 @@ from gradhesion.core.table import layout as at
 from gradhesion.core.table.filling import fill_bins, fill_bounds, source_of, width_of
 from gradhesion.core.table.layout import EXACT, FIRST, GEOMETRIC, LANES, N, Table
 from gradhesion.core.table.leading import crests_of
-from gradhesion.core.types import Floats, Integers
+from gradhesion.core.types import Floats, Integers, Truths
 
 PANELS: Final = 4
 """Equal parts of [0, 1], the range of k."""
@@ -42,9 +43,11 @@ class Basis(NamedTuple):
     """The bins of one power, series and form at the exponents `k`.
 
     exponent    m, the power of the punch
+    waves       the harmonics of its series, (harmonics, 3)
     form        exact, or leading terms (layout.py)
     start, width  of the uniform bins, as of a table
     k           the exponents, (PANELS (NODES - 1) + 1,), or one alone
+    known       which of them have been asked for: whatever is kept of the others has no meaning
     values      what depends on k, powers of the radius taken out, (bins, exponents, SIZE)
     fixed       the rows FIXED, (8, bins + 1)
     powers      the lane of y^m, (bins, N)
@@ -52,10 +55,12 @@ class Basis(NamedTuple):
     """
 
     exponent: float
+    waves: Floats
     form: int
     start: float
     width: float
     k: Floats
+    known: Truths
     values: Floats
     fixed: Floats
     powers: Floats
@@ -85,7 +90,7 @@ def is_interpolated(waves: Floats) -> bool:
 
 @lru_cache(maxsize=_KEPT)
 def _make_basis(exponent: float, harmonics: bytes, form: int, finer: int, k: float | None) -> Basis:
-    """Return the basis of `basis_of`, harmonics as bytes."""
+    """Return the basis of `basis_of`, harmonics as bytes, of which the first exponent alone is known."""
     waves = np.frombuffer(harmonics).reshape(-1, 3).copy()  # a read-only array is another type to kernels
     width = width_of(waves, finer)
     bins = GEOMETRIC + UNIFORM + 1  # one more than tables have, for the last edge
@@ -93,19 +98,28 @@ def _make_basis(exponent: float, harmonics: bytes, form: int, finer: int, k: flo
     ends = np.append((np.arange(PANELS)[:, None] + panel).ravel(), PANELS) / PANELS
     if k is not None:
         ends = np.array([k])
-    values = np.empty((bins, ends.size, SIZE))
+    basis = Basis(
+        exponent, waves, form, FIRST * width, width, ends, np.zeros(ends.size, dtype=np.bool_),
+        np.empty((bins, ends.size, SIZE)), np.empty((len(FIXED), bins + 1)), np.empty((bins, N)),
+        np.empty(ends.size), np.empty(ends.size),
+    )  # fmt: skip
+    _fill_node(basis, 0)
+    return basis
+
+
+def _fill_node(basis: Basis, node: int) -> None:
+    """Fill a basis at one of its exponents."""
+    k, bins = basis.k[node], basis.values.shape[0]
     nodes, polys = np.zeros((at.ROWS, bins + 1)), np.empty((bins, LANES, N))
-    crest, lowest = np.empty(ends.size), np.empty(ends.size)
-    for node, own in enumerate(ends):
-        source = source_of(own, exponent, waves, width, 0.0, form)
-        fill_bins(source, source.shift, FIRST, GEOMETRIC, bins, nodes, polys)
-        _pack(own, node, nodes, polys, values)
-        crest[node], wave, _ = crests_of(own, waves)
-        near = ((nodes[at.U] - nodes[at.U1]) / (nodes[at.E] * nodes[at.Y]))[GEOMETRIC - 20 :].min()
-        lowest[node] = min(-wave, 1.02 * near)
-    return Basis(
-        exponent, form, FIRST * width, width, ends, values, nodes[list(FIXED)], polys[:, at.PP].copy(), crest, lowest
-    )
+    source = source_of(k, basis.exponent, basis.waves, basis.width, 0.0, basis.form)
+    fill_bins(source, source.shift, FIRST, GEOMETRIC, bins, nodes, polys)
+    _pack(k, node, nodes, polys, basis.values)
+    if not basis.known.any():
+        basis.fixed[:], basis.powers[:] = nodes[list(FIXED)], polys[:, at.PP]
+    basis.crest[node], wave, _ = crests_of(k, basis.waves)
+    near = ((nodes[at.U] - nodes[at.U1]) / (nodes[at.E] * nodes[at.Y]))[GEOMETRIC - 20 :].min()
+    basis.lowest[node] = min(-wave, 1.02 * near)
+    basis.known[node] = True
 
 
 _lock = threading.Lock()
@@ -114,10 +128,24 @@ _lock = threading.Lock()
 def basis_of(exponent: float, waves: Floats, form: int = EXACT, finer: int = 1, k: float | None = None) -> Basis:
     """Return the basis of a punch of a power with harmonics (n, cos, sin), one of the last few if it is among them.
 
-    Its bins are `finer` times narrower than usual. It is that of the exponent `k` alone, if one is given.
+    Its bins are `finer` times narrower than usual. It is that of the exponent `k` alone, if one is given. Before it is
+    used, `make_known` must have been told the exponents.
     """
     with _lock:  # of threads that need the same, one makes it
         return _make_basis(exponent, waves.tobytes(), form, finer, k)
+
+
+def make_known(basis: Basis, k: Floats) -> None:
+    """Fill the parts of a basis in which exponents `k` lie, or which are next to them, where they are not yet."""
+    if basis.known.all():
+        return
+    wanted = np.zeros(PANELS, dtype=np.bool_)
+    wanted[np.clip((PANELS * k).astype(np.int64), 0, PANELS - 1)] = True
+    with _lock:
+        for panel in np.flatnonzero(wanted).tolist():
+            first = panel * (NODES - 1)
+            for node in np.flatnonzero(~basis.known[first : first + NODES]).tolist():
+                _fill_node(basis, first + node)
 
 
 @leaf
