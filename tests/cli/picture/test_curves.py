@@ -85,6 +85,7 @@ def test_arrows_go_along_the_path(control: dict[str, Any]) -> None:
         tail, head = (np.flatnonzero(np.hypot(*(line - end).T) < 0.01) for end in (arrow.xyann, arrow.xy))
         assert tail.size * head.size > 0, "an arrow lies on the path"
         assert tail[0] < head[-1], "and goes along it"
+        assert 0.01 < np.hypot(*np.subtract(arrow.xy, arrow.xyann)) < 0.1, "by less than a tenth of the panel"
 
 
 def test_planes_and_limits_are_chosen(curves: xarray.Dataset, probe: xarray.Dataset) -> None:

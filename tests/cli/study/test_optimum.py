@@ -98,6 +98,17 @@ def test_what_is_required(study: dict[str, Any]) -> None:
     assert one["best_dissipated_energy"].item() == pytest.approx(least, rel=1e-9)  # the requirement binds
 
 
+@pytest.mark.parametrize("bound", ["minimum", "maximum"])
+def test_what_is_exactly_what_is_required_meets_it(bound: str, study: dict[str, Any]) -> None:
+    """A count of jumps, which is a whole number."""
+    search = study["optimum"] | {"require": {"maximum": {"unloading_jumps": 1000}}}
+    free = gr.run(study | {"optimum": search})
+    jumps = int(free["best_unloading_jumps"].sel(k=0.3))
+    met = gr.run(study | {"optimum": search | {"require": {bound: {"unloading_jumps": jumps}}}})
+    assert met["best_pull_off_force"].sel(k=0.3) == free["best_pull_off_force"].sel(k=0.3)
+    assert jumps > 1
+
+
 def test_contact_of_one_disc_may_be_required(study: dict[str, Any]) -> None:
     parameters = study["parameters"] | {"A": 0.1, "k": [0.0, 0.3]}
     disc = gr.run(study | {"parameters": parameters, "optimum": study["optimum"] | {"require": {"one_disc": True}}})
