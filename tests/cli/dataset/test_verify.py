@@ -163,10 +163,11 @@ def test_a_rim_given_in_the_jump_in_radius_is_recomputed(data: dict[str, Any], m
         assert found.deviations[0].output == "a_max_over_R"
 
 
-def test_a_status_excuses_counts_near_a_jump_and_values_that_failed(file: Path) -> None:
+def test_a_status_excuses_counts_and_places_near_a_jump_and_values_that_failed(file: Path) -> None:
     for k, status in ((0, 16), (1, 32)):
         change(file, "status", (k, 2, 1, 0), status)
         change(file, "loading_jumps", (k, 2, 1, 0), lambda count: count + 1)
+        change(file, "pull_off_radius", (k, 2, 1, 0), off(0.1))
         change(file, "dissipated_energy", (k, 2, 1, 0), off(1e-11))
     exceeding, found = verified(file)
     wrong = [(one.output, one.scene["k"]) for one in found.deviations[:exceeding]]
