@@ -18,7 +18,11 @@ RADIUS = "    out[PULL_OFF_RADIUS, i] = lowest.y * reduced[at.LENGTH, i]\n"
 AREA = '    Output("pull_off_area", "contact area at pull-off (in R^2)", "area at pull-off", "cycle", "m^2", "pull-off", exact_alone=True),\n'
 SPRING = "    elif punch.control == OWN_SPRING:\n"
 SPRING += "        reduced[at.BY_LOAD, i] = load / depth / scenes[at.MODULUS, i]\n"
+HEIGHT = """    Input("height_over_R", "amplitude A lambda/R of the waviness", r"$A\\lambda/R$", "0.002", NOT_NEGATIVE, gives="A",
+          needs=("lambda_over_R",), follows=operator.truediv),
+"""
 Edits = list[tuple[str, str, str]]
+INPUT: Edits = [("core/problem/inputs.py", '    Input("chi",', f'{HEIGHT}    Input("chi",')]
 OUTPUT: Edits = [  # file, old, new
     ("core/scenes/results.py", "LOADING, UNLOADING,\n    TURN,", "LOADING, UNLOADING, AREA,\n    TURN,"),
     ("core/scenes/results.py", RADIUS, f"{RADIUS}    out[AREA, i] = math.pi * out[PULL_OFF_RADIUS, i] ** 2\n"),
@@ -44,6 +48,12 @@ for more in (dict(solver="envelope"), dict(solver="asymptotic"), dict(rate=dict(
     except ValueError:
         continue
     raise AssertionError(more)
+punch = {PUNCH}
+two = gr.solve(punch | dict(A=[0.01, 0.02]), "pull_off_force")
+del punch["A"]
+heights = gr.solve(punch | dict(height_over_R=[0.002, 0.004]), "pull_off_force")
+assert (heights.pull_off_force.values == two.pull_off_force.values).all()
+assert heights.A.values.tolist() == [0.01, 0.02]
 own = gr.solve({PUNCH}, "pull_off_force", control="own spring")
 machine = gr.solve({PUNCH}, "pull_off_force", control="machine", machine_stiffness=1.0)
 assert (own.pull_off_force == machine.pull_off_force).all()
@@ -52,9 +62,9 @@ assert own.attrs["control"] == "own spring"
 
 
 def test_the_recipes_are_enough_and_name_their_files(tmp_path: Path) -> None:
-    """Both are followed in one copy, so that it is compiled once."""
+    """All are followed in one copy, so that it is compiled once."""
     page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
-    for what, edits in (("output", OUTPUT), ("control", CONTROL)):
+    for what, edits in (("input", INPUT), ("output", OUTPUT), ("control", CONTROL)):
         (recipe,) = re.findall(rf"### Add an? {what}\n(.*?)(?=\n##|\Z)", page, re.DOTALL)
         assert [name for name, *_ in edits if f"`{name}`" not in recipe] == []
     package = tmp_path / "sources" / "gradhesion"
@@ -62,7 +72,7 @@ def test_the_recipes_are_enough_and_name_their_files(tmp_path: Path) -> None:
     shutil.copytree(ROOT / "api", package, ignore=ignored)
     for room in ROOMS:
         shutil.copytree(ROOT / room, package / room, ignore=ignored)
-    for name, old, new in (*OUTPUT, *CONTROL):
+    for name, old, new in (*INPUT, *OUTPUT, *CONTROL):
         text = (package / name).read_text(encoding="utf-8")
         assert text.count(old) == 1, (name, old)
         (package / name).write_text(text.replace(old, new), encoding="utf-8")
