@@ -64,6 +64,11 @@ class Input:
         return self.gives == self.name
 
     @property
+    def is_linear(self) -> bool:
+        """Whether a search takes it as it is: a share, or what may have either sign; all else by its logarithm."""
+        return "le" in self.bounds or not self.bounds
+
+    @property
     def example(self) -> str:
         """A line of TOML that would do."""
         return f"{self.name} = {self.value}"

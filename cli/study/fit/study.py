@@ -22,8 +22,6 @@ from gradhesion.core.loops.fitted import OFFSETS, Offsets
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.inputs import INPUTS
 
-LINEAR: Final = ("k", "nu", "indentation_max", "closing_ratio", "toughness_amplitude", "exponent")
-"""What is searched as it is, so that its range may begin at 0; all else is by its logarithm."""
 ONE_NUMBER: Final = ("E_star", "E", "c0", "nu")
 """What acts on a loop through one number."""
 _DEPTHS: Final = ("indentation", "displacement")
@@ -209,7 +207,7 @@ def _searched(asked: Asked) -> Found:
             yield at, f"no loop depends on it; give it as a number, {INPUTS[name].example}"
         elif entry.start >= entry.stop:
             yield at, "the stop of a searched range is above its start; exchange the two, or give a number"
-        elif entry.start <= 0.0 and name not in LINEAR:
+        elif entry.start <= 0.0 and not (name == "exponent" or INPUTS[name].is_linear):
             yield at, "it is searched on a logarithmic scale; begin the range above 0"
     free = [name for name, entry in given.items() if isinstance(entry, Range)]
     if not free and asked.right("parameters", "physical"):

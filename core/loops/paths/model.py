@@ -19,6 +19,7 @@ from gradhesion.core.closed.reduced import WAYS, parameters_from
 from gradhesion.core.equations import hertz, jkr
 from gradhesion.core.loops.fitted import OFFSETS
 from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.inputs import INPUTS
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import CLOSING, MACHINE, PARAMETERS, PATTERN, SPEED, TURNS
 from gradhesion.core.problem.profile import Profile
@@ -29,7 +30,7 @@ EXPONENT: Final = "exponent"
 """The name of the power of the speed, where it is searched."""
 TURN: Final = "turn"
 """The name of the displacement, or the load, of the turn in the data, where it is searched too."""
-LINEAR: Final = ("k", "nu", "indentation_max", "closing_ratio", "toughness_amplitude", EXPONENT, *OFFSETS, TURN)
+LINEAR: Final = (*(name for name, one in INPUTS.items() if one.is_linear), EXPONENT, *OFFSETS, TURN)
 """Names searched on a linear scale; all others are searched by their logarithm."""
 _WITHOUT_EFFECT: Final = {"a_max_over_R": math.inf, "c0_over_R": 1.0, "lambda_over_R": 1.0}
 """Values of what may be left out where it has no effect."""
