@@ -81,6 +81,16 @@ def test_progress_is_a_plain_line_every_ten_seconds(capsys: pytest.CaptureFixtur
     assert capsys.readouterr() == ("", "\n".join([*done, ""]))
 
 
+def test_scenes_of_before_tell_nothing_of_the_time_that_is_left(
+    capsys: pytest.CaptureFixture[str], monkeypatch: Patch
+) -> None:
+    seconds = iter([0.0, 11.0])
+    monkeypatch.setattr("time.monotonic", lambda: next(seconds))
+    with progress(5000) as advance:
+        advance(1000, reused=True)
+    assert capsys.readouterr().err == "1,000 of 5,000 scenes (20%), 0 per s\n"
+
+
 @pytest.mark.parametrize("quiet", [False, True])
 def test_on_a_terminal_progress_is_a_bar_and_nothing_where_it_is_to_be_quiet(quiet: bool, monkeypatch: Patch) -> None:
     terminal = io.StringIO()

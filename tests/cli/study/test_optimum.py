@@ -81,7 +81,7 @@ def test_an_optimum_at_a_bound_is_an_answer(study: dict[str, Any], ran: Run, gra
     meanings = found["on_bound"].attrs["flag_meanings"].split()
     assert meanings == ["lambda_over_R_at_its_lower_bound", "lambda_over_R_at_its_upper_bound"]
     upper = int((found["on_bound"].values == 2).sum())
-    assert f"{upper} of 2 scenes" in " ".join(gradhesion("info", path).stdout.split())
+    assert f"{meanings[1]} {upper} of 2 scenes" in " ".join(gradhesion("info", path).stdout.split())
 
 
 def test_what_is_required(study: dict[str, Any]) -> None:
