@@ -12,8 +12,11 @@ import numpy as np
 import pytest
 
 from gradhesion.core import FAILED, FLAGS, OUTPUTS, PARAMETERS, REPORTS, Loading, doubts_about, solve
-from gradhesion.core.equations.jkr import indentation
+from gradhesion.core.equations import hertz
+from gradhesion.core.equations.jkr import adhesive_depth, indentation
+from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, NO_VALUE, PULL_OFF_AT_RIM, TOO_MANY_WAVES
+from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
 from tests.core.scene import ENDLESS, EPS, Waves, material_of, pattern_of, profile_of, scene_of, strengths_of
 
 SEVERAL = FLAGS["loading_contact_not_one_disc"]
@@ -238,3 +241,16 @@ def test_patterns_are_followed_to_ten_thousand_waves() -> None:
     turned = solve(finer | {"load_max": 30.0}, ["dissipated_energy"], toughness=one)
     assert found["status"][1] == turned["status"] == NO_VALUE | TOO_MANY_WAVES
     assert not found["status"][0] & NO_VALUE, "a rim that is near enough has its values"
+
+
+@pytest.mark.parametrize("wave", [[0.2], [0.2, 0.0]], ids=["one", "and an empty one"])
+def test_a_rim_beyond_all_jumps_has_the_toughness_that_is_there(wave: list[float]) -> None:
+    """The depth of a smooth punch at its rim: Hertz's, less what adhesion pulls the surface out."""
+    punch = {"k": 0.2, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.05}
+    rims, length = np.geomspace(0.5, 40.0, 9), 0.3
+    scenes = punch | {"lambda_over_R": 0.2, "A": 0.0, "a_max_over_R": rims, "toughness_wavelength_over_R": length}
+    own = Toughness(harmonics=tuple(ToughnessHarmonic(n=n, cos=size) for n, size in enumerate(wave, 1)))
+    toughness = 1.0 + 0.2 * np.cos(2.0 * np.pi * rims / length)
+    stretch = toughness * adhesive_depth(0.2, stiffness(**punch), rims)
+    found = solve(scenes, ["delta_max"], toughness=own)["delta_max"]
+    np.testing.assert_allclose(found, hertz.indentation(0.2, rims, 0.2, 0.0) - stretch, rtol=1e-12)
