@@ -109,7 +109,8 @@ def plot(
     caption
         Whether the parameters that are not drawn are written above the panels.
     xlabel, ylabel, clabel
-        What the axes, and the bar of colours of a map, are called, in the place of what is along them.
+        What the axes, and the bar of colours of a map, are called, in the place of what is along them. A unit in
+        brackets at the end is that of the numbers, "force (nN)"; without one the unit of the numbers is added.
     style
         A style of matplotlib on top of "gradhesion.style", by name or file; "gradhesion.journal" is one.
     data

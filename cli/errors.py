@@ -10,9 +10,9 @@ EXIT_CODES: Final = {
     0: "success",
     2: "wrong command, study or dataset; or a package is missing or too old, no scheduler answers, or a worker has "
     "another version",
-    3: "failed or doubtful scenes: they are written, and their `status` reports why; a fit is in doubt if it did not "
-    "converge, has a residual above its noise, has another minimum, or ends at an end of a range; `verify` has found a "
-    "value beyond its stated error",
+    3: "scenes without a value, or a fit in doubt: they are written, and their `status` reports why; a fit is in doubt "
+    "if it did not converge, has a residual above its noise, has another minimum, or ends at an end of a range; "
+    "`verify` has found a value beyond its stated error",
     4: "the output cannot be written: it exists, there is no space or no permission, another run is writing it, or "
     "blocks of another study are kept; or a cluster is lost; existing files are untouched",
     130: "interrupted: existing files are untouched, finished blocks are kept, and the same command resumes",

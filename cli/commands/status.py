@@ -12,6 +12,7 @@ import click
 
 from gradhesion.cli.commands import shared
 from gradhesion.cli.commands.run import finish
+from gradhesion.cli.disk import kind_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted, duration
 from gradhesion.cli.terminal.messages import say, show, show_block
@@ -41,6 +42,7 @@ def status(file: Path, as_json: bool) -> None:
         end = f"; about {duration(left)} left" if left is not None else ""
         if found["state"] == "stopped":
             end = "; the same command resumes, and `gradhesion merge` joins shards when all are done"
+            end += "; an earlier dataset stands there until then" if file.is_file() else ""
         kept = f"{found['kept']:,} of {counted(found['blocks'], 'block')} ({found['scenes']:,} scenes) are kept"
         show(f"{file}: {found['state']}; {kept}{end}")
 
@@ -70,7 +72,8 @@ def status_of(file: Path) -> dict[str, Any]:
             dataset.getncattr("study")
         found = file.stat()
     except (OSError, RuntimeError, AttributeError, UnicodeError) as error:
-        why = f"({getattr(error, 'strerror', None) or error}); name the output of a run"
+        kind = kind_of(file) if file.suffix == ".toml" else ""
+        why = f"({kind or getattr(error, 'strerror', None) or error}); name the output of a run"
         raise DatasetError(f"{file}: is neither a whole dataset nor one that a run is writing {why}") from None
     return {"output": str(file), "state": "complete", "bytes": found.st_size, "written": found.st_mtime}
 

@@ -171,7 +171,7 @@ def only_kept(output: Path, study: Study, numbers: Sequence[int]) -> Iterator[tu
     if numbers:
         shown = ", ".join(str(number + 1) for number in numbers[:8]) + (", ..." if len(numbers) > 8 else "")
         of_all = f"{len(numbers):,} of {counted(len(study.tiling), 'block')}"
-        remedy = "run the shards that have them, or `gradhesion run`, which computes the rest"
+        remedy = "run the shards that have them (of N block b is in shard (b - 1) % N + 1), or `gradhesion run` for all"
         raise DatasetError(f"{output}: {of_all} are missing or damaged ({shown}); {remedy}")
     return iter(())
 

@@ -15,7 +15,7 @@ from gradhesion.cli.names.outputs import PARAMETER
 from gradhesion.cli.names.symbols import SYMBOLS
 from gradhesion.cli.picture.labels import Unit, number, suit, unit_for
 from gradhesion.cli.picture.looks import PLAIN, Looks
-from gradhesion.cli.picture.pictured import drawable, finish, make_room, styled
+from gradhesion.cli.picture.pictured import finish, make_room, rename, styled
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.messages import printable
 from gradhesion.core.answers.profile_fit import FittedProfile
@@ -70,8 +70,9 @@ def _draw_fit(dataset: xarray.Dataset, looks: Looks) -> Figure:
     suit(top, "y", UP, looks.ylim)
     words = "displacement of the machine" if dataset.attrs.get("control") == "machine" else "depth"
     bottom.set(xlabel=top.get_xlabel().replace(r"depth $\delta$", words), ylabel="residual (sd)")
-    own_label = looks.ylabel if looks.ylabel is None else drawable(looks.ylabel)  # the residual keeps its own
-    top.set(xlabel="", ylabel=top.get_ylabel().replace(" $P$", "") if own_label is None else own_label)
+    top.set(xlabel="", ylabel=top.get_ylabel().replace(" $P$", ""))
+    if looks.ylabel is not None:  # the residual keeps its own
+        rename(top.yaxis, looks.ylabel)
     top.legend()
     bottom.axhline(0.0, color="0.3", lw=0.6)
     rows = zip(*(dataset[name].values.tolist() for name in (PARAMETER, "value", "low", "high")), strict=True)

@@ -106,6 +106,22 @@ def label(name: str, unit: Unit) -> str:
     return (SYMBOLS.get(name) or CURVE_SYMBOLS[name]) + (f" ({unit.symbol})" if unit.symbol else "")
 
 
+def called(words: str, unit: Unit) -> tuple[str, Unit]:
+    """Name an axis in words of one's own: in the unit that they end with, or with its own, which is added.
+
+    >>> called("force (N)", Unit("mN", -3))[1].power, called("force", Unit("mN", -3))[0], called("waves", Unit())[0]
+    (0, 'force (mN)', 'waves')
+    """
+    if not (unit.symbol and words):
+        return words, unit
+    base = unit.symbol.removeprefix(EngFormatter.ENG_PREFIXES[unit.power])
+    known = {prefix + base: power for power, prefix in EngFormatter.ENG_PREFIXES.items()}
+    known |= {f"u{base}": -6}
+    _, _, last = words.rstrip(" )").rpartition("(")
+    symbol = re.sub(r"\^(\d)", r"$^\1$", last)
+    return (words, Unit(symbol, known[symbol])) if symbol in known else (f"{words} ({unit.symbol})", unit)
+
+
 def given(names: Any) -> list[str]:
     """List the keys among some names that give parameters; not the parameters that follow from others.
 

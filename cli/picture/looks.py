@@ -45,7 +45,7 @@ def _style(value: Any) -> str:
         with matplotlib.style.context(str(value)):
             return str(value)
     except OSError:
-        raise ValueError(_not_known(str(value), matplotlib.style.available)) from None
+        raise ValueError(_not_known(str(value), ["gradhesion.journal", *matplotlib.style.available])) from None
 
 
 def _not_known(word: str, known: Sequence[str]) -> str:

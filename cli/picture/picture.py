@@ -21,7 +21,7 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.outputs import BEST, ON_BOUND, PARETO_POINT, SI
 from gradhesion.cli.picture.curves import drawn_curves
 from gradhesion.cli.picture.fits import drawn_fits
-from gradhesion.cli.picture.labels import Scale, Unit, equations, label, locator, scale, suit, unit_for
+from gradhesion.cli.picture.labels import Scale, Unit, called, equations, label, locator, scale, suit, unit_for
 from gradhesion.cli.picture.looks import Looks, check_dimensions, check_names
 from gradhesion.cli.picture.panels import FEW, LIGHT, MARKS, draw_density, draw_lines, draw_map, number_contours
 from gradhesion.cli.picture.pictured import finish, styled
@@ -160,7 +160,7 @@ def _add_bar(
     """Put a bar of colours beside the panels of a variable, with a name, numbers at some levels and at both ends."""
     bar = figure.colorbar(coloured[0], ax=panels, fraction=0.06, aspect=30)
     bar.ax.yaxis.set_minor_locator(NullLocator())
-    words = looks.clabel or label(shown.name, unit) + shown.after
+    words, unit = called(looks.clabel, unit) if looks.clabel else (label(shown.name, unit) + shown.after, unit)
     if shown.names:
         bar.ax.set_title(words, loc="left")
         bar.ax.set_yticks(range(len(shown.names)), shown.names, fontsize="small")

@@ -14,12 +14,14 @@ import numpy as np
 import xarray
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.mathtext import MathTextParser
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read.model_range import slope_warnings
 from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.picture.labels import Unit, called
 from gradhesion.cli.picture.looks import PLAIN, STYLE, Looks
 from gradhesion.cli.study.shape_words import shape_in_words
 from gradhesion.cli.terminal.messages import printable
@@ -78,7 +80,7 @@ def finish(
         if words is not None and len({axis.get_label_text() for axis in named}) > 1:
             raise DatasetError(f"--{side}label: the panels have different axes; choose one variable, or one plane")
         for axis in named if words is not None else ():
-            axis.set_label_text(drawable(str(words)))
+            rename(axis, str(words))
     width = looks.width or size[0]
     longest = max((len(re.sub(r"[$\\{}]", "", str(entry.get_label()))) for entry in entries), default=0)
     columns = max(1, min(len(entries), int(width / (0.7 + 0.05 * longest))))
@@ -105,6 +107,15 @@ def finish(
                     "written; choose larger sides with --width and --height, or leave words out with --no-title and "
                     "--no-caption"
                 ) from None
+
+
+def rename(axis: Axis, words: str) -> None:
+    """Name an axis in words of the user, whose ticks are in the unit of these."""
+    unit = axis.get_major_formatter()
+    if isinstance(unit, Unit):
+        words, unit = called(words, unit)
+        axis.set_major_formatter(unit)
+    axis.set_label_text(drawable(words))
 
 
 def heading(dataset: xarray.Dataset) -> str:

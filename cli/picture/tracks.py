@@ -222,10 +222,10 @@ def draw_panel(
     if {*plane} <= points.keys():
         axes.plot(points[along], points[up], **looks_of_points(points))
     axes.axhline(0.0, color="0.85", lw=0.6, zorder=0)
-    if along == "indentation":
-        axes.axvline(0.0, color="0.85", lw=0.6, zorder=0)
-    else:
+    if along == "contact_radius":
         axes.set_xlim(left=0.0)
+    else:
+        axes.axvline(0.0, color="0.85", lw=0.6, zorder=0)
     suit(axes, "x", tracks[0].variables[along], looks.xlim)
     if looks.xlim and not looks.ylim:  # the heights suit what is drawn between these limits
         first, last = axes.get_xlim()

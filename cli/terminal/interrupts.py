@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 BURST: Final = 1.0
 """Seconds in which further signals are taken for the first one, so that they do not disturb the tidying up."""
-LAST_WORDS: Final = "interrupted; no output is half-written, finished blocks are kept, and the same command resumes"
+LAST_WORDS: Final = "interrupted; no output is half-written, any finished blocks are kept, and the same command resumes"
 """What is said at the end of a program that was interrupted."""
 
 _heard: list[float] = []

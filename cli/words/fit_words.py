@@ -117,7 +117,8 @@ def doubts_of(one: xarray.Dataset) -> Iterator[str]:
     chi_square, degrees, status = (one[name].item() for name in ("chi_square", "degrees_of_freedom", "status"))
     if not int(one["converged"]):
         yield "the fit did not converge; give more starts, or narrower ranges"
-    if status & POOR_FIT or chi_square > poor_from(degrees) * degrees:  # version 0.2 has no such flag
+    poor = bool(status & POOR_FIT) or chi_square > poor_from(degrees) * degrees  # version 0.2 has no such flag
+    if poor:
         most = f"{poor_from(degrees):.3g} is the most that noise explains"
         remedy = "try another model, wider ranges, or other noise (fit.noise), and check the signs of depth and load"
         yield f"a poor fit: reduced chi square {chi_square / degrees:.3g}, where {most}; {remedy}"
@@ -125,11 +126,13 @@ def doubts_of(one: xarray.Dataset) -> Iterator[str]:
         if not np.isnan(values).any():
             place = ", ".join(f"{name} = {value:.6g}" for name, value in zip(names, values, strict=True))
             other = f"chi square {float(one['minimum_chi_square'][i]):.6g} at {place}, beside {chi_square:.6g}"
-            yield f"another minimum is within the noise: {other}; narrow the ranges to the one that is meant"
+            remedy = "" if poor else "; narrow the ranges to the one that is meant"
+            yield f"another minimum is {'nearly as low' if poor else 'within the noise'}: {other}{remedy}"
     for at in np.flatnonzero(one["on_bound"].values):
-        ends = " to ".join(f"{float(one[name][at]):.4g}" for name in ("low_searched", "high_searched") if name in one)
+        ends = [f"{float(one[name][at]):.4g}" for name in ("low_searched", "high_searched") if name in one]
+        range_of = f" of {' to '.join(ends)}, at {float(one['value'][at]):.4g}" if ends else ""
         remedy = _AT_AN_END.get(names[at], "widen the range, or give it as a number; or the data do not show it")
-        yield f"{names[at]} is at an end of its range{f' of {ends}' if ends else ''}; {remedy}"
+        yield f"{names[at]} is at an end of its range{range_of}; {remedy}"
 
 
 def _cautions(one: xarray.Dataset) -> Iterator[str]:

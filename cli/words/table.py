@@ -94,7 +94,7 @@ def _variables(dataset: xarray.Dataset, file: Path, chosen: Sequence[str]) -> li
         raise DatasetError(f'{file}: there is no variable "{wrong[0]}"; {did_you_mean(wrong[0], [*curves, *own])}')
     names = list(dict.fromkeys(each for name in chosen or own for each in curves.get(name, [name])))
     if {*names} & {*curves.get("jumps", ())}:
-        raise DatasetError(f"{file}: jumps have a separate table; write it with gradhesion info --jumps")
+        raise DatasetError(f"{file}: jumps have a separate table; add --jumps for it, or choose others with --variable")
     if len({dataset[name].dims for name in names}) > 1:
         choices = " or ".join(f"--variable {curve}" for curve in curves)
         raise DatasetError(f"{file}: each of its curves has its own points; choose one with {choices}")

@@ -30,7 +30,8 @@ LEVEL: Final = 0.95
 """Probability that an interval covers, and that the rise of chi square is below that of minima which noise allows."""
 _NEAR_END: Final = 0.01  # part of a range: a value closer than this to an end is on the bound
 _WIDE: Final = 10.0  # ratio of stop to start above which a range is measured by its logarithm
-_LOWER: Final = 0.005  # fall of half the sum of squares that is another minimum
+_LOWER: Final = 0.005  # fall of half the sum of squares, over the variance of a residual, that is another minimum
+_MOST: Final = 16  # minima, from which on a lower one is not sought: the misfit of another model has no end of them
 _NEAR: Final = 0.01  # accuracy of the end of an interval, in parts of the quantile
 _FINE: Final = 1e-5  # tolerance for the sum of squares and the numbers: a rise by 4 is known to a hundredth of it
 _ROUNDING: Final = 1e-12  # relative difference of radii that is rounding
@@ -71,7 +72,8 @@ def results_at(
         ways = covariance / spread[:, None]
         ends, tried = profile_intervals(misfit, found[0], ways, factor, unit)
         lowest = min(tried, key=COST)
-        if found[0].cost - lowest.cost > _LOWER:  # a valley that no start has led to
+        lower = _LOWER * max(1.0, chi_square / degrees)
+        if found[0].cost - lowest.cost > lower and len(found) < _MOST:  # a valley that no start has led to
             better = [misfit.refined(lowest.x), *found]
             return results_at(misfit, better, intervals, ranges, widened=widened, contact=contact)
     if contact is not None:

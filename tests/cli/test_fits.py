@@ -135,7 +135,11 @@ def test_pictures_of_all_and_of_one(gradhesion: Call, found: xarray.Dataset) -> 
     panels = gr.plot(found)
     assert [axes.get_xlabel() for axes in panels][:2] == [r"$E^{\ast}$ (MPa)", r"$\Delta\gamma$ (mJ/m$^2$)"]
     top, bottom = gr.plot(found, at={"loop": 1}, ylabel="force", xlabel="height")
-    assert (top.get_ylabel(), bottom.get_ylabel(), bottom.get_xlabel()) == ("force", "residual (sd)", "height")
+    assert (top.get_ylabel(), bottom.get_ylabel(), bottom.get_xlabel()) == (
+        "force (nN)",
+        "residual (sd)",
+        "height (nm)",
+    )
     count = sum(line.get_xdata().size for line in top.lines if line.get_marker() == "." and len(line.get_xdata()))
     assert count == int(found["kept_points"][1])
     at_end = found.assign(on_bound=found["on_bound"].copy(data=np.eye(*found["on_bound"].shape, -1, dtype="i1")))

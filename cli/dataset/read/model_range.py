@@ -48,7 +48,8 @@ _NOT_ONE_DISC: Final = "loading_contact_not_one_disc"
 _SAID: Final = {
     "steep": f"contact reaches slopes above {SMALL:g} (a > R) in {{share}}: not small; bound a_max or indentation_max",
     "waves": f"the waves have slopes above {STEEPEST:g} in {{share}}, which are not small; lower A",
-    _NOT_ONE_DISC: "contact on loading is not one disc in {share}, and its values doubtful; lower A (johnson_alpha)",
+    _NOT_ONE_DISC: "contact on loading is not one disc in {share}, and its values doubtful; lower A, which raises "
+    "the output johnson_alpha above 1.13",
     "resolution_too_coarse": "a finer sweep finds another optimum in {share}; raise optimum.resolution ({resolution})",
     "nothing_feasible": "no point meets the requirements in {share}; require less, or widen the bounds",
     "linear_deviation_off": "the linear deviation is off in {share}: the value bends; see uncertainty.samples",

@@ -96,6 +96,8 @@ def test_planes_and_limits_are_chosen(curves: xarray.Dataset, probe: xarray.Data
         ({"x": "load", "y": "indentation"}, [("load", "depth")]),
     ):
         assert planes(gr.plot(curves, **choice)) == expected
+    (axes,) = gr.plot(curves, x="load", y="indentation")
+    assert axes.get_xlim()[0] < float(curves["path_load"].min()) < 0.0, "where it pulls is seen"
     (axes,) = gr.plot(probe, **LOAD_OVER_DEPTH, xlim="-50 nm:5 nm")
     assert (axes.get_xlabel(), axes.get_ylabel()) == (r"depth $\delta$ (nm)", "load $P$ (nN)")
     assert axes.get_xlim() == pytest.approx((-5e-8, 5e-9), rel=1e-12)

@@ -92,10 +92,31 @@ def test_words_are_left_out_or_replaced(grid: xarray.Dataset) -> None:
     own = {"title": "My $k$", "xlabel": "waves", "ylabel": "depth", "clabel": "pull"}
     bare = gr.plot(grid, "pull_off_force", caption=False, labels=False, **own)
     shown = (bare[0].get_xlabel(), bare[0].get_ylabel(), bare.figure.axes[-1].get_ylabel())
-    assert (bare.figure.get_suptitle(), *shown) == ("My $k$", "waves", "depth", "pull")
+    assert (bare.figure.get_suptitle(), *shown) == ("My $k$", "waves (µm)", "depth", "pull")
     assert not contours(bare[0]).labelTexts
-    assert [axes.get_xlabel() for axes in gr.plot(grid, kind="lines", xlabel="waves")] == ["waves", "waves"]
+    assert [axes.get_xlabel() for axes in gr.plot(grid, kind="lines", xlabel="waves")] == 2 * ["waves (µm)"]
     assert "ylabel" in mistakes(gr.plot, grid, kind="lines", ylabel="force")[0]
+
+
+@pytest.mark.parametrize(("words", "shown", "written"), [
+    ("pull", "pull (µN)", "10"), ("pull (nN)", "pull (nN)", "10000"), ("pull (uN)", "pull (uN)", "10"),
+    ("pull (measured)", "pull (measured) (µN)", "10"), ("", "", "10"),
+])  # fmt: skip
+def test_numbers_are_in_the_unit_that_the_words_of_an_axis_end_with(words: str, shown: str, written: str) -> None:
+    ball = {
+        "k": 0.0,
+        "nu": 0.3,
+        "A": 0.0,
+        "R": [1e-5, 2e-5, 5e-5],
+        "E_star": 1e7,
+        "work_of_adhesion": 0.1,
+        "a_max": 2e-6,
+    }
+    (axes,) = gr.plot(gr.solve(ball, "pull_off_force"), ylabel=words)
+    assert (axes.get_ylabel(), axes.yaxis.get_major_formatter()(1e-5)) == (shown, written)
+    field = gr.solve(ball | {"a_max": [2e-6, 3e-6, 4e-6, 5e-6, 6e-6, 7e-6]}, "pull_off_force")
+    figure = gr.plot(field, kind="map", clabel=words or "pull")[0].figure
+    assert figure.axes[-1].get_ylabel() == (shown or "pull (µN)")
 
 
 @pytest.mark.parametrize("width", [3.0, 6.0])

@@ -131,6 +131,17 @@ def test_a_model_that_does_not_hold_is_a_poor_fit() -> None:
     assert bad.low["work_of_adhesion"] >= 0.1
 
 
+def test_valleys_of_a_poor_fit_are_not_all_searched(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Loads in a wrong unit: noise has no say in which of hundreds of minima is the lowest."""
+    begun, really = [], results.profile_intervals
+    monkeypatch.setattr(results, "profile_intervals", lambda *given: begun.append(given) or really(*given))
+    (depth, load, back, noise), waves = ball(9, points=200), {"wavelength": (3e-7, 3e-6), "amplitude": (1e-9, 6e-8)}
+    punch = {name: value for name, value in SMOOTH.items() if name != "A"}
+    bad = fit_loop(depth, load / 1000.0, back, punch, FREE | waves, noise=(noise[0], noise[1] / 1000.0))
+    assert bad.status & POOR_FIT
+    assert len(begun) < 4
+
+
 @pytest.mark.parametrize(("high", "flagged"), [(1.004e7, True), (1.5e7, False)])
 def test_within_1_per_cent_of_the_range_is_on_its_bound(high: float, flagged: bool) -> None:
     *points, noise = ball(9, noise=1e-3)
