@@ -56,8 +56,9 @@ class Accessor:
         Parameters
         ----------
         variable
-            A variable of the dataset: True where it has a value and no flag casts doubt on it. Without one: True where
-            the scene has values at all.
+            A variable of the dataset: True where it has a value and no flag casts doubt on it. Whether contact on
+            loading is one disc is tested where an output of the cycle is asked for, not for the pull-off force alone.
+            Without a variable: True where the scene has values at all.
 
         Returns
         -------

@@ -182,7 +182,7 @@ def _rows(text: str, header: Header) -> Iterator[tuple[int, list[str]]]:
             continue
         cells = _cells_of(place, line, header.separator, count)
         if len(cells) != count:
-            remedy = "give each row one value per column, separated as the header is"
+            remedy = "give each row one value per column; lines above the header begin with #"
             whole = sum(bool(cell and _WHOLE.fullmatch(cell)) for cell in cells)
             if header.separator == "," and whole >= 2 * (len(cells) - count) > 0:  # each such comma parts two
                 remedy = "if its numbers have decimal commas, write points, or separate the columns by semicolons"

@@ -204,3 +204,12 @@ def test_scenes_beyond_the_model_are_counted(more: Any, beyond: dict[str, int], 
         assert ("not one disc in 2 of 4 scenes" in said) == ("wave_slope" in beyond)
     if study["outputs"] == [*VALIDITY]:
         assert gradhesion("verify", path).exit_code == 2, "there is nothing to recompute"
+
+
+@pytest.mark.parametrize(("scenes", "is_said"), [(12, False), (8, True)])
+def test_less_than_a_tenth_that_is_not_one_disc_is_not_said(scenes: int, is_said: bool, ran: Run) -> None:
+    numbers = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1, "a_max_over_R": 1.0}
+    numbers |= {"A": [*np.linspace(0.0, 0.02, scenes - 1).tolist(), 0.2]}
+    said, found, _ = ran({"outputs": ["dissipated_energy"], "parameters": numbers})
+    assert int(found.gr.flagged("loading_contact_not_one_disc").sum()) == 1
+    assert ("one disc" in said) == is_said
