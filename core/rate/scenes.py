@@ -22,7 +22,7 @@ from gradhesion.core.rate.edge import Edge, Room, Step, Way, advance, lag_of, pl
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.reduced import AT_RIM, UNIT_OF_FORCE, Punch, reduced_of
 from gradhesion.core.scenes.requests import columns_of, scenes_of
-from gradhesion.core.scenes.tables import exponents_of, long_table
+from gradhesion.core.scenes.tables import ends_of_exponents, long_table
 from gradhesion.core.sweep import request_of
 from gradhesion.core.table.basis import basis_of, make_known
 from gradhesion.core.table.layout import EXACT, Table
@@ -225,7 +225,7 @@ def move(
     punch, names, (columns, count) = request.punch, OPENED if opens else CLOSED, columns_of(request)
     scenes = np.vstack([scenes_of(columns, 0, count), np.broadcast_to(parameters[SPEED], request.shape).reshape(1, -1)])
     basis = basis_of(punch.exponent, punch.waves)
-    make_known(basis, exponents_of(punch, scenes)[0])
+    make_known(basis, *ends_of_exponents(scenes[:, np.argsort(scenes[at.K])]))
     reduced = reduced_of(punch, basis, scenes, np.ones(count), np.zeros(count))
     out, track = np.full((len(names) + 1, count), np.nan), np.zeros((3, points))
     out[-1] = NO_VALUE

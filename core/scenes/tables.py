@@ -164,11 +164,17 @@ def solve_some(solve: Callable[..., None], chosen: Integers, scenes: Floats, red
         reduced[:, chosen], out[:, chosen] = numbers, found
 
 
-def exponents_of(punch: Punch, scenes: Floats) -> tuple[Floats, float | None]:
-    """Return the exponents of scenes, and that which all share whose series is too long to be interpolated, or None."""
-    k = scenes[at.K]
-    k = np.where((k >= 0.0) & (k <= 1.0), k, 0.5)  # no value: any will do
-    return k, None if is_interpolated(punch.waves) else float(k[0])
+def ends_of_exponents(scenes: Floats) -> tuple[float, float]:
+    """Return the least and the greatest exponent of scenes in their order; 0 and 1 if one can have no value."""
+    least, greatest = float(scenes[at.K, 0]), float(scenes[at.K, -1])
+    return (least, greatest) if least >= 0.0 and greatest <= 1.0 else (0.0, 1.0)
+
+
+def own_exponent(punch: Punch, scenes: Floats) -> float | None:
+    """Return the exponent that scenes of a long series share, whose bins are not interpolated; None for others."""
+    if is_interpolated(punch.waves):
+        return None
+    return float(scenes[at.K, 0]) if 0.0 <= scenes[at.K, 0] <= 1.0 else 0.5  # no value: any will do
 
 
 @lru_cache(maxsize=_KEPT)
@@ -192,11 +198,11 @@ def near_tables(punch: Punch, form: int, finer: int, scenes: Floats) -> Tables:
 
     There are no long tables among them. What is filled stays filled between calls.
     """
-    exponents, alone = exponents_of(punch, scenes)
-    shape = punch.exponent, punch.waves.tobytes(), form, finer, alone, punch.rows.shape[1] > 0
-    tables = _tables_of_thread(threading.get_ident(), *shape)
-    for basis in (tables.basis, tables.by_load):
-        make_known(basis, exponents)
+    shape = punch.exponent, punch.waves.tobytes(), form, finer, own_exponent(punch, scenes), punch.rows.shape[1] > 0
+    tables, ends = _tables_of_thread(threading.get_ident(), *shape), ends_of_exponents(scenes)
+    make_known(tables.basis, *ends)
+    if tables.by_load is not tables.basis:
+        make_known(tables.by_load, *ends)
     return tables
 
 

@@ -23,9 +23,10 @@ from gradhesion.core.scenes.tables import (
     MOST_BINS,
     Tables,
     end_of_exponent,
-    exponents_of,
+    ends_of_exponents,
     long_table,
     near_tables,
+    own_exponent,
     rooms_for,
     solve_some,
     task_of,
@@ -136,9 +137,8 @@ def prepared(punch: Punch, form: int, scenes: Floats) -> tuple[Floats, Integers]
         allowed = (least > 0.0) if punch.of_work else (least >= -1e-14)
         most = np.where(allowed, most, np.nan)
         finer = _finer_bins(punch, scenes, least)
-    exponents, alone = exponents_of(punch, scenes)
-    basis = basis_of(punch.exponent, punch.waves, form, 1, alone)
-    make_known(basis, exponents)
+    basis = basis_of(punch.exponent, punch.waves, form, 1, own_exponent(punch, scenes))
+    make_known(basis, *ends_of_exponents(scenes))
     return reduced_of(punch, basis, scenes, most, steep), finer
 
 

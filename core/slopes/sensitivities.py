@@ -21,7 +21,7 @@ from gradhesion.core.scenes import results
 from gradhesion.core.scenes import rows as at
 from gradhesion.core.scenes.reduced import AT_A_LOAD, Punch
 from gradhesion.core.scenes.requests import Places, Request, Wanted, run_parts
-from gradhesion.core.scenes.tables import Tables, exponents_of, long_table, rooms_for
+from gradhesion.core.scenes.tables import Tables, ends_of_exponents, long_table, rooms_for
 from gradhesion.core.scenes.tasks import solve_groups
 from gradhesion.core.slopes.derivatives import (
     ALL_ROWS,
@@ -66,7 +66,8 @@ def _solve(punch: Punch, wanted: Wanted, tables: Tables, scenes: Floats, reduced
         four = [table for table, _, _ in made]
     elif tables.basis.k.size > 1:
         bins, kept = tables.basis.values.shape[0] - 1, kept_for(tables.basis, len(PLACES))
-        make_known(tables.basis, np.add.outer(STEP * PLACES, exponents_of(punch, scenes)[0]))
+        least, greatest = ends_of_exponents(scenes)
+        make_known(tables.basis, least + STEP * PLACES[0], greatest + STEP * PLACES[-1])
     else:
         out[results.STATUS] = np.where(reduced[at.VALID] > 0.0, results.SHORT, NO_VALUE)
         return

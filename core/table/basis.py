@@ -129,23 +129,21 @@ def basis_of(exponent: float, waves: Floats, form: int = EXACT, finer: int = 1, 
     """Return the basis of a punch of a power with harmonics (n, cos, sin), one of the last few if it is among them.
 
     Its bins are `finer` times narrower than usual. It is that of the exponent `k` alone, if one is given. Before it is
-    used, `make_known` must have been told the exponents.
+    used, `make_known` must have been told between which exponents.
     """
     with _lock:  # of threads that need the same, one makes it
         return _make_basis(exponent, waves.tobytes(), form, finer, k)
 
 
-def make_known(basis: Basis, k: Floats) -> None:
-    """Fill the parts of a basis in which exponents `k` lie, or which are next to them, where they are not yet."""
-    if basis.known.all():
+def make_known(basis: Basis, least: float, greatest: float) -> None:
+    """Fill the parts of a basis in which exponents from the least to the greatest lie, where they are not yet."""
+    first = max(min(int(PANELS * least), PANELS - 1), 0) * (NODES - 1)
+    last = min(int(PANELS * greatest), PANELS - 1) * (NODES - 1)
+    if basis.known[first : last + NODES].all():
         return
-    wanted = np.zeros(PANELS, dtype=np.bool_)
-    wanted[np.clip((PANELS * k).astype(np.int64), 0, PANELS - 1)] = True
     with _lock:
-        for panel in np.flatnonzero(wanted).tolist():
-            first = panel * (NODES - 1)
-            for node in np.flatnonzero(~basis.known[first : first + NODES]).tolist():
-                _fill_node(basis, first + node)
+        for node in np.flatnonzero(~basis.known[first : last + NODES]).tolist():
+            _fill_node(basis, first + node)
 
 
 @leaf
