@@ -25,10 +25,13 @@ Values = NDArray[np.float64]
 
 
 class Unit(Formatter):
-    """How values are written: in a unit with a prefix, which stands for a power of ten. What is drawn stays in SI."""
+    """How values are written: in a unit with a prefix, which stands for a power of ten. What is drawn stays in SI.
 
-    def __init__(self, symbol: str = "", power: int = 0) -> None:
-        self.symbol, self.power = symbol, power
+    One place of an axis may stand for `infinity`.
+    """
+
+    def __init__(self, symbol: str = "", power: int = 0, infinity: float = math.nan) -> None:
+        self.symbol, self.power, self.infinity = symbol, power, infinity
 
     def __call__(self, value: float, _: object = None) -> str:
         """Write a value in this unit."""
@@ -40,7 +43,7 @@ class Unit(Formatter):
         >>> Unit().format_ticks([1.0, 1.00001]), Unit("nm", -9).format_ticks([2e-6, 2.00025e-6])
         (['1', '1.00001'], ['2000', '2000.25'])
         """
-        listed = np.asarray(values, dtype=float)
+        listed = np.where(np.equal(values, self.infinity), np.inf, np.asarray(values, dtype=float))
         different = np.unique(listed[np.isfinite(listed)])
         near = 0.005 * float(np.min(np.diff(different), initial=np.inf))
         digits = 4
@@ -119,7 +122,9 @@ def called(words: str, unit: Unit) -> tuple[str, Unit]:
     known |= {f"u{base}": -6}
     _, _, last = words.rstrip(" )").rpartition("(")
     symbol = re.sub(r"\^(\d)", r"$^\1$", last)
-    return (words, Unit(symbol, known[symbol])) if symbol in known else (f"{words} ({unit.symbol})", unit)
+    if symbol not in known:
+        return f"{words} ({unit.symbol})", unit
+    return words, Unit(symbol, known[symbol], unit.infinity)
 
 
 def given(names: Any) -> list[str]:
@@ -224,7 +229,8 @@ class Scale:
             axis = axes.xaxis if side == "x" else axes.yaxis
             places = locator(first, last, log=self.log).tick_values(first, last)
             kept = [float(place) for place in places if first <= place <= last]
-            axis.set_ticks([*kept, float(self.positions[-1])], [*unit.format_ticks(kept), r"$\infty$"])
+            unit.infinity = float(self.positions[-1])
+            axis.set_ticks([*kept, unit.infinity])
 
 
 def scale(values: Values, name: str = "") -> Scale:

@@ -111,12 +111,10 @@ def finish(
 
 def rename(axis: Axis, words: str) -> None:
     """Name an axis in words of the user, whose ticks are in the unit of these."""
-    unit, own = axis.get_major_formatter(), re.search(r" \([^()]*\)$", axis.get_label_text())
+    unit = axis.get_major_formatter()
     if isinstance(unit, Unit):
         words, unit = called(words, unit)
         axis.set_major_formatter(unit)
-    elif own and words:  # one of the ticks is infinity, and the others stay as they are
-        words += own[0]
     axis.set_label_text(drawable(words))
 
 

@@ -225,7 +225,7 @@ def move(
     punch, names, (columns, count) = request.punch, OPENED if opens else CLOSED, columns_of(request)
     scenes = np.vstack([scenes_of(columns, 0, count), np.broadcast_to(parameters[SPEED], request.shape).reshape(1, -1)])
     basis = basis_of(punch.exponent, punch.waves)
-    make_known(basis, *ends_of_exponents(scenes[:, np.argsort(scenes[at.K])]))
+    make_known(basis, *ends_of_exponents(np.sort(scenes[at.K])))
     reduced = reduced_of(punch, basis, scenes, np.ones(count), np.zeros(count))
     out, track = np.full((len(names) + 1, count), np.nan), np.zeros((3, points))
     out[-1] = NO_VALUE

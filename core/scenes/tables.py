@@ -164,9 +164,9 @@ def solve_some(solve: Callable[..., None], chosen: Integers, scenes: Floats, red
         reduced[:, chosen], out[:, chosen] = numbers, found
 
 
-def ends_of_exponents(scenes: Floats) -> tuple[float, float]:
-    """Return the least and the greatest exponent of scenes in their order; 0 and 1 if one can have no value."""
-    least, greatest = float(scenes[at.K, 0]), float(scenes[at.K, -1])
+def ends_of_exponents(k: Floats) -> tuple[float, float]:
+    """Return the least and the greatest of the exponents of scenes, which rise; 0 and 1 if one can have no value."""
+    least, greatest = float(k[0]), float(k[-1])
     return (least, greatest) if least >= 0.0 and greatest <= 1.0 else (0.0, 1.0)
 
 
@@ -199,7 +199,7 @@ def near_tables(punch: Punch, form: int, finer: int, scenes: Floats) -> Tables:
     There are no long tables among them. What is filled stays filled between calls.
     """
     shape = punch.exponent, punch.waves.tobytes(), form, finer, own_exponent(punch, scenes), punch.rows.shape[1] > 0
-    tables, ends = _tables_of_thread(threading.get_ident(), *shape), ends_of_exponents(scenes)
+    tables, ends = _tables_of_thread(threading.get_ident(), *shape), ends_of_exponents(scenes[at.K])
     make_known(tables.basis, *ends)
     if tables.by_load is not tables.basis:
         make_known(tables.by_load, *ends)

@@ -138,7 +138,7 @@ def prepared(punch: Punch, form: int, scenes: Floats) -> tuple[Floats, Integers]
         most = np.where(allowed, most, np.nan)
         finer = _finer_bins(punch, scenes, least)
     basis = basis_of(punch.exponent, punch.waves, form, 1, own_exponent(punch, scenes))
-    make_known(basis, *ends_of_exponents(scenes))
+    make_known(basis, *ends_of_exponents(scenes[at.K]))
     return reduced_of(punch, basis, scenes, most, steep), finer
 
 

@@ -66,7 +66,7 @@ def _solve(punch: Punch, wanted: Wanted, tables: Tables, scenes: Floats, reduced
         four = [table for table, _, _ in made]
     elif tables.basis.k.size > 1:
         bins, kept = tables.basis.values.shape[0] - 1, kept_for(tables.basis, len(PLACES))
-        least, greatest = ends_of_exponents(scenes)
+        least, greatest = ends_of_exponents(scenes[at.K])
         make_known(tables.basis, least + STEP * PLACES[0], greatest + STEP * PLACES[-1])
     else:
         out[results.STATUS] = np.where(reduced[at.VALID] > 0.0, results.SHORT, NO_VALUE)
